@@ -152,6 +152,19 @@ class WatchTopologyTest {
     }
 
     @Test
+    void raisesTheSameForADeviceOfAnyKindThatIsFarBehind() throws Exception {
+        farm.pipe(
+                Topics.CLOCKS,
+                "t",
+                "{'id':'Analytics:ClockBehind:t','type':'Analytics:ClockBehind','device':{'value':'t'},"
+                        + "'late':{'value':7200000},'reports':{'value':31},'Mission':{'value':''}}");
+        JsonNode alarm = farm.newest(Topics.ALARMS);
+        assertThat(alarm.path("kind").asText()).isEqualTo("clock-behind");
+        assertThat(alarm.path("text").asText())
+                .isEqualTo("reports of t arrive 7200.0 s too late and are dropped: check its clock and its link");
+    }
+
+    @Test
     void namesTheDevicesThatAMissionMisses() throws Exception {
         farm.pipe(Topics.MISSIONS_STATUS, "m", status("starting", "[]", "null"));
         assertThat(farm.read(Topics.ALARMS)).isEmpty();

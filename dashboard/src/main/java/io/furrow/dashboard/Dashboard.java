@@ -213,7 +213,7 @@ public final class Dashboard implements AutoCloseable {
     /** Where it listens. */
     public URI uri() {
         ServerConnector connector = (ServerConnector) server.getConnectors()[0];
-        return URI.create("http://%s:%d".formatted(connector.getHost(), connector.getLocalPort()));
+        return URI.create("http://" + connector.getHost() + ":" + connector.getLocalPort());
     }
 
     /** The streams that are open. */

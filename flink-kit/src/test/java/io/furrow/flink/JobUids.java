@@ -4,10 +4,17 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.io.UncheckedIOException;
 import java.nio.charset.StandardCharsets;
+import java.util.HashMap;
 import java.util.List;
+import java.util.Map;
 
+import org.apache.flink.api.common.typeutils.TypeSerializer;
+import org.apache.flink.core.memory.DataInputDeserializer;
+import org.apache.flink.core.memory.DataOutputSerializer;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.streaming.api.graph.StreamNode;
+
+import io.furrow.flink.format.FormatSnapshot;
 
 /**
  * The uids of a job's operators, sorted. State is found by them after a restart, so a job's list is checked in: a changed
@@ -37,6 +44,21 @@ public final class JobUids {
         } catch (IOException e) {
             throw new UncheckedIOException(e);
         }
+    }
+
+    /** The formats of the keys by which the job keeps state, each with its version, as a savepoint has them. */
+    public static Map<String, Integer> keyFormats(StreamExecutionEnvironment env) throws IOException {
+        Map<String, Integer> versions = new HashMap<>();
+        for (StreamNode node : env.getStreamGraph(false).getStreamNodes()) {
+            TypeSerializer<?> key = node.getStateKeySerializer();
+            if (key != null && key.snapshotConfiguration() instanceof FormatSnapshot<?> snapshot) {
+                DataOutputSerializer out = new DataOutputSerializer(64);
+                snapshot.writeSnapshot(out);
+                DataInputDeserializer in = new DataInputDeserializer(out.getSharedBuffer());
+                versions.put(in.readUTF(), in.readInt());
+            }
+        }
+        return versions;
     }
 
     private static String uid(StreamNode node) {

@@ -102,7 +102,7 @@ final class AgentClient {
         Set<JsonNode> all = new LinkedHashSet<>();
         boolean more = true;
         while (more) {
-            Answer answer = send(scope, "GET", "%s?limit=%d&offset=%d".formatted(path, PAGE, all.size()), null);
+            Answer answer = send(scope, "GET", path + "?limit=" + PAGE + "&offset=" + all.size(), null);
             if (answer.says("DEVICE_GROUP_NOT_FOUND")) { // so the agent says that a tenant has no groups
                 return all;
             }

@@ -12,11 +12,15 @@ import com.fasterxml.jackson.databind.node.TextNode;
 import org.apache.kafka.clients.CommonClientConfigs;
 import org.apache.kafka.clients.producer.ProducerConfig;
 import picocli.CommandLine.Command;
+import picocli.CommandLine.IModelTransformer;
 import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
 
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TopicOptions;
+import io.furrow.flink.job.WithoutEventTime;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.MongoRecordings;
@@ -36,7 +40,8 @@ import io.furrow.replay.source.WantedReplays;
 @Command(
         name = "replay",
         description = "Plays stored missions back, each replay of service.replays on its own topic"
-                + " data.<mission>.replay.<id>; with --once one mission, once.")
+                + " data.<mission>.replay.<id>; with --once one mission, once.",
+        modelTransformer = ReplayOptions.OwnOptions.class)
 public final class ReplayOptions extends JobOptions {
     private static final int ID_DIGITS = 8;
 
@@ -119,13 +124,13 @@ public final class ReplayOptions extends JobOptions {
     private String sourceFile;
 
     @Option(
-            names = "--begin",
+            names = OwnOptions.BEGIN,
             paramLabel = "TIME",
             description = "With --once: event time of the first event, ISO 8601. Default: that of the mission.")
     private String begin;
 
     @Option(
-            names = "--end",
+            names = "--to",
             paramLabel = "TIME",
             description = "With --once: event time after the last event, ISO 8601. Default: the mission's end.")
     private String end;
@@ -142,6 +147,27 @@ public final class ReplayOptions extends JobOptions {
             paramLabel = "NAME",
             description = "With --once: data.<mission>.replay.<eight hexadecimal digits>. Default: of new digits.")
     private String topic;
+
+    /** The job reads {@code service.replays}, all of it, and no event time: {@code --from} is that of a mission. */
+    static final class OwnOptions implements IModelTransformer {
+        /** Until the option of this name that other jobs have is removed. */
+        private static final String BEGIN = "--mission-from";
+
+        @Override
+        public CommandSpec transform(CommandSpec spec) {
+            new WithoutEventTime().transform(spec);
+            spec.remove(spec.findOption("--input"));
+            spec.remove(spec.findOption("--from"));
+            OptionSpec begin = spec.findOption(BEGIN);
+            spec.remove(begin);
+            return spec.addOption(OptionSpec.builder(begin).names("--from").build());
+        }
+    }
+
+    @Override
+    public List<String> input() {
+        return List.of(Topics.REPLAYS);
+    }
 
     /**
      * Records of many topics, each of which should be there at once. A batch takes its whole size of the producer's memory, for each
@@ -212,8 +238,8 @@ public final class ReplayOptions extends JobOptions {
         String replay = mission + "." + digits;
         ReplayPlan plan = new ReplayPlan(
                 source(),
-                time("--begin", begin).orElse(null),
-                time("--end", end).orElse(null),
+                time("--from", begin).orElse(null),
+                time("--to", end).orElse(null),
                 false,
                 List.of(),
                 null,

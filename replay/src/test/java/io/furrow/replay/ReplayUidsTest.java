@@ -1,12 +1,17 @@
 package io.furrow.replay;
 
+import java.nio.charset.StandardCharsets;
+
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.UnmatchedArgumentException;
 
 import io.furrow.flink.JobUids;
 import io.furrow.flink.job.JobCommandLine;
+import io.furrow.replay.source.WantedReplays;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -32,12 +37,40 @@ class ReplayUidsTest {
         assertThat(JobUids.of(ReplayJob.assemble(once))).doesNotContain("write-statuses");
     }
 
+    @Test
+    void boundsTheMissionByWhatReplaysAreBoundedBy() {
+        WantedReplays once = options(
+                        "--mongo mongodb://h --once --mission m --from 1970-01-01T00:00:01Z --to 1970-01-01T00:00:02Z"
+                                .split(" "))
+                .wanted();
+
+        assertThat(new String(((WantedReplays.One) once).wanted(), StandardCharsets.UTF_8))
+                .contains("\"from\":1000", "\"to\":2000");
+    }
+
+    @ParameterizedTest
+    @ValueSource(
+            strings = {
+                "--input",
+                "--out-of-orderness",
+                "--idle-timeout",
+                "--idle-advance",
+                "--clock-skew",
+                "--max-ahead",
+                "--max-behind"
+            })
+    void hasNoOptionThatDoesNothing(String option) {
+        assertThatThrownBy(() -> options("--mongo", "mongodb://h", option))
+                .isInstanceOf(UnmatchedArgumentException.class);
+    }
+
     @ParameterizedTest
     @CsvSource(delimiter = '|', nullValues = "-", textBlock = """
             --once                                   | --once has no mission
             --once --mission m.n                     | --mission m.n is no name
             --once --mission m --speed 2000          | --speed 2000 is neither
-            --once --mission m --begin yesterday     | --begin yesterday is no time
+            --once --mission m --from yesterday      | --from yesterday is no time
+            --once --mission m --to tomorrow         | --to tomorrow is no time
             --once --mission m --topic data.raw      | --topic data.raw is no topic of a replay
             --once --mission m --source-topic data.t --source-file f | are both given
             """)

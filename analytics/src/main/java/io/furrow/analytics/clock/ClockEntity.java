@@ -20,19 +20,23 @@ import io.furrow.model.topic.Topics;
 record ClockEntity(String job, String topic) implements Serializable {
     /** Key = device id; timestamp = event time when it was found. */
     TopicRecord of(ClockReport report) {
-        String type = report.kind() == ClockReport.Kind.BEHIND ? ClockResult.BEHIND_TYPE : ClockResult.OFFSET_TYPE;
+        String type = report.kind() == ClockReport.Kind.OFFSET ? ClockResult.OFFSET_TYPE : ClockResult.BEHIND_TYPE;
         EntityBuilder entity = Entity.builder(type + ":" + report.id(), type)
                 .text(ClockResult.DEVICE, report.id())
                 .text("job", job)
                 .integer("time", Epochs.original(report.time()));
-        if (report.kind() == ClockReport.Kind.BEHIND) {
-            entity.integer(ClockResult.LATE, report.millis())
-                    .integer("positions", report.positions())
-                    .text("Mission", report.mission());
-        } else {
-            entity.integer("offset", report.millis());
+        switch (report.kind()) {
+            case BEHIND -> describe(entity, report, "positions");
+            case DELAYED -> describe(entity, report, ClockResult.REPORTS);
+            case OFFSET -> entity.integer("offset", report.millis());
         }
         String output = Topics.resultOf(report.topic(), topic);
         return ResultRecord.of(output, report.id(), entity, report.scope(), report.time(), "/analytics/" + job);
+    }
+
+    private static void describe(EntityBuilder entity, ClockReport report, String what) {
+        entity.integer(ClockResult.LATE, report.millis())
+                .integer(what, report.positions())
+                .text("Mission", report.mission());
     }
 }

@@ -9,8 +9,9 @@ import io.furrow.model.event.FiwareScope;
  * @param identity tenant, service path and id
  * @param id the entity id
  * @param mission the mission it works for; empty if that is not known
- * @param millis of {@link Kind#BEHIND} how much too late the newest position came, of {@link Kind#OFFSET} what is added to its times
- * @param positions of {@link Kind#BEHIND} how many came too late in a row
+ * @param millis of {@link Kind#BEHIND} how much too late the newest position came, of {@link Kind#DELAYED} how long after its time the
+ *     newest record was received, of {@link Kind#OFFSET} what is added to its times
+ * @param positions of {@link Kind#BEHIND} how many came too late in a row, of {@link Kind#DELAYED} how many records
  * @param time event time of the report, epoch ms
  */
 public record ClockReport(
@@ -19,17 +20,27 @@ public record ClockReport(
     public enum Kind {
         /** The device's positions come too late to count. */
         BEHIND,
+        /** The device's records come long after their time. */
+        DELAYED,
         /** The device's times are corrected by another offset from now on. */
         OFFSET
     }
 
     static ClockReport behind(LaggingPosition position, int positions) {
+        return of(Kind.BEHIND, position, position.mission(), positions);
+    }
+
+    static ClockReport delayed(LaggingPosition record, String mission, int records) {
+        return of(Kind.DELAYED, record, mission, records);
+    }
+
+    private static ClockReport of(Kind kind, LaggingPosition position, String mission, int positions) {
         return new ClockReport(
-                Kind.BEHIND,
+                kind,
                 position.topic(),
                 position.identity(),
                 position.id(),
-                position.mission(),
+                mission,
                 position.reached() - position.time(),
                 positions,
                 position.reached());

@@ -2,8 +2,6 @@ package io.furrow.analytics.clock;
 
 import picocli.CommandLine.Option;
 
-import io.furrow.model.topic.Topics;
-
 /** What a job does about the clocks of devices. Holds no Flink type, as the options of every job. */
 public final class ClockSettings {
     /** Whether times are corrected. */
@@ -23,19 +21,7 @@ public final class ClockSettings {
                             + " Replays are never corrected. Default: ${DEFAULT-VALUE}.")
     private Correction correction;
 
-    @Option(
-            names = "--clock-output",
-            paramLabel = "TOPIC",
-            defaultValue = Topics.CLOCKS,
-            description = "Topic of what is found out about clocks: devices whose positions come too late one after the"
-                    + " other, and offsets. Default: ${DEFAULT-VALUE}.")
-    private String output;
-
     public boolean correct() {
         return correction == Correction.ON;
-    }
-
-    public String output() {
-        return output;
     }
 }

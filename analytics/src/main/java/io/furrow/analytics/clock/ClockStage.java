@@ -1,24 +1,41 @@
 package io.furrow.analytics.clock;
 
+import java.time.Duration;
+
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
+import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.flink.record.Receipt;
 import io.furrow.flink.record.TopicRecord;
 
 /** The clocks of devices in a job that follows positions. */
 public final class ClockStage {
     private final ClockEntity entities;
+    private final Receipt receipt;
+    private final Duration maxBehind;
 
     /** @param job its name, for instance {@code collision} */
-    public ClockStage(String job, ClockSettings settings) {
-        this.entities = new ClockEntity(job, settings.output());
+    public ClockStage(String job, AnalyticsOptions options) {
+        this.entities = new ClockEntity(job, options.clockOutput());
+        this.receipt = Receipt.of(options);
+        this.maxBehind = options.clocks().maxBehind();
     }
 
-    /** Reports the devices that are behind, as entities. */
+    /** Reports the devices of which all is received long after its time, as entities. */
+    public DataStream<TopicRecord> delays(DataStream<TopicRecord> records) {
+        return records.process(new ReportDelayedDevices(receipt, maxBehind))
+                .uid("report-delayed-devices")
+                .name("Report delayed devices")
+                .map(entities::of)
+                .uid("describe-delayed-devices")
+                .name("Describe delayed devices as entities");
+    }
+
+    /** Reports the devices that are behind by less, as entities. */
     public DataStream<TopicRecord> watch(DataStream<LaggingPosition> lagging) {
         return lagging.keyBy(LaggingPosition::key)
-                .process(new WatchClocks())
+                .process(new WatchClocks(maxBehind))
                 .uid("watch-clocks")
                 .name("Watch the clocks of devices")
                 .map(entities::of)
@@ -27,7 +44,7 @@ public final class ClockStage {
     }
 
     /** The records at corrected times. */
-    public static SingleOutputStreamOperator<TopicRecord> correct(DataStream<TopicRecord> records, Receipt receipt) {
+    public SingleOutputStreamOperator<TopicRecord> correct(DataStream<TopicRecord> records) {
         return records.keyBy(CorrectClocks::deviceOf)
                 .process(new CorrectClocks(receipt))
                 .uid("correct-clocks")

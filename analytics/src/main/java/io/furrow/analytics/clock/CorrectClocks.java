@@ -107,20 +107,20 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
                 ClockReport.Kind.OFFSET, record.topic(), identity(record), id(record), "", millis, 0, time);
     }
 
-    private static String identity(TopicRecord record) {
+    static String identity(TopicRecord record) {
         return FiwareScope.of(
                         record.headers().get(HeaderNames.SERVICE),
                         record.headers().get(HeaderNames.SERVICE_PATH))
                 .identity(id(record));
     }
 
-    private static boolean isOfDevice(TopicRecord record) {
+    static boolean isOfDevice(TopicRecord record) {
         String id = id(record);
         return record.value() != null && !id.isEmpty() && !ResultTypes.isResult(id);
     }
 
     /** Empty if the record has no key. */
-    private static String id(TopicRecord record) {
+    static String id(TopicRecord record) {
         return record.key() == null ? "" : new String(record.key(), StandardCharsets.UTF_8);
     }
 }

@@ -36,7 +36,11 @@ public record LagRun(long first, long since, long reached, int positions, long t
     }
 
     boolean isToBeTold() {
-        return positions >= MIN && reached - since >= MIN_TIME && (told == NEVER || reached - told >= AGAIN);
+        return isToBeTold(MIN);
+    }
+
+    boolean isToBeTold(int min) {
+        return positions >= min && reached - since >= MIN_TIME && (told == NEVER || reached - told >= AGAIN);
     }
 
     LagRun afterReport() {

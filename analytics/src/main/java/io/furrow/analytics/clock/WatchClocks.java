@@ -1,5 +1,7 @@
 package io.furrow.analytics.clock;
 
+import java.time.Duration;
+
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.api.common.state.ValueState;
 import org.apache.flink.api.common.state.ValueStateDescriptor;
@@ -7,6 +9,7 @@ import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
 import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.model.topic.Topics;
 
 /**
  * Reports devices whose positions come too late, one after the other. Key: the device of a topic.
@@ -22,8 +25,14 @@ import io.furrow.analytics.eventtime.OneTimer;
 public final class WatchClocks extends KeyedProcessFunction<String, LaggingPosition, ClockReport> {
     private static final long serialVersionUID = 1L;
 
+    private final long maxBehindMillis;
     private transient OneTimer timer;
     private transient ValueState<LagRun> run;
+
+    /** @param maxBehind devices that are further behind are reported by {@link ReportDelayedDevices}, except those of replays */
+    WatchClocks(Duration maxBehind) {
+        this.maxBehindMillis = maxBehind.toMillis();
+    }
 
     @Override
     public void open(OpenContext context) {
@@ -33,6 +42,9 @@ public final class WatchClocks extends KeyedProcessFunction<String, LaggingPosit
 
     @Override
     public void processElement(LaggingPosition position, Context context, Collector<ClockReport> out) throws Exception {
+        if (position.reached() - position.time() > maxBehindMillis && !Topics.isReplay(position.topic())) {
+            return;
+        }
         LagRun now = LagRun.after(run.value(), position);
         if (now.isToBeTold()) {
             out.collect(ClockReport.behind(position, now.positions()));

@@ -20,7 +20,6 @@ import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.device.DeviceInput;
 import io.furrow.flink.device.RecognizeDevices;
 import io.furrow.flink.record.DeadLetters;
-import io.furrow.flink.record.Receipt;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
 import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
@@ -51,7 +50,7 @@ public final class CollisionJob {
         if (!options.clockSettings().correct()) {
             return detect(in, options);
         }
-        SingleOutputStreamOperator<TopicRecord> corrected = ClockStage.correct(in.records(), Receipt.of(options));
+        SingleOutputStreamOperator<TopicRecord> corrected = clocks(options).correct(in.records());
         return detect(new Inputs(corrected, in.devices()), options)
                 .union(clocks(options).offsets(corrected));
     }
@@ -86,7 +85,10 @@ public final class CollisionJob {
 
         DataStream<TopicRecord> results = results(
                         CollisionDetection.define(fixes, options.rules(), options.eager()), options)
-                .union(read.getSideOutput(DeadLetters.TAG), devices.getSideOutput(DeadLetters.TAG));
+                .union(
+                        clocks(options).delays(in.records()),
+                        read.getSideOutput(DeadLetters.TAG),
+                        devices.getSideOutput(DeadLetters.TAG));
         return options.motionRules().any() ? results.union(approaches(fixes, options)) : results;
     }
 
@@ -117,7 +119,7 @@ public final class CollisionJob {
     }
 
     private static ClockStage clocks(CollisionOptions options) {
-        return new ClockStage("collision", options.clockSettings());
+        return new ClockStage("collision", options);
     }
 
     /** Beside the encounters, and only where asked for. */

@@ -47,4 +47,8 @@ public abstract class AnalyticsOptions extends JobOptions {
     public String lateOutput() {
         return results.lateOutput;
     }
+
+    public String clockOutput() {
+        return results.clockOutput;
+    }
 }

@@ -2,6 +2,8 @@ package io.furrow.analytics.job;
 
 import picocli.CommandLine.Option;
 
+import io.furrow.model.topic.Topics;
+
 /** Options for the topics that a job writes to; the initial values are their defaults. */
 final class ResultTopics {
     @Option(names = "--output", paramLabel = "TOPIC", description = "Topic of the results. Default: ${DEFAULT-VALUE}.")
@@ -12,6 +14,14 @@ final class ResultTopics {
             paramLabel = "TOPIC",
             description = "Topic of the events that arrived too late to count. Default: ${DEFAULT-VALUE}.")
     String lateOutput;
+
+    @Option(
+            names = "--clock-output",
+            paramLabel = "TOPIC",
+            defaultValue = Topics.CLOCKS,
+            description = "Topic of what is found out about clocks: devices whose reports come too late one after the"
+                    + " other, and offsets. Default: ${DEFAULT-VALUE}.")
+    String clockOutput;
 
     ResultTopics(String output, String lateOutput) {
         this.output = output;

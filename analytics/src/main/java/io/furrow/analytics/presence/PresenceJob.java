@@ -15,7 +15,6 @@ import io.furrow.analytics.job.AnalyticsJob;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.position.ReadPositions;
 import io.furrow.flink.record.DeadLetters;
-import io.furrow.flink.record.Receipt;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
 import io.furrow.flink.time.BroadcastLatenessOperator;
@@ -43,7 +42,7 @@ public final class PresenceJob {
         if (!options.clockSettings().correct()) {
             return follow(in, options);
         }
-        SingleOutputStreamOperator<TopicRecord> corrected = ClockStage.correct(in.records(), Receipt.of(options));
+        SingleOutputStreamOperator<TopicRecord> corrected = clocks(options).correct(in.records());
         return follow(new Inputs(corrected, in.fields()), options)
                 .union(clocks(options).offsets(corrected));
     }
@@ -85,10 +84,15 @@ public final class PresenceJob {
 
         DataStream<TopicRecord> behind = clocks(options).watch(passages.getSideOutput(TrackPresence.LAGGING));
 
-        return results.union(late, behind, fixes.getSideOutput(DeadLetters.TAG), fields.getSideOutput(DeadLetters.TAG));
+        return results.union(
+                late,
+                behind,
+                clocks(options).delays(in.records()),
+                fixes.getSideOutput(DeadLetters.TAG),
+                fields.getSideOutput(DeadLetters.TAG));
     }
 
     private static ClockStage clocks(PresenceOptions options) {
-        return new ClockStage("presence", options.clockSettings());
+        return new ClockStage("presence", options);
     }
 }

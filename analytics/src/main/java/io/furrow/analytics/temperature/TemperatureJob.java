@@ -7,6 +7,7 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
+import io.furrow.analytics.clock.ClockStage;
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.field.KnownFields;
 import io.furrow.analytics.field.RecognizeFields;
@@ -87,7 +88,8 @@ public final class TemperatureJob {
 
         DataStream<TopicRecord> dead =
                 readings.getSideOutput(DeadLetters.TAG).union(fields.getSideOutput(DeadLetters.TAG));
-        DataStream<TopicRecord> all = described.union(VoteStage.late(votes, options), dead);
+        DataStream<TopicRecord> all = described.union(
+                VoteStage.late(votes, options), new ClockStage("temperature", options).delays(in.records()), dead);
         return options.suspectAfter() == 0 ? all : all.union(reportSuspects(averages, form, options));
     }
 

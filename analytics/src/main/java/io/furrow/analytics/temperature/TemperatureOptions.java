@@ -21,6 +21,9 @@ import io.furrow.model.topic.Topics;
 public final class TemperatureOptions extends AnalyticsOptions {
     private static final String TEMPERATURE = "Temperature";
     private static final double TEMPERATURE_FLOOR = 0.5;
+    /** A day, by the minute: a reading is kept in each window that it is in. */
+    private static final long MAX_OVERLAP = 1_440;
+
     private static final Pattern ATTRIBUTE = Pattern.compile("[A-Za-z0-9_:.-]{1,40}");
 
     @Mixin
@@ -142,6 +145,10 @@ public final class TemperatureOptions extends AnalyticsOptions {
         Duration step = slide == null ? window() : positive("--slide", slide);
         if (window().toMillis() % step.toMillis() != 0) {
             throw refused("--slide must be a whole part of --window, for instance 1min of 5min", null);
+        }
+        if (window().toMillis() / step.toMillis() > MAX_OVERLAP) {
+            throw refused(
+                    "--slide puts each reading into more than " + MAX_OVERLAP + " windows; write a longer one", null);
         }
         return step;
     }

@@ -1,5 +1,6 @@
 package io.furrow.analytics.clock;
 
+import java.time.Duration;
 import java.util.List;
 
 import org.apache.flink.api.common.typeinfo.Types;
@@ -23,7 +24,7 @@ class WatchClocksTest {
     @BeforeEach
     void start() throws Exception {
         harness = new KeyedOneInputStreamOperatorTestHarness<>(
-                new KeyedProcessOperator<>(new WatchClocks()), LaggingPosition::key, Types.STRING);
+                new KeyedProcessOperator<>(new WatchClocks(Duration.ofHours(1))), LaggingPosition::key, Types.STRING);
         harness.open();
     }
 
@@ -99,7 +100,7 @@ class WatchClocksTest {
         List<Object> out = List.copyOf(harness.getOutput());
         harness.close();
         harness = new KeyedOneInputStreamOperatorTestHarness<>(
-                new KeyedProcessOperator<>(new WatchClocks()), LaggingPosition::key, Types.STRING);
+                new KeyedProcessOperator<>(new WatchClocks(Duration.ofHours(1))), LaggingPosition::key, Types.STRING);
         harness.initializeState(snapshot);
         harness.open();
         harness.getOutput().addAll(out);

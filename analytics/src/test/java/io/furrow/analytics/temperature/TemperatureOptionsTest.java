@@ -42,6 +42,13 @@ class TemperatureOptionsTest {
         assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--slide", "25s").slide())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--slide must be a whole part of --window");
+        assertThat(Farm.options(Farm.FIELDS, "--window", "1d", "--slide", "1min")
+                        .slide())
+                .isEqualTo(Duration.ofMinutes(1));
+        assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--window", "1d", "--slide", "1ms")
+                        .slide())
+                .isInstanceOf(ParameterException.class)
+                .hasMessageContaining("--slide puts each reading into more than 1440 windows");
     }
 
     @Test

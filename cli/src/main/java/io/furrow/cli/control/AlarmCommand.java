@@ -66,7 +66,7 @@ public final class AlarmCommand extends CommandGroup {
             throw control.refused("--limit is 1 to %d, not %d".formatted(MAX_LISTED, limit));
         }
         return control.run(api -> {
-            JsonNode alarms = api.get("%s?limit=%d%s".formatted(ALARMS, limit + 1, state.query()));
+            JsonNode alarms = api.get(ALARMS + "?limit=" + (limit + 1) + state.query());
             boolean more = alarms.size() > limit;
             if (more) {
                 ((ArrayNode) alarms).remove(limit);

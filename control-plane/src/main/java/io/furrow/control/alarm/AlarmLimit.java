@@ -211,7 +211,7 @@ final class AlarmLimit {
             case COLLISION -> "%s pairs of %s are too close";
             case PREDICTED_ENCOUNTER -> "%s encounters of %s are predicted";
             case SUSPECT_SENSOR -> "%s sensors of %s deviate from the others";
-            case CLOCK_BEHIND -> "positions of %s devices of %s arrive too late and are dropped";
+            case CLOCK_BEHIND -> "reports of %s devices of %s arrive too late and are dropped";
             case MISSING_DEVICES, SILENT_DEVICE, SILENT_MISSION, SILENT_FARM ->
                 throw new IllegalStateException("kinds of many devices have group alarms of their own: " + group.key());
         };

@@ -47,7 +47,7 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
         for (int y = 0; y < code.size; y++) {
             for (int x = 0; x < code.size; x++) {
                 if (code.getModule(x, y)) {
-                    path.append("M%d %dh1v1h-1z".formatted(x + QUIET, y + QUIET));
+                    path.append("M" + (x + QUIET) + " " + (y + QUIET) + "h1v1h-1z");
                 }
             }
         }

@@ -41,7 +41,7 @@ public final class FailureHandler
     @Override
     public DeserializationExceptionHandler.Response handleError(
             ErrorHandlerContext context, ConsumerRecord<byte[], byte[]> record, Exception failure) {
-        String source = "%s-%d@%d".formatted(record.topic(), record.partition(), record.offset());
+        String source = record.topic() + "-" + record.partition() + "@" + record.offset();
         LOG.error("{} cannot be deserialized and is a dead letter", source, failure);
         return DeserializationExceptionHandler.Response.resume(List.of(letter(
                 record.topic(),

@@ -83,7 +83,7 @@ public final class HealthServer implements AutoCloseable {
 
     /** Where it listens. */
     public URI uri() {
-        return URI.create("http://%s:%d".formatted(connector.getHost(), connector.getLocalPort()));
+        return URI.create("http://" + connector.getHost() + ":" + connector.getLocalPort());
     }
 
     @Override

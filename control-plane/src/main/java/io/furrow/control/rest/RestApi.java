@@ -215,7 +215,7 @@ public final class RestApi implements AutoCloseable {
     public URI uri() {
         ServerConnector connector = (ServerConnector) server.getConnectors()[0];
         String scheme = connector.getConnectionFactory(SslConnectionFactory.class) == null ? "http" : "https";
-        return URI.create("%s://%s:%d".formatted(scheme, connector.getHost(), connector.getLocalPort()));
+        return URI.create(scheme + "://" + connector.getHost() + ":" + connector.getLocalPort());
     }
 
     /** For a port of its own: the metrics in the text format of Prometheus. */

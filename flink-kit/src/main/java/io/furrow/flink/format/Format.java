@@ -12,7 +12,8 @@ import org.apache.flink.core.memory.DataOutputView;
 
 /**
  * How the values of one type are written; the type names it as its {@code @TypeInfo}. A format has no state and a public
- * constructor without parameters, by which it is found again when a savepoint is read. Its class is never renamed.
+ * constructor without parameters, by which it is found again when a savepoint is read. Its class is never renamed. The format of a
+ * type by which state is keyed stays at version 1: Flink takes state with other keys for another state, and restores none.
  *
  * @param <T> what is written; never null
  */

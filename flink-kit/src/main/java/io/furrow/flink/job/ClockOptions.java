@@ -25,11 +25,26 @@ public final class ClockOptions {
                             + " dead letter, from-the-future. Give all jobs the same. Default: ${DEFAULT-VALUE}, as brokers have it.")
     private Duration maxAhead;
 
+    @Option(
+            names = "--max-behind",
+            paramLabel = "DURATION",
+            defaultValue = "1min",
+            description =
+                    "How much further the newest records of a partition may be behind their receipt than those of another"
+                            + " partition and still hold up event time. Those further behind, of a device whose clock is slow or"
+                            + " that sends what it stored, are late. Longer: partitions that differ so much wait for each other, and so do"
+                            + " all results. Default: ${DEFAULT-VALUE}.")
+    private Duration maxBehind;
+
     public Duration clockSkew() {
         return clockSkew;
     }
 
     public Duration maxAhead() {
         return maxAhead;
+    }
+
+    public Duration maxBehind() {
+        return maxBehind;
     }
 }

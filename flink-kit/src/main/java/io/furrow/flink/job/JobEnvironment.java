@@ -69,6 +69,7 @@ public final class JobEnvironment {
                 options.jobName());
         settings.set(PipelineOptions.OBJECT_REUSE, Optional.empty(), true);
         settings.set(CheckpointingOptions.CHECKPOINTING_INTERVAL, options.checkpointInterval(), CHECKPOINT_INTERVAL);
+        TransactionTimeout.check(options, settings.get(CheckpointingOptions.CHECKPOINTING_INTERVAL));
         settings.set(
                 CheckpointingOptions.EXTERNALIZED_CHECKPOINT_RETENTION,
                 Optional.empty(),

@@ -200,11 +200,11 @@ public abstract class JobOptions {
 
     /** The same as topics or a pattern; a name that is neither is refused, and so are topics that share no event time. */
     public InputTopics inputTopics() {
-        InputTopics topics = new InputTopics(input);
+        InputTopics topics = new InputTopics(input());
         try {
             topics.pattern();
             topics.refusal(spec.name()).ifPresent(why -> {
-                throw refused("--input " + String.join(",", input) + ": " + why, null);
+                throw refused("--input " + String.join(",", input()) + ": " + why, null);
             });
             return topics;
         } catch (PatternSyntaxException e) {
@@ -225,6 +225,9 @@ public abstract class JobOptions {
     }
 
     public Duration idleTimeout() {
+        if (idleTimeout.isZero()) {
+            throw refused("--idle-timeout must be longer than 0, for instance 10s", null);
+        }
         return idleTimeout;
     }
 

@@ -48,6 +48,11 @@ final class JobSettings {
         note(option, value, origin);
     }
 
+    /** What is in force. */
+    <T> T get(ConfigOption<T> option) {
+        return settings.getOptional(option).orElseGet(() -> cluster.get(option));
+    }
+
     boolean says(ConfigOption<?> option) {
         return cluster.getOptional(option).isPresent();
     }

@@ -19,14 +19,16 @@ public final class TopicOptions {
     @Option(
             names = "--topic-partitions",
             paramLabel = "N",
+            converter = CountConverter.class,
             description = "Partitions of topics that the job makes. Default: the broker's num.partitions.")
     private Integer partitions;
 
     @Option(
             names = "--topic-replication",
             paramLabel = "N",
+            converter = CountConverter.class,
             description = "Replicas of topics that the job makes. Default: the broker's default.replication.factor.")
-    private Short replication;
+    private Integer replication;
 
     @Option(
             names = "--topic-retention",
@@ -38,7 +40,12 @@ public final class TopicOptions {
 
     /** What is asked of the broker, without picocli, because it travels with the job. */
     public Settings settings(Set<String> compacted) {
-        return new Settings(partitions, replication, retention == null ? null : retention.toMillis(), compacted, null);
+        return new Settings(
+                partitions,
+                replication == null ? null : replication.shortValue(),
+                retention == null ? null : retention.toMillis(),
+                compacted,
+                null);
     }
 
     /**

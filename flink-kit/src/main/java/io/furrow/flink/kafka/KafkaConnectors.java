@@ -20,6 +20,7 @@ import org.apache.kafka.clients.consumer.OffsetResetStrategy;
 import io.furrow.flink.job.InputTopics;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.StartPosition;
+import io.furrow.flink.job.TransactionTimeout;
 import io.furrow.flink.record.Receipt;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.record.TopicRecordFormat;
@@ -30,8 +31,8 @@ import io.furrow.flink.time.ReplayWatermarks;
 /** The Kafka sources and sinks of a job, with the settings that every job of Furrow has. */
 public final class KafkaConnectors {
     public static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
-    /** Below the broker's default limit of 15 min, above any checkpoint interval in use. */
-    private static final Duration TRANSACTION_TIMEOUT = Duration.ofMinutes(10);
+    /** As often as watermarks come: a backlog is at the drift sooner, and waits. */
+    private static final Duration ALIGNMENT_INTERVAL = Duration.ofMillis(200);
 
     private KafkaConnectors() {}
 
@@ -70,15 +71,20 @@ public final class KafkaConnectors {
 
     private static <T> KafkaSourceBuilder<T> source(
             JobOptions options, KafkaRecordDeserializationSchema<T> form, String group) {
-        Properties properties = options.kafkaProperties();
-        properties.setProperty("isolation.level", "read_committed");
-        properties.setProperty("partition.discovery.interval.ms", "10000");
         return KafkaSource.<T>builder()
                 .setBootstrapServers(options.bootstrapServers())
                 .setGroupId(group)
                 .setClientIdPrefix(group)
-                .setProperties(properties)
+                .setProperties(consumerProperties(options))
                 .setDeserializer(form);
+    }
+
+    static Properties consumerProperties(JobOptions options) {
+        Properties properties = options.kafkaProperties();
+        properties.setProperty(
+                "isolation.level", "read_committed"); // what no transaction has committed is none of a job's
+        properties.putIfAbsent("partition.discovery.interval.ms", "10000");
+        return properties;
     }
 
     /** Writes each record to the topic it names, under the job's delivery guarantee. */
@@ -136,7 +142,9 @@ public final class KafkaConnectors {
         properties.putIfAbsent("max.request.size", Integer.toString(MAX_REQUEST_BYTES));
         properties.putIfAbsent("batch.size", "262144");
         properties.putIfAbsent("compression.type", "lz4");
-        properties.putIfAbsent("transaction.timeout.ms", Long.toString(TRANSACTION_TIMEOUT.toMillis()));
+        properties.setProperty(
+                "transaction.timeout.ms",
+                Long.toString(TransactionTimeout.of(options).toMillis()));
         // A mission's topic may have been created just now. Were two requests under way, the broker could refuse the
         // first
         // (the partition is not there yet), accept the second, and then refuse the first forever: two minutes without
@@ -150,12 +158,12 @@ public final class KafkaConnectors {
      * one subtask must read, is reported by its records alone; see {@link Epochs}.
      */
     public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options) {
-        ReceiptBoundWatermarks.Quiet quiet =
-                new ReceiptBoundWatermarks.Quiet(options.idleTimeout(), options.idleAdvance());
+        ReceiptBoundWatermarks.Hold hold = new ReceiptBoundWatermarks.Hold(
+                options.idleTimeout(), options.idleAdvance(), options.clocks().maxBehind());
         return options.inputTopics().replay().isPresent()
-                ? ReplayWatermarks.strategy(options.outOfOrderness(), quiet.after())
+                ? ReplayWatermarks.strategy(options.outOfOrderness(), hold.idleTimeout())
                 : WatermarkStrategy.forGenerator(
-                        new ReceiptBoundWatermarks.Supplier(Receipt.of(options), options.outOfOrderness(), quiet));
+                        new ReceiptBoundWatermarks.Supplier(Receipt.of(options), options.outOfOrderness(), hold));
     }
 
     /**
@@ -163,7 +171,7 @@ public final class KafkaConnectors {
      * not read on until the slowest has come closer.
      */
     public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options, Optional<Duration> maxDrift) {
-        return maxDrift.map(drift -> watermarks(options).withWatermarkAlignment("input", drift))
+        return maxDrift.map(drift -> watermarks(options).withWatermarkAlignment("input", drift, ALIGNMENT_INTERVAL))
                 .orElseGet(() -> watermarks(options));
     }
 

@@ -1,5 +1,7 @@
 package io.furrow.flink.job;
 
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -9,6 +11,7 @@ import org.apache.flink.configuration.Configuration;
 import org.apache.flink.configuration.ReadableConfig;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
@@ -82,6 +85,9 @@ class JobEnvironmentTest {
                 .containsEntry("execution.checkpointing.dir", "s3://***@store/c (option)");
     }
 
+    @TempDir
+    private Path folder;
+
     private static final Map<String, String> CLUSTER = Map.of(
             "execution.checkpointing.interval", "42 s",
             "restart-strategy.type", "failure-rate",
@@ -112,6 +118,30 @@ class JobEnvironmentTest {
                 resetContextEnvironment();
             }
         }
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', nullValues = "-", textBlock = """
+            --checkpoint-interval 15min | 10s   | -       | checkpoints are 900 s apart, and the broker ends transactions after 600 s
+            --checkpoint-interval 541s  | 10s   | -       | checkpoints are 541 s apart
+            --checkpoint-interval 540s  | 10s   | -       | -
+            --checkpoint-interval 15min | 10s   | 960000  | -
+            --checkpoint-interval 10s   | 10s   | 60000   | transactions after 60 s
+            --parallelism 1             | 15min | -       | checkpoints are 900 s apart
+            --parallelism 1             | 15min | 10m     | transaction.timeout.ms '10m' is no whole number; write milliseconds
+            """)
+    void refusesTransactionsThatEndBeforeTheirCheckpoint(String option, String ofCluster, String timeout, String why)
+            throws Exception {
+        Path file = Files.writeString(
+                folder.resolve("kafka.properties"), timeout == null ? "" : "transaction.timeout.ms=" + timeout);
+        String[] words = ("copy --delivery exactly-once --kafka-properties " + file + " " + option).split(" ");
+
+        TestJob.Outcome outcome = onClusterWith(
+                Map.of("execution.checkpointing.interval", ofCluster),
+                () -> TestJob.run(JobEnvironment::create, words));
+
+        assertThat(outcome.exitCode()).isEqualTo(why == null ? 0 : 2);
+        assertThat(outcome.err()).contains(why == null ? "" : why);
     }
 
     @Test

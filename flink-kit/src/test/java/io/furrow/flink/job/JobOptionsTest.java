@@ -14,6 +14,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
+import picocli.CommandLine.ParameterException;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -169,6 +170,20 @@ class JobOptionsTest {
         assertThat(outcome.exitCode()).isEqualTo(REFUSED);
         assertThat(outcome.err().lines()).hasSize(2).first().asString().contains(sentence);
         assertThat(outcome.err()).contains("See: jobs copy --help");
+    }
+
+    @Test
+    void refuseNumbersWithWhichNoJobWouldGoOn() {
+        assertThat(TestJob.run(JobOptions::idleTimeout, "copy", "--idle-timeout", "0s")
+                        .err())
+                .contains("--idle-timeout must be longer than 0");
+        for (String count : List.of("0", "-3", "40000", "four")) {
+            for (String option : List.of("--topic-partitions", "--topic-replication")) {
+                assertThatThrownBy(() -> JobCommandLine.of(new TopicOptions()).parseArgs(option, count))
+                        .isInstanceOf(ParameterException.class)
+                        .hasMessageContainingAll(option, "'" + count + "' is no whole number from 1 to 32767");
+            }
+        }
     }
 
     @ParameterizedTest

@@ -4,6 +4,7 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -50,6 +51,7 @@ class AlignedInputIT {
             .setNumberSlotsPerTaskManager(1)
             .build());
 
+    private static final int BACKLOG = 600_000;
     private static final long HOUR = Duration.ofHours(1).toMillis();
 
     @TempDir
@@ -73,7 +75,7 @@ class AlignedInputIT {
                 write(1, begin, "slow");
                 write(0, begin + HOUR, "fast, an hour on");
 
-                JobClient job = job(kafka.bootstrapServers());
+                JobClient job = job(kafka.bootstrapServers(), "out", Optional.of(Duration.ofSeconds(10)));
                 try {
                     await().atMost(Duration.ofMinutes(1)).until(() -> waits(job.getJobID()));
                     write(0, begin + HOUR + 1, "fast, later");
@@ -94,6 +96,54 @@ class AlignedInputIT {
         }
     }
 
+    /** Of a farm's rate, 125 a second: the drift of a minute is read in a fraction of a second. */
+    @Test
+    void readsABacklogOfOnePartitionAsFastAsWithoutAlignment() throws Exception {
+        try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
+            kafka.createTopics(List.of(new NewTopic("in", 1, (short) 1)));
+            producer =
+                    new KafkaProducer<>(kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer());
+            long begin = System.currentTimeMillis() - 10 * HOUR;
+            for (int i = 0; i < BACKLOG; i++) {
+                producer.send(new ProducerRecord<>("in", 0, begin + i * 8L, null, new byte[400]));
+            }
+            producer.close();
+            List<Duration> free = new ArrayList<>();
+            List<Duration> aligned = new ArrayList<>();
+            for (int turn = 0; turn < 2; turn++) {
+                free.add(read(kafka, "free-" + turn, Optional.empty()));
+                aligned.add(read(kafka, "aligned-" + turn, Optional.of(Duration.ofMinutes(1))));
+            }
+            assertThat(Collections.min(aligned).toMillis())
+                    .as("aligned %s, free %s", aligned, free)
+                    .isLessThanOrEqualTo(Collections.min(free).toMillis() * 5 / 4);
+        }
+    }
+
+    private Duration read(EmbeddedKafka kafka, String out, Optional<Duration> drift) throws Exception {
+        kafka.createTopics(List.of(new NewTopic(out, 1, (short) 1)));
+        TopicPartition written = new TopicPartition(out, 0);
+        JobClient job = job(kafka.bootstrapServers(), out, drift);
+        try (KafkaConsumer<String, String> consumer = new KafkaConsumer<>(
+                Map.of("bootstrap.servers", kafka.bootstrapServers()),
+                new StringDeserializer(),
+                new StringDeserializer())) {
+            await().pollInSameThread().pollInterval(Duration.ofMillis(10)).until(() -> end(consumer, written) > 0);
+            long begun = System.nanoTime();
+            await().pollInSameThread()
+                    .pollInterval(Duration.ofMillis(10))
+                    .atMost(Duration.ofMinutes(1))
+                    .until(() -> end(consumer, written) == BACKLOG);
+            return Duration.ofNanos(System.nanoTime() - begun);
+        } finally {
+            job.cancel().get();
+        }
+    }
+
+    private static long end(KafkaConsumer<?, ?> consumer, TopicPartition partition) {
+        return consumer.endOffsets(List.of(partition)).get(partition);
+    }
+
     /** Whether a partition was made to wait. */
     private static boolean waits(JobID job) {
         return METRICS.findMetrics(job, "accumulatedPausedTimeMs").values().stream()
@@ -105,11 +155,13 @@ class AlignedInputIT {
                 .get();
     }
 
-    private static JobClient job(String servers) throws Exception {
+    private static JobClient job(String servers, String out, Optional<Duration> drift) throws Exception {
         AtomicReference<JobOptions> parsed = new AtomicReference<>();
         TestJob.run(
                 parsed::set,
                 "copy",
+                "--name",
+                out,
                 "--bootstrap-servers",
                 servers,
                 "--parallelism",
@@ -119,12 +171,9 @@ class AlignedInputIT {
                 "--idle-timeout",
                 "1h");
         StreamExecutionEnvironment env = JobEnvironment.create(parsed.get());
-        env.fromSource(
-                        KafkaConnectors.source(parsed.get()),
-                        KafkaConnectors.watermarks(parsed.get(), Optional.of(Duration.ofSeconds(10))),
-                        "Records")
+        env.fromSource(KafkaConnectors.source(parsed.get()), KafkaConnectors.watermarks(parsed.get(), drift), "Records")
                 .uid("records")
-                .map(record -> record.to("out"))
+                .map(record -> record.to(out))
                 .uid("rename-topic")
                 .sinkTo(KafkaConnectors.sink(parsed.get()))
                 .uid("write-records");

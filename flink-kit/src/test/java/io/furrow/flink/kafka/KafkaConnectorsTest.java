@@ -29,12 +29,16 @@ class KafkaConnectorsTest {
     @Test
     void letTheFileOfKafkaPropertiesPrevail() throws Exception {
         Path file = Files.writeString(
-                directory.resolve("kafka.properties"), "max.in.flight.requests.per.connection=5\nbatch.size=1\n");
+                directory.resolve("kafka.properties"),
+                "max.in.flight.requests.per.connection=5\nbatch.size=1\npartition.discovery.interval.ms=7\n");
 
         assertThat(KafkaConnectors.producerProperties(parsed("copy", "--kafka-properties", file.toString())))
                 .containsEntry("max.in.flight.requests.per.connection", "5")
                 .containsEntry("batch.size", "1")
                 .containsKey("max.request.size");
+        assertThat(KafkaConnectors.consumerProperties(parsed("copy", "--kafka-properties", file.toString())))
+                .containsEntry("partition.discovery.interval.ms", "7")
+                .containsEntry("isolation.level", "read_committed");
     }
 
     @Test

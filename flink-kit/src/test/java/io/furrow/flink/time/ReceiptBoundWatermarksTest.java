@@ -106,9 +106,9 @@ class ReceiptBoundWatermarksTest {
         return new ReceiptBoundWatermarks(
                 new Receipt(Duration.ofMillis(SKEW)),
                 Duration.ofMillis(BOUND),
-                new ReceiptBoundWatermarks.Quiet(Duration.ofSeconds(10), idleAdvance),
+                new ReceiptBoundWatermarks.Hold(Duration.ofSeconds(10), idleAdvance, Duration.ofMinutes(1)),
                 new ReceiptBoundWatermarks.Clocks(() -> NOW, () -> activity),
-                ahead);
+                new ReceiptBoundWatermarks.Reader(ahead));
     }
 
     private long after(TopicRecord record) {

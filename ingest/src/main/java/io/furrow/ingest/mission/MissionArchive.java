@@ -11,6 +11,7 @@ import java.time.ZoneOffset;
 import java.util.ArrayList;
 import java.util.Iterator;
 import java.util.List;
+import java.util.Locale;
 
 import org.apache.flink.core.fs.Path;
 
@@ -81,7 +82,8 @@ public final class MissionArchive {
             if (!news.skipKnown()) {
                 return new Outcome(0, 0, news.known);
             }
-            Path next = new Path(folder, ("%s-%0" + DIGITS + "d.ndjson.gz").formatted(day, after(parts)));
+            Path next =
+                    new Path(folder, String.format(Locale.ROOT, "%s-%0" + DIGITS + "d.ndjson.gz", day, after(parts)));
             long added = MissionFiles.write(next, news::writeTo);
             return new Outcome(1, added, news.known);
         } finally {

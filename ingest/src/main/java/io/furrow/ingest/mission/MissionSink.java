@@ -3,6 +3,8 @@ package io.furrow.ingest.mission;
 import java.io.IOException;
 import java.time.Clock;
 import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
 
 import com.mongodb.client.MongoClient;
 import org.apache.flink.api.connector.sink2.Sink;
@@ -10,6 +12,7 @@ import org.apache.flink.api.connector.sink2.SinkWriter;
 import org.apache.flink.api.connector.sink2.WriterInitContext;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.groups.UnregisteredMetricsGroup;
+import org.apache.flink.util.IOUtils;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.mongo.MissionCollections;
@@ -53,18 +56,24 @@ public final class MissionSink implements Sink<MissionDocument> {
     @Override
     public SinkWriter<MissionDocument> createWriter(WriterInitContext context) throws IOException {
         SinkWriter<TopicRecord> dead = deadLetters.createWriter(context);
-        Counter retried = context.metricGroup().counter("retried");
-        MongoClient client = access.open();
-        MissionCollections collections = new MissionCollections(client, retention, Clock.systemUTC());
-        boolean purges = context.getTaskInfo().getIndexOfThisSubtask() == 0;
-        ExpiredDocumentsPurger purge = purges ? ExpiredDocumentsPurger.start(access, retention) : null;
-        AutoCloseable connection = () -> {
-            if (purge != null) {
-                purge.close();
+        List<AutoCloseable> opened = new ArrayList<>();
+        try {
+            MongoClient client = access.open();
+            opened.add(client);
+            Counter retried = context.metricGroup().counter("retried");
+            MissionCollections collections = new MissionCollections(client, retention, Clock.systemUTC());
+            if (context.getTaskInfo().getIndexOfThisSubtask() == 0) {
+                opened.add(ExpiredDocumentsPurger.start(access, retention));
             }
-            client.close();
-        };
-        return new MissionWriter(
-                new BulkSender(collections, access.waits(), retried::inc), dead, connection, context.metricGroup());
+            return new MissionWriter(
+                    new BulkSender(collections, access.waits(), retried::inc),
+                    dead,
+                    () -> IOUtils.closeAll(opened),
+                    context.metricGroup());
+        } catch (RuntimeException e) {
+            opened.add(dead);
+            IOUtils.closeAllQuietly(opened);
+            throw e;
+        }
     }
 }

@@ -7,15 +7,14 @@ import java.util.regex.PatternSyntaxException;
 
 import picocli.CommandLine.Command;
 import picocli.CommandLine.IDefaultValueProvider;
-import picocli.CommandLine.IModelTransformer;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.ArgSpec;
-import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
 
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TopicOptions;
+import io.furrow.flink.job.WithoutEventTime;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.NotificationRules;
 import io.furrow.model.event.Origin;
@@ -26,7 +25,7 @@ import io.furrow.model.topic.Topics;
         name = "normalize",
         description = "Brings the context broker's native Kafka notifications, in any form, to data.raw.",
         defaultValueProvider = NormalizeOptions.OwnDefaults.class,
-        modelTransformer = NormalizeOptions.WithoutEventTime.class)
+        modelTransformer = WithoutEventTime.class)
 public final class NormalizeOptions extends JobOptions {
     private static final Duration HOUR = Duration.ofHours(1);
 
@@ -89,18 +88,6 @@ public final class NormalizeOptions extends JobOptions {
             return argument instanceof OptionSpec option && option.longestName().equals("--input")
                     ? Topics.NOTIFICATIONS
                     : null;
-        }
-    }
-
-    /** The job has no event time: what would set it is not one of its options. */
-    static final class WithoutEventTime implements IModelTransformer {
-        private static final List<String> OPTIONS =
-                List.of("--out-of-orderness", "--idle-timeout", "--idle-advance", "--clock-skew", "--max-ahead");
-
-        @Override
-        public CommandSpec transform(CommandSpec spec) {
-            OPTIONS.forEach(name -> spec.remove(spec.findOption(name)));
-            return spec;
         }
     }
 

@@ -256,7 +256,7 @@ public final class Suite implements AutoCloseable {
     private void connectThem() throws Exception {
         int port = FreePort.orFree(settings.ports().listener());
         SuiteSettings.Listening listening = settings.fiware().listening();
-        listener = URI.create("http://%s:%d/v2/notify".formatted(SuiteSettings.Listening.here(listening.host()), port));
+        listener = URI.create("http://" + SuiteSettings.Listening.here(listening.host()) + ":" + port + "/v2/notify");
         connectors = new Connectors(connect.uri(), listener.resolve("/health"), settings.fiware());
         progress.step("NGSI source and sink", () -> {
             connectors.source(

@@ -2,8 +2,9 @@ package io.furrow.mission.mongo;
 
 import java.time.Clock;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.Date;
-import java.util.HashSet;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -45,10 +46,14 @@ public final class MissionCollections {
     /** An index of the same name with other options, and one of the same keys under another name. */
     private static final Set<Integer> OTHER_OPTIONS = Set.of(85, 86);
 
+    private static final Duration PREPARED_FOR = Duration.ofMinutes(1);
+
     private final MongoDatabase database;
     private final Retention retention;
     private final Clock clock;
-    private final Set<String> prepared = new HashSet<>();
+    /** When the indexes of a collection were made. */
+    private final Map<String, Instant> prepared = new HashMap<>();
+
     private Boolean expires;
 
     /** @param retention null to leave that of each collection as it is */
@@ -105,10 +110,11 @@ public final class MissionCollections {
                 .toList();
     }
 
-    /** The collection with its indexes, which are made at the first use. */
+    /** The collection with its indexes, which are made at the first use; once a minute again, as it may have been dropped. */
     public MongoCollection<RawBsonDocument> prepared(String name) {
         MongoCollection<RawBsonDocument> collection = get(name);
-        if (!prepared.contains(name)) {
+        Instant now = clock.instant();
+        if (now.isAfter(prepared.getOrDefault(name, Instant.MIN))) {
             IndexOptions byTime = new IndexOptions().name(BY_TIME);
             Optional<Duration> kept = retention != null && serverExpires() ? retention.of(name) : Optional.empty();
             kept.ifPresent(time -> byTime.expireAfter(time.toSeconds(), TimeUnit.SECONDS));
@@ -117,7 +123,7 @@ public final class MissionCollections {
                     collection,
                     Indexes.ascending(EventDocumentCodec.ENTITY_ID, EventDocumentCodec.TIME),
                     new IndexOptions().name(BY_ENTITY));
-            prepared.add(name);
+            prepared.put(name, now.plus(PREPARED_FOR));
         }
         return collection;
     }

@@ -118,7 +118,7 @@ final class TopicReader {
         }
         String given = headers.get(HeaderNames.CE_ID);
         String id = given == null || given.isEmpty()
-                ? "%s-%d-%d".formatted(record.topic(), record.partition(), record.offset())
+                ? record.topic() + "-" + record.partition() + "-" + record.offset()
                 : given;
         Entity entity = record.value() == null ? null : Entity.parse(record.value());
         return new StoredEvent(

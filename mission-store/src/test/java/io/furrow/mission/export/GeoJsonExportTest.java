@@ -1,18 +1,23 @@
 package io.furrow.mission.export;
 
 import java.io.ByteArrayOutputStream;
+import java.io.StringWriter;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Optional;
 
+import com.fasterxml.jackson.core.JsonFactory;
+import com.fasterxml.jackson.core.JsonGenerator;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.mission.Recording;
 import io.furrow.mission.file.FileRecordings;
 import io.furrow.mission.marker.Marker;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.position.Position;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -42,6 +47,29 @@ class GeoJsonExportTest {
                 "properties":{"id":"urn:ngsi-ld:Thermometer:1","type":"Thermometer","mission":"hoeing",\
                 "service":"farm","servicePath":"/","positions":2,"first":"2023-11-14T22:13:20Z",\
                 "last":"2023-11-14T22:13:24Z"}}]}""");
+    }
+
+    @Test
+    void cutsATrackWhereItCrossesTheAntimeridian() throws Exception {
+        Track track = new Track("r", FiwareScope.of("farm", "/"));
+        track.add(0, new Position(10, 179), "Robot");
+        track.add(4_000, new Position(14, -177), "Robot");
+        track.add(8_000, new Position(14, -178), "Robot");
+        track.add(9_000, new Position(14, 180), "Robot");
+        StringWriter out = new StringWriter();
+        try (JsonGenerator json = new JsonFactory().createGenerator(out)) {
+            track.write("m", json);
+        }
+
+        assertThat(out.toString())
+                .contains(
+                        "\"type\":\"MultiLineString\"",
+                        "\"coordinates\":[[[179.0,10.0],[180.0,11.0]],"
+                                + "[[-180.0,11.0],[-177.0,14.0],[-178.0,14.0],[-180.0,14.0]],[[180.0,14.0],[180.0,14.0]]]",
+                        "\"positions\":4",
+                        "\"times\":[[\"1970-01-01T00:00:00Z\",\"1970-01-01T00:00:01Z\"],"
+                                + "[\"1970-01-01T00:00:01Z\",\"1970-01-01T00:00:04Z\",\"1970-01-01T00:00:08Z\","
+                                + "\"1970-01-01T00:00:09Z\"],[\"1970-01-01T00:00:09Z\",\"1970-01-01T00:00:09Z\"]]");
     }
 
     @Test

@@ -2,8 +2,12 @@ package io.furrow.mission.mongo;
 
 import java.nio.file.Path;
 import java.time.Duration;
+import java.time.Instant;
+import java.time.InstantSource;
+import java.time.ZoneOffset;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.concurrent.atomic.AtomicReference;
 
 import com.mongodb.ConnectionString;
 import com.mongodb.MongoClientSettings;
@@ -119,6 +123,32 @@ class MongoAwayTest {
             assertThat(find.getNumber("limit").intValue()).isEqualTo(2_000);
             assertThat(find.getNumber("batchSize").intValue()).isEqualTo(500);
         }
+    }
+
+    /** With whatever the next write makes anew. */
+    @Test
+    void makesTheIndexesOfACollectionAgainThatMayHaveBeenDropped() throws Exception {
+        List<BsonDocument> commands = new ArrayList<>();
+        AtomicReference<Instant> now = new AtomicReference<>(Instant.ofEpochSecond(1_700_000_000));
+        try (EmbeddedMongo mongo = EmbeddedMongo.inMemory();
+                MongoClient client = listening(mongo.uri(), commands)) {
+            InstantSource clock = now::get;
+            MissionCollections made =
+                    new MissionCollections(client, Retention.FOR_EVER, clock.withZone(ZoneOffset.UTC));
+            made.prepared("mission_hoeing");
+            made.prepared("mission_hoeing").drop();
+            assertThat(indexesMade(commands)).isEqualTo(2);
+
+            now.set(now.get().plusSeconds(61));
+            made.prepared("mission_hoeing");
+            assertThat(indexesMade(commands)).isEqualTo(4);
+        }
+    }
+
+    private static long indexesMade(List<BsonDocument> commands) {
+        return commands.stream()
+                .filter(command -> command.containsKey("createIndexes"))
+                .count();
     }
 
     private static MongoClient listening(String uri, List<BsonDocument> commands) {

@@ -9,6 +9,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.HashMap;
 import java.util.List;
+import java.util.Locale;
 import java.util.Map;
 import java.util.Set;
 
@@ -96,6 +97,21 @@ class TopicRecordingsIT {
             assertThat(recording.back(Cursor.before(25), Cursor.START, 2, event -> true, ALL))
                     .isEqualTo(new Cursor(10, "data.farm.realtime-3-0"));
             assertThat(recording.stateBefore(30, Set.of(), PageLimits.DEFAULT)).hasSize(2);
+        }
+    }
+
+    @Test
+    void givesRecordsTheSameIdsInEveryLanguage() throws Exception {
+        create("data.arabic");
+        try (KafkaProducer<String, String> producer = producer(Map.of())) {
+            send(producer, event("data.arabic", 3, 10, null, "{\"id\":\"t1\",\"type\":\"T\"}"));
+        }
+        Locale usual = Locale.getDefault();
+        Locale.setDefault(Locale.forLanguageTag("ar-EG"));
+        try {
+            assertThat(ids(recordings(NEVER), "data.arabic")).containsExactly("data.arabic-3-0");
+        } finally {
+            Locale.setDefault(usual);
         }
     }
 

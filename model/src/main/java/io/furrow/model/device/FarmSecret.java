@@ -164,11 +164,11 @@ public final class FarmSecret {
     }
 
     private static Login deviceLogin(FarmKey key, String mission, String device, int generation) {
-        return login(key, "d.%s.%s.%d.%d".formatted(encoded(mission), encoded(device), key.number(), generation));
+        return login(key, String.join(".", "d", encoded(mission), encoded(device), "" + key.number(), "" + generation));
     }
 
     private static Login gatewayLogin(FarmKey key, String mission) {
-        return login(key, "m.%s.%d".formatted(encoded(mission), key.number()));
+        return login(key, "m." + encoded(mission) + "." + key.number());
     }
 
     private static Login login(FarmKey key, String name) {

@@ -34,6 +34,6 @@ public record Original(String topic, int partition, long offset, long bytes) {
     }
 
     public Map<String, String> headers() {
-        return Map.of(POSITION, "%s-%d@%d".formatted(topic, partition, offset), BYTES, Long.toString(bytes));
+        return Map.of(POSITION, topic + "-" + partition + "@" + offset, BYTES, Long.toString(bytes));
     }
 }

@@ -9,8 +9,10 @@ public final class ClockResult {
 
     /** Id of the device. */
     public static final String DEVICE = "device";
-    /** Milliseconds that positions of {@link #BEHIND_TYPE} arrived too late. */
+    /** Milliseconds that positions of {@link #BEHIND_TYPE} arrived too late, or reports after their time. */
     public static final String LATE = "late";
+    /** How many reports of a {@link #BEHIND_TYPE} were received long after their time. */
+    public static final String REPORTS = "reports";
 
     private ClockResult() {}
 }

@@ -5,6 +5,7 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.HashSet;
 import java.util.List;
+import java.util.Locale;
 import java.util.Random;
 import java.util.Set;
 
@@ -96,6 +97,18 @@ class FarmSecretTest {
         assertThat(secret.toString()).isEqualTo(secret.fingerprint() + " (key 1)");
         assertThat(secret.keys().toString()).doesNotContain("0123456789abcdef");
         assertThat(secret.fingerprint()).matches("[0-9a-f]{16}");
+    }
+
+    @Test
+    void namesUsersAlikeInEveryLanguage() {
+        Locale usual = Locale.getDefault();
+        Locale.setDefault(Locale.forLanguageTag("ar-EG"));
+        try {
+            assertThat(secret.device("a", "t").user()).isEqualTo("furrow.d.a.t.1.0");
+            assertThat(secret.gateway("a").user()).isEqualTo("furrow.m.a.1");
+        } finally {
+            Locale.setDefault(usual);
+        }
     }
 
     @Test

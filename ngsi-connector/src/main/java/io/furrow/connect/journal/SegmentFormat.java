@@ -2,6 +2,7 @@ package io.furrow.connect.journal;
 
 import java.nio.ByteBuffer;
 import java.nio.charset.StandardCharsets;
+import java.util.Locale;
 import java.util.Optional;
 import java.util.UUID;
 import java.util.regex.Matcher;
@@ -44,7 +45,7 @@ final class SegmentFormat {
     private SegmentFormat() {}
 
     static String fileName(long base) {
-        return String.format("%019d.segment", base);
+        return String.format(Locale.ROOT, "%019d.segment", base);
     }
 
     static Optional<Long> baseOf(String fileName) {

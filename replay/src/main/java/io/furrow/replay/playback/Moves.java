@@ -84,6 +84,9 @@ final class Moves {
     }
 
     static PlaybackState skipped(PlaybackState s, long more) {
+        if (more == 0) {
+            return s;
+        }
         Moves next = new Moves(s);
         next.skipped += more;
         return next.done();

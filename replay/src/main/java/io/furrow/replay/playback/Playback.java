@@ -207,10 +207,10 @@ public final class Playback {
         } else if (fetched instanceof Fetched.Begun begun) {
             ahead.setPrimes(begun.primes());
             schedule.anchor(now, at.point());
-            add(begun.first());
+            ahead.add(begun.first());
         } else if (fetched instanceof Fetched.More more) {
             boolean stood = ahead.peek() == null;
-            add(more.page());
+            ahead.add(more.page());
             ReadyEvent next = next();
             if (stood && next != null) {
                 schedule.resumeAfterStall(next, now);
@@ -219,11 +219,6 @@ public final class Playback {
             return goBack(back, now);
         }
         return Optional.empty();
-    }
-
-    private void add(ReadyPage page) {
-        ahead.add(page);
-        at = Moves.skipped(at, page.skipped());
     }
 
     /** Unless something else has been asked for meanwhile. */
@@ -279,11 +274,12 @@ public final class Playback {
         } else {
             schedule.play(next, now);
         }
-        ahead.remove();
+        at = Moves.skipped(at, ahead.remove());
         return Optional.of(played(Played.Kind.EVENT, next, null, next.time(), now));
     }
 
     private Played endOfPass(long now) {
+        at = Moves.skipped(at, ahead.skippedOfRest());
         boolean again = wanted.loops() && (schedule.isOfGroup() || hasSomethingToRepeat());
         Played end = played(Played.Kind.END, null, again ? "loop" : "ended", at.position(), now);
         String reason = wanted.loops() && !again ? "there is no event to play over and over" : null;

@@ -21,6 +21,11 @@ final class ReadAhead {
     private static final double PAGE = 2_000;
 
     private final Deque<ReadyEvent> events = new ArrayDeque<>();
+    /** Of each event what was skipped of the pages that it ends: a restart reads again what was not played. */
+    private final Deque<Long> skipped = new ArrayDeque<>();
+    /** Of pages behind the last event. */
+    private long skippedSince;
+
     private Cursor loaded;
     private int newest;
     /** Events of the recording in a millisecond of event time, of the newest page; 0 while that is not known. */
@@ -80,7 +85,16 @@ final class ReadAhead {
 
     void add(ReadyPage page) {
         boolean drained = complete && events.isEmpty();
-        events.addAll(page.events());
+        skippedSince += page.skipped();
+        for (ReadyEvent event : page.events()) {
+            events.add(event);
+            skipped.add(0L);
+        }
+        if (!page.events().isEmpty()) {
+            skipped.removeLast();
+            skipped.add(skippedSince);
+            skippedSince = 0;
+        }
         newest = page.events().size();
         density = page.read() < 2 ? density : page.read() / Math.max(1.0, page.span());
         loaded = page.next();
@@ -113,8 +127,15 @@ final class ReadAhead {
         return events.peek();
     }
 
-    void remove() {
+    /** Removes the next event; returns how much was skipped until then. */
+    long remove() {
         events.remove();
+        return skipped.remove();
+    }
+
+    /** How much was skipped of what is not to be played. */
+    long skippedOfRest() {
+        return skippedSince + skipped.stream().mapToLong(Long::longValue).sum();
     }
 
     /** Whether nothing comes any more before this event time, epoch ms. */

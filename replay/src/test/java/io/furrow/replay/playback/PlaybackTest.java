@@ -67,6 +67,29 @@ class PlaybackTest {
     }
 
     @Test
+    void countsNothingTwiceThatItSkippedOfWhatARestartReadsAgain() {
+        WantedReplay wanted = Wishes.start(1);
+        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
+        playback.fetch();
+        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 0);
+        playback.fetch();
+        playback.take(new Fetched.Begun(0, List.of(), skipping(page(FIRST, wanted, false), 2)), 0);
+        playback.poll(0);
+        playback.fetch();
+        playback.take(new Fetched.More(0, skipping(page(NEXT, wanted, true), 3)), 0);
+
+        Playback restarted = new Playback(wanted, playback.snapshot(500), 500, Wishes::wall);
+        restarted.fetch();
+        restarted.take(new Fetched.More(0, skipping(page(NEXT, wanted, true), 3)), 500);
+        assertThat(restarted.poll(2_000)).isPresent();
+        assertThat(restarted.status(2_000, 0, 0).progress().skipped()).isEqualTo(5);
+    }
+
+    private static ReadyPage skipping(ReadyPage page, long skipped) {
+        return new ReadyPage(page.events(), page.read(), page.span(), skipped, page.next(), page.last());
+    }
+
+    @Test
     void readsNothingBehindItsEnd() {
         ReplayPlan plan = new ReplayPlan(
                 null, null, NEXT.time(), false, List.of("urn:d0"), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());

@@ -4,6 +4,7 @@ import java.io.IOException;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Locale;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.locks.LockSupport;
 import java.util.stream.IntStream;
@@ -191,6 +192,6 @@ public final class LoadFleet implements AutoCloseable {
     }
 
     private static String id(LoadPlan plan, int device) {
-        return "%s-%05d".formatted(plan.mission(), device);
+        return String.format(Locale.ROOT, "%s-%05d", plan.mission(), device);
     }
 }

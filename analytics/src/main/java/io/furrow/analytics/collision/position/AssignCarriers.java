@@ -28,7 +28,7 @@ import io.furrow.model.event.FiwareScope;
  *
  * <p><b>State</b>: every device's versions, the same at each subtask.
  *
- * <p><b>Cleared</b>: versions, a day after they ended; where a replay is read, never.
+ * <p><b>Cleared</b>: versions, 30 days after they ended; where a replay is read, never.
  *
  * <p><b>Late</b>: a position gets its carrier as of its own time.
  *
@@ -41,8 +41,8 @@ public final class AssignCarriers
             new MapStateDescriptor<>("devices", Types.STRING, TypeInformation.of(DeviceVersions.class));
 
     private static final long serialVersionUID = 1L;
-    /** Longer than positions are late and still count. */
-    private static final Duration KEPT = Duration.ofDays(1);
+    /** Longer than the job is down: all changes are read before the backlog is. As ingest has it. */
+    private static final Duration KEPT = Duration.ofDays(30);
 
     /** Carries the devices that do not move, so that they are parts of one aggregate; no identity is without a scope. */
     private static final String GROUND = "ground";

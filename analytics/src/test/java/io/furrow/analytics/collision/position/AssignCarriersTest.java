@@ -24,6 +24,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 class AssignCarriersTest {
     private static final String CAMERA = "farm|/|camera";
     private static final long DAY = 86_400_000;
+    private static final long KEPT = 30 * DAY;
 
     private KeyedTwoInputStreamOperatorTestHarness<Device, PositionFix, DeviceChange, PositionFix> operator;
 
@@ -69,7 +70,7 @@ class AssignCarriersTest {
     }
 
     @Test
-    void remembersAcrossARestartAndForgetsADayAfterTheEnd() throws Exception {
+    void remembersAcrossARestartAndForgetsAMonthAfterTheEnd() throws Exception {
         change(1, version(2000, 2, "tractor"));
         OperatorSubtaskState snapshot = operator.snapshot(1, 1);
         operator.close();
@@ -80,13 +81,21 @@ class AssignCarriersTest {
 
         operator.processElement2(new DeviceChange(CAMERA, 0, 2, 4000, null), 0);
         assertThat(carrierOfCamera(3999)).isEqualTo("farm|/|tractor");
-        operator.processElement2(new DeviceChange("farm|/|other", 0, 3, 4000 + DAY + 1, null), 0);
-        operator.processElement2(new DeviceChange("farm|/|other", 0, 4, 4000 + DAY + 1, null), 0);
+        operator.processElement2(new DeviceChange("farm|/|other", 0, 3, 4000 + KEPT + 1, null), 0);
+        operator.processElement2(new DeviceChange("farm|/|other", 0, 4, 4000 + KEPT + 1, null), 0);
         assertThat(operator.getOperator()
                         .getOperatorStateBackend()
                         .getBroadcastState(AssignCarriers.DEVICES)
                         .entries())
                 .isEmpty();
+    }
+
+    @Test
+    void knowsTheCarriersOfABacklogThoughTheMissionHasEndedMeanwhile() throws Exception {
+        change(0, version(1000, 1, "robot"));
+        operator.processElement2(new DeviceChange(CAMERA, 0, 1, DAY, null), 0);
+        change(2, version(3 * DAY, 2, "tractor"));
+        assertThat(carrierOfCamera(DAY - 1)).isEqualTo("farm|/|robot");
     }
 
     private void create() throws Exception {

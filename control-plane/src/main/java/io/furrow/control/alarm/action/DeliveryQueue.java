@@ -141,7 +141,7 @@ final class DeliveryQueue {
         }
         boolean again = entry.delivered.sequence() == alarm.sequence();
         int repeats = again ? entry.delivered.repeats() + 1 : 0;
-        String id = "%s:%d".formatted(alarm.alarm(), alarm.sequence());
+        String id = alarm.alarm() + ":" + alarm.sequence();
         Update attempt = first ? new Update(alarm.alarm(), entry.delivered) : null;
         return new Post(repeats == 0 ? id : id + ":" + repeats, alarm, repeats, attempt);
     }

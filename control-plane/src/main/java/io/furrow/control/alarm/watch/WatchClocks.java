@@ -16,7 +16,7 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.result.ClockResult;
 
 /**
- * Raises alarms for devices whose positions arrive too late and are dropped by all analyses. A job reports such a
+ * Raises alarms for devices whose reports arrive too late and are dropped by all analyses. A job reports such a
  * device once a minute; the alarm ends after three minutes without a report.
  */
 public final class WatchClocks {
@@ -44,7 +44,8 @@ public final class WatchClocks {
                         () -> new UnreadableException(Reason.NOT_AN_EVENT, "the report has no attribute 'device'"));
         String text = String.format(
                 Locale.ROOT,
-                "positions of %s arrive %.1f s too late and are dropped: check its clock and its link",
+                "%s of %s arrive %.1f s too late and are dropped: check its clock and its link",
+                entity.number(ClockResult.REPORTS).isPresent() ? ClockResult.REPORTS : "positions",
                 device,
                 entity.number(ClockResult.LATE).orElse(0.0) / 1000);
         List<Cause.Device> devices = List.of(new Cause.Device(device, types.apply(scope.identity(device))));

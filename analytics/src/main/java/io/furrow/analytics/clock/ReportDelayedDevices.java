@@ -1,0 +1,111 @@
+package io.furrow.analytics.clock;
+
+import java.time.Duration;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.Set;
+
+import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.streaming.api.functions.ProcessFunction;
+import org.apache.flink.util.Collector;
+
+import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.event.Origin;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Reports devices of any kind whose records are behind their {@link Receipt}, one after the other, by more than a limit. It goes by
+ * receipts, whatever has become of event time. A record that is on time ends a run; one that is not newer than the last is no report
+ * of the device. Of a device all records pass the same subtask.
+ *
+ * <p><b>State</b>: none that lasts; after a restart runs begin anew.
+ *
+ * <p><b>Late</b>: nothing is.
+ *
+ * <p><b>Emits</b>: that the device is delayed, and once a minute that it still is. What is replayed or repaired does not count, nor
+ * does what catches up: a gateway sends what it stored faster than it came about.
+ */
+final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockReport> {
+    private static final long serialVersionUID = 1L;
+    /** As of a clock's offset, two wrong times do not matter. */
+    private static final int MIN_RECORDS = 3;
+
+    private static final int MAX_DEVICES = 10_000;
+    private static final int CATCHES_UP = 2;
+
+    private final Receipt receipt;
+    private final long maxBehindMillis;
+    private transient Map<String, Run> runs;
+
+    private record Run(LagRun lag, long newest) {}
+
+    ReportDelayedDevices(Receipt receipt, Duration maxBehind) {
+        this.receipt = receipt;
+        this.maxBehindMillis = maxBehind.toMillis();
+    }
+
+    @Override
+    public void open(OpenContext context) {
+        runs = new LinkedHashMap<>() {
+            @Override
+            protected boolean removeEldestEntry(Map.Entry<String, Run> eldest) {
+                return size() > MAX_DEVICES;
+            }
+        };
+    }
+
+    @Override
+    public void processElement(TopicRecord record, Context context, Collector<ClockReport> out) {
+        long received = receipt.of(record, record.timestamp(), System.currentTimeMillis());
+        boolean isBehind = received - record.timestamp() > maxBehindMillis;
+        if (!isBehind && runs.isEmpty() || !CorrectClocks.isOfDevice(record) || !isReported(record)) {
+            return;
+        }
+        String device = CorrectClocks.deviceOf(record);
+        Run before = runs.remove(device);
+        if (isBehind) {
+            runs.put(device, after(before, record, received, out));
+        }
+    }
+
+    private static Run after(Run before, TopicRecord record, long received, Collector<ClockReport> out) {
+        if (before != null && record.timestamp() <= before.newest) {
+            return before;
+        }
+        LaggingPosition position = new LaggingPosition(
+                record.topic(),
+                CorrectClocks.identity(record),
+                CorrectClocks.id(record),
+                "",
+                record.timestamp(),
+                received,
+                Long.MIN_VALUE);
+        LagRun lag = LagRun.after(before == null ? null : before.lag, position);
+        boolean catchesUp = record.timestamp() - lag.first() > CATCHES_UP * (received - lag.since());
+        if (!catchesUp && lag.isToBeTold(MIN_RECORDS)) {
+            out.collect(ClockReport.delayed(position, missionOf(record), lag.positions()));
+            lag = lag.afterReport();
+        }
+        return new Run(lag, record.timestamp());
+    }
+
+    private static boolean isReported(TopicRecord record) {
+        return !Topics.isReplay(record.topic())
+                && !Origin.REPAIR.code().equals(record.headers().get(HeaderNames.ORIGIN));
+    }
+
+    /** Empty if it names none. */
+    private static String missionOf(TopicRecord record) {
+        try {
+            return Entity.parse(record.value(), Set.of("Mission"))
+                    .text("Mission")
+                    .orElse("");
+        } catch (UnreadableException e) { // becomes a dead letter where it is read
+            return "";
+        }
+    }
+}

@@ -1,0 +1,119 @@
+package io.furrow.analytics.clock;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.Map;
+import java.util.function.LongUnaryOperator;
+
+import org.apache.flink.streaming.api.operators.ProcessOperator;
+import org.apache.flink.streaming.util.OneInputStreamOperatorTestHarness;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.model.event.HeaderNames;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.tuple;
+
+/** No watermark comes: event time stands still. */
+class ReportDelayedDevicesTest {
+    private static final long START = 1_700_000_000_000L;
+    private static final long SECOND = 1_000;
+    private static final long MINUTE = 60 * SECOND;
+    private static final long HOUR = 60 * MINUTE;
+
+    private OneInputStreamOperatorTestHarness<TopicRecord, ClockReport> harness;
+    private long now = START;
+
+    @BeforeEach
+    void start() throws Exception {
+        harness = new OneInputStreamOperatorTestHarness<>(new ProcessOperator<>(
+                new ReportDelayedDevices(new Receipt(Duration.ofSeconds(10)), Duration.ofMinutes(1))));
+        harness.open();
+    }
+
+    @AfterEach
+    void stop() throws Exception {
+        harness.close();
+    }
+
+    @Test
+    void reportsAThermometerThatIsTwoHoursBehindWithinAMinuteAndThenOnceAMinute() throws Exception {
+        for (int second = 0; second < 100; second++) {
+            report("slow", now - 2 * HOUR);
+            report("right", now);
+            now += SECOND;
+        }
+        assertThat(harness.extractOutputValues())
+                .extracting(
+                        ClockReport::kind,
+                        ClockReport::id,
+                        ClockReport::mission,
+                        ClockReport::millis,
+                        ClockReport::positions,
+                        ClockReport::time)
+                .containsExactly(
+                        tuple(ClockReport.Kind.DELAYED, "slow", "m", 2 * HOUR, 31, START + 30 * SECOND),
+                        tuple(ClockReport.Kind.DELAYED, "slow", "m", 2 * HOUR, 91, START + 90 * SECOND));
+    }
+
+    @Test
+    void reportsOneThatReportsEveryHalfMinuteAfterAMinute() throws Exception {
+        assertThat(reports(30 * SECOND, 3, time -> time - START)).isEqualTo(1);
+    }
+
+    @Test
+    void reportsAClockThatWentWrongMeanwhileAndNoneThatIsRightNowAndThen() throws Exception {
+        assertThat(reports(SECOND, 60, time -> time)).isZero();
+        assertThat(reports(SECOND, 60, time -> time - (time / SECOND % 20 == 0 ? 0 : HOUR)))
+                .isZero();
+        assertThat(reports(SECOND, 60, time -> time - HOUR)).isEqualTo(1);
+    }
+
+    @Test
+    void reportsNoneThatSendsWhatItStored() throws Exception {
+        assertThat(reports(SECOND, 140, time -> START - 2 * HOUR + (time - START) * 50))
+                .isZero();
+    }
+
+    @Test
+    void countsNoReportTwiceNorWhatIsReplayedRepairedOrAResult() throws Exception {
+        assertThat(reports(10 * SECOND, 60, time -> START - HOUR))
+                .as("the context broker notifies of an entity to which a command was sent")
+                .isZero();
+        for (int i = 0; i < 60; i++) {
+            now += SECOND;
+            TopicRecord slow = record("slow", now - HOUR);
+            receive(slow.to("data.m.replay.0a1b2c3d"));
+            receive(slow.with(HeaderNames.ORIGIN, "repair"));
+            report("Analytics:FieldTemperature:f", now - HOUR);
+        }
+        assertThat(harness.extractOutputValues()).isEmpty();
+    }
+
+    private int reports(long period, int times, LongUnaryOperator clock) throws Exception {
+        int before = harness.extractOutputValues().size();
+        for (int i = 0; i < times; i++) {
+            report("slow", clock.applyAsLong(now));
+            now += period;
+        }
+        return harness.extractOutputValues().size() - before;
+    }
+
+    private void report(String device, long time) throws Exception {
+        receive(record(device, time));
+    }
+
+    private void receive(TopicRecord record) throws Exception {
+        harness.processElement(record, record.timestamp());
+    }
+
+    private TopicRecord record(String device, long time) {
+        byte[] entity = ("{\"id\":\"" + device + "\",\"type\":\"Thermometer\",\"Mission\":{\"value\":\"m\"}}")
+                .getBytes(StandardCharsets.UTF_8);
+        return TopicRecord.of("data.raw", time, device, entity, Map.of(HeaderNames.TS_SOURCE, Long.toString(now)));
+    }
+}

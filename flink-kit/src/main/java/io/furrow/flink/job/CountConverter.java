@@ -1,0 +1,24 @@
+package io.furrow.flink.job;
+
+import picocli.CommandLine.ITypeConverter;
+import picocli.CommandLine.TypeConversionException;
+
+/** Whole numbers from 1 on that a broker takes for partitions and replicas. */
+final class CountConverter implements ITypeConverter<Integer> {
+    @Override
+    public Integer convert(String text) {
+        try {
+            int count = Short.parseShort(text);
+            if (count >= 1) {
+                return count;
+            }
+        } catch (NumberFormatException e) {
+            throw refused(text);
+        }
+        throw refused(text);
+    }
+
+    private static TypeConversionException refused(String text) {
+        return new TypeConversionException("'" + text + "' is no whole number from 1 to " + Short.MAX_VALUE);
+    }
+}
