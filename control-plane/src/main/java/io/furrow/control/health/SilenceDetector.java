@@ -13,7 +13,7 @@ import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.Entity;
 
 /**
- * Reduces the reports of devices to heartbeats: emits one at the first report of a device, then every 30 seconds, and
+ * Reduces the reports of devices to heartbeats: emits one at the first report of a device, then of its newest every 30 seconds, and
  * one when it has been silent for too long. Ten thousand devices yield some hundred heartbeats a second. Silence is
  * measured by the clock of the control plane, so that neither a device's clock nor a delayed read causes it.
  *
@@ -51,9 +51,16 @@ final class SilenceDetector {
         private Heartbeat newest;
 
         private long told;
+        /** The newest report was not emitted. */
+        private boolean pending;
+
         private boolean silent;
         private long silentAfter;
         private long from;
+
+        boolean isDue(long now) {
+            return now - told >= SIGN_EVERY.toMillis();
+        }
 
         /** After a new start of its mission the next report is emitted at once. */
         void take(WantedDevice device, long after) {
@@ -61,6 +68,7 @@ final class SilenceDetector {
             if (from != device.version().from()) {
                 from = device.version().from();
                 told = 0;
+                pending = false;
             }
         }
     }
@@ -107,12 +115,18 @@ final class SilenceDetector {
         boolean switched = !first && off != known.newest.off();
         Double newest = battery == null && !first ? known.newest.battery() : battery;
         known.newest = new Heartbeat(entity.id(), entity.type(), false, now, reported, newest, off);
-        if (first || known.silent || switched || now - known.told >= SIGN_EVERY.toMillis()) {
-            known.told = now;
+        known.pending = true;
+        if (first || known.silent || switched || known.isDue(now)) {
             known.silent = false;
-            told.tell(key, known.newest);
+            emit(key, known, now);
         }
         return true;
+    }
+
+    private void emit(String key, Heard heard, long now) {
+        heard.told = now;
+        heard.pending = false;
+        told.tell(key, heard.newest);
     }
 
     /** Whether the context broker notified about something else than what was assigned to the device or asked of it. */
@@ -156,7 +170,10 @@ final class SilenceDetector {
                     && !heard.newest.off()
                     && now - heard.newest.heard() > heard.silentAfter) {
                 heard.silent = true;
+                heard.pending = false;
                 told.tell(key, silence(heard.newest));
+            } else if (heard.pending && heard.isDue(now)) { // the next report may be hours away
+                emit(key, heard, now);
             }
         });
     }
