@@ -1,6 +1,7 @@
 package io.furrow.control.health;
 
 import java.time.Duration;
+import java.time.Instant;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -10,6 +11,7 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.device.WantedDevice;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.ngsi.Entity;
 
 /**
@@ -108,13 +110,17 @@ final class SilenceDetector {
         if (!first && known.newest.reported() == reported) {
             return false;
         }
+        Long deviceTime = EventTimeRule.Source.DEVICE
+                .read(entity)
+                .map(Instant::toEpochMilli)
+                .orElse(null);
         Double battery = Battery.chargeOf(entity);
         boolean off = entity.value(STATUS)
                 .filter(status -> status.isBoolean() && !status.booleanValue())
                 .isPresent();
         boolean switched = !first && off != known.newest.off();
         Double newest = battery == null && !first ? known.newest.battery() : battery;
-        known.newest = new Heartbeat(entity.id(), entity.type(), false, now, reported, newest, off);
+        known.newest = new Heartbeat(entity.id(), entity.type(), false, now, reported, deviceTime, newest, off);
         known.pending = true;
         if (first || known.silent || switched || known.isDue(now)) {
             known.silent = false;
@@ -185,6 +191,14 @@ final class SilenceDetector {
     }
 
     private static Heartbeat silence(Heartbeat last) {
-        return new Heartbeat(last.id(), last.type(), true, last.heard(), last.reported(), last.battery(), last.off());
+        return new Heartbeat(
+                last.id(),
+                last.type(),
+                true,
+                last.heard(),
+                last.reported(),
+                last.deviceTime(),
+                last.battery(),
+                last.off());
     }
 }

@@ -261,7 +261,8 @@ public final class DevicesResource {
             cause(connection, heard).ifPresent(cause -> connection.put("cause", cause.text()));
         }
         if (heard != null) {
-            long time = health.path("lastSeen").longValue();
+            long time = health.path(health.has("deviceTime") ? "deviceTime" : "lastSeen")
+                    .longValue();
             connection
                     .putObject("lastReport")
                     .put("time", time)
