@@ -10,7 +10,7 @@ java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/source.sh
 . "$soak/parts/source.sh"
 
-seconds=60
+seconds=50
 
 usage() {
     cat <<USAGE

@@ -5,12 +5,12 @@ import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.TreeMap;
+import java.util.TreeSet;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -93,12 +93,7 @@ final class Logins {
             }
         }
         double sent = (System.currentTimeMillis() - since) / 1e3;
-        Set<String> open = new HashSet<>(devices.stream().map(Roster.Device::id).toList());
-        Until.within(TIMEOUT, () -> {
-            open.removeAll(answered(devices, since));
-            return open.isEmpty();
-        });
-        open.forEach(each -> differences.add("not answered by " + each));
+        differences.addAll(unanswered("on", devices, since));
         verdicts.add(
                 "commands, " + when,
                 "%d sent in %.1f s, all answered after %.1f s"
@@ -106,19 +101,44 @@ final class Logins {
                 differences);
     }
 
+    /** A command of {@code ./furrow} to each. */
+    void obey(List<Roster.Device> devices) throws IOException, InterruptedException {
+        long since = System.currentTimeMillis();
+        for (Roster.Device each : devices) {
+            farm.up().run("device", "command", each.id(), "off");
+        }
+        verdicts.add(
+                "./furrow device command",
+                "%d sent, all answered".formatted(devices.size()),
+                unanswered("off", devices, since));
+    }
+
+    /** Waits for the answers. @return who has not answered in time */
+    private List<String> unanswered(String command, List<Roster.Device> devices, long since) {
+        Set<String> open = new TreeSet<>(devices.stream().map(Roster.Device::id).toList());
+        Until.within(TIMEOUT, () -> {
+            open.removeAll(answered(command, devices, since));
+            return open.isEmpty();
+        });
+        return open.stream().map(each -> "not answered by " + each).toList();
+    }
+
     /** Whose program was asked since then, and of whom the context broker has the answer. */
-    private Set<String> answered(List<Roster.Device> devices, long since) {
+    private Set<String> answered(String command, List<Roster.Device> devices, long since) {
         Set<String> asked = new HashSet<>();
         programs.events().stream()
                 .filter(each -> each.is("asked") && each.at() >= since)
+                .filter(each -> each.json().at("/command/0").asText().equals(command))
                 .forEach(each -> asked.add(each.device()));
         Set<String> types = new HashSet<>();
         devices.forEach(each -> types.add(each.id().split(":")[2]));
         Set<String> answered = new HashSet<>();
         for (String type : types) {
             for (JsonNode entity : farm.entities(type)) {
-                if (entity.at("/on_status/value").asText().equals("OK")
-                        && entity.at("/on_info/value").asText().equals("done")) {
+                if (entity.at("/%s_status/value".formatted(command)).asText().equals("OK")
+                        && entity.at("/%s_info/value".formatted(command))
+                                .asText()
+                                .equals("done")) {
                     answered.add(entity.path("id").asText());
                 }
             }
@@ -127,85 +147,52 @@ final class Logins {
         return answered;
     }
 
-    /** A command of {@code ./furrow} to each. */
-    void obey(List<Roster.Device> devices) throws IOException, InterruptedException {
-        long since = System.currentTimeMillis();
-        List<String> differences = new ArrayList<>();
-        for (Roster.Device each : devices) {
-            farm.up().run("device", "command", each.id(), "off");
-        }
-        Set<String> asked = new HashSet<>();
-        boolean all = Until.within(TIMEOUT, () -> {
-            programs.events().stream()
-                    .filter(each -> each.is("asked") && each.at() >= since)
-                    .filter(each -> each.json().path("command").toString().contains("\"off\""))
-                    .forEach(each -> asked.add(each.device()));
-            return asked.size() >= devices.size();
-        });
-        if (!all) {
-            devices.stream()
-                    .filter(each -> !asked.contains(each.id()))
-                    .forEach(each -> differences.add("was not asked: " + each.id()));
-        }
-        verdicts.add("./furrow device command", "%d asked and answered".formatted(asked.size()), differences);
-    }
-
     /** Rotates the login of each, over REST and with {@code ./furrow device rotate} in turn, and brings the program its new one. */
     void rotate(List<Roster.Device> devices) throws IOException, InterruptedException {
         List<String> differences = new ArrayList<>();
-        Map<String, Long> delays = new HashMap<>();
+        long longest = 0;
         for (int i = 0; i < devices.size(); i++) {
-            Roster.Device device = devices.get(i);
-            String old = connected().get(device.id());
-            long asked = System.currentTimeMillis();
-            if (i % 2 == 0) {
-                Http.send("POST", farm.up().api("/api/devices/" + device.id() + "/credentials"), null)
-                        .join();
-            } else {
-                farm.up().run("device", "rotate", device.id());
-            }
-            long rotated = System.currentTimeMillis();
-            Until.within(TIMEOUT, () -> cut(device, old, asked) > 0);
-            long cut = cut(device, old, asked);
-            delays.put(device.id(), cut - (i % 2 == 0 ? asked : rotated));
-            if (cut == 0 || delays.get(device.id()) > CUT_WITHIN_MILLIS) {
-                differences.add("%s was cut off %d ms after its login was rotated"
-                        .formatted(device.id(), delays.get(device.id())));
-            }
-            Until.within(TIMEOUT, () -> wasRefused(device, old, asked));
-            if (!wasRefused(device, old, asked)) {
-                differences.add("%s was let in again with its old login, or did not try".formatted(device.id()));
-            }
-            programs.bring(
-                    device.mission(),
-                    farm.up().run("device", "credentials", "--mission", device.mission(), "--output", "csv"));
-            Until.within(TIMEOUT, () -> connected().containsKey(device.id()));
-            String fresh = connected().get(device.id());
-            if (fresh == null || fresh.equals(old)) {
-                differences.add("%s does not come in with its new login".formatted(device.id()));
-            }
+            longest = Math.max(longest, rotate(devices.get(i), i % 2 == 1, differences));
         }
         verdicts.add(
                 "rotated logins",
                 "%d cut off after at most %d ms, then refused, and in with the new one"
-                        .formatted(
-                                devices.size(),
-                                delays.values().stream()
-                                        .mapToLong(Long::longValue)
-                                        .max()
-                                        .orElse(0)),
+                        .formatted(devices.size(), longest),
                 differences);
     }
 
-    /** When the connection with this login ended; 0 if it has not. */
-    private long cut(Roster.Device device, String user, long since) {
-        return time("cut", device, user, since);
+    /** @return ms from the request, or from the end of the command, to the end of the connection */
+    private long rotate(Roster.Device device, boolean byCommand, List<String> differences)
+            throws IOException, InterruptedException {
+        String old = connected().get(device.id());
+        long asked = System.currentTimeMillis();
+        if (byCommand) {
+            farm.up().run("device", "rotate", device.id());
+        } else {
+            Http.send("POST", farm.up().api("/api/devices/" + device.id() + "/credentials"), null)
+                    .join();
+        }
+        long from = byCommand ? System.currentTimeMillis() : asked;
+        boolean isCut = Until.within(TIMEOUT, () -> time("cut", device, old, asked) > 0);
+        long delay = time("cut", device, old, asked) - from;
+        if (!isCut || delay > CUT_WITHIN_MILLIS) {
+            differences.add("%s was cut off %d ms after its login was rotated".formatted(device.id(), delay));
+        }
+        if (!Until.within(TIMEOUT, () -> time("refused", device, old, asked) > 0)) {
+            differences.add("%s was let in again with its old login, or did not try".formatted(device.id()));
+        }
+        programs.bring(
+                device.mission(),
+                farm.up().run("device", "credentials", "--mission", device.mission(), "--output", "csv"));
+        Until.within(TIMEOUT, () -> connected().containsKey(device.id()));
+        String fresh = connected().get(device.id());
+        if (fresh == null || fresh.equals(old)) {
+            differences.add("%s does not come in with its new login".formatted(device.id()));
+        }
+        return delay;
     }
 
-    private boolean wasRefused(Roster.Device device, String user, long since) {
-        return time("refused", device, user, since) > 0;
-    }
-
+    /** When this happened first to a program with this login; 0 if it has not. */
     private long time(String kind, Roster.Device device, String user, long since) {
         return programs.events().stream()
                 .filter(each -> each.is(kind) && each.at() >= since)

@@ -17,7 +17,7 @@ import io.furrow.soak.TopicLog;
 
 /** Compares what the programs sent with what came of it on Kafka's topics. */
 final class Measures {
-    private static final Duration QUIET = Duration.ofSeconds(1);
+    private static final Duration QUIET = Duration.ofMillis(200);
     /** A window is written when its end is the out-of-orderness ago, and the job has committed. */
     static final Duration KNOWN_AFTER = Duration.ofSeconds(15);
 
@@ -31,8 +31,11 @@ final class Measures {
         this.verdicts = verdicts;
     }
 
-    /** Each measure that was sent in this time is on the topic of its mission, once, and on that of no other. */
-    void arrived(String when, List<ProgramEvent> events, long from, long to) throws UnreadableException {
+    /**
+     * Each measure that was sent in this time is on the topic of its mission, and on that of no other: once, unless devices were
+     * commanded meanwhile, because what becomes of a command is an event with the measures of the device, too.
+     */
+    void arrived(String when, List<ProgramEvent> events, long from, long to, boolean once) throws UnreadableException {
         List<String> differences = new ArrayList<>();
         int sent = 0;
         for (Roster.Mission mission : roster.missions()) {
@@ -50,14 +53,17 @@ final class Measures {
                 if (each.is("sent") && each.at() >= from && each.at() < to && reporting.contains(each.device())) {
                     sent++;
                     int times = found.getOrDefault(measure(each.device(), each.time()), 0);
-                    if (times != 1) {
+                    if (times == 0 || once && times > 1) {
                         differences.add("%d times on the topic of %s: %s"
                                 .formatted(times, mission.name(), measure(each.device(), each.time())));
                     }
                 }
             }
         }
-        verdicts.add("reports in their missions, " + when, "%d reports, each once".formatted(sent), differences);
+        verdicts.add(
+                "reports in their missions, " + when,
+                "%d reports, each %s".formatted(sent, once ? "once" : "there"),
+                differences);
     }
 
     /** How often each measure is on the topic of a mission. */

@@ -1,14 +1,17 @@
 package io.furrow.soak.devices;
 
 import java.io.IOException;
+import java.io.InputStream;
 import java.io.UncheckedIOException;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
 import java.util.ArrayList;
 import java.util.Comparator;
+import java.util.LinkedHashMap;
 import java.util.List;
-import java.util.stream.Stream;
+import java.util.Map;
 
 /** The programs of devices: processes of Python, each with up to 20 devices of a mission, which have a connection each. */
 final class Programs implements AutoCloseable {
@@ -17,7 +20,10 @@ final class Programs implements AutoCloseable {
     private final Path program;
     private final Path folder;
     private final List<Process> processes = new ArrayList<>();
-    private final List<Path> logs = new ArrayList<>();
+    /** How many bytes of each were read. */
+    private final Map<Path, Long> logs = new LinkedHashMap<>();
+
+    private final List<ProgramEvent> events = new ArrayList<>();
 
     Programs(Path program, Path folder) throws IOException {
         this.program = program;
@@ -45,7 +51,7 @@ final class Programs implements AutoCloseable {
                             .map(device -> device.behavior().toString())
                             .toList());
             Path log = folder.resolve(name + ".events");
-            logs.add(Files.createFile(log));
+            logs.put(Files.createFile(log), 0L);
             processes.add(new ProcessBuilder(
                             "python3",
                             program.toString(),
@@ -68,18 +74,19 @@ final class Programs implements AutoCloseable {
 
     /** All so far, in the order of their times. */
     List<ProgramEvent> events() {
-        return logs.stream()
-                .flatMap(Programs::complete)
-                .map(ProgramEvent::read)
-                .sorted(Comparator.comparingLong(ProgramEvent::at))
-                .toList();
+        logs.replaceAll((log, read) -> read + readOn(log, read));
+        events.sort(Comparator.comparingLong(ProgramEvent::at));
+        return List.copyOf(events);
     }
 
-    /** The lines of a file without the one that is just being written. */
-    private static Stream<String> complete(Path log) {
-        try {
-            String text = Files.readString(log);
-            return text.substring(0, text.lastIndexOf('\n') + 1).lines();
+    /** Takes the lines that were added, without one that is just being written. @return how many bytes these are */
+    private int readOn(Path log, long from) {
+        try (InputStream in = Files.newInputStream(log)) {
+            in.skipNBytes(from);
+            String text = new String(in.readAllBytes(), StandardCharsets.US_ASCII);
+            String lines = text.substring(0, text.lastIndexOf('\n') + 1);
+            lines.lines().map(ProgramEvent::read).forEach(events::add);
+            return lines.length();
         } catch (IOException e) {
             throw new UncheckedIOException(e);
         }

@@ -9,7 +9,7 @@ import java.util.stream.Stream;
 
 /** Two hundred devices on a farm of processes: first undisturbed, then while agent, control plane and broker are killed in turn. */
 public final class RealDevices {
-    private static final Duration AWAY = Duration.ofSeconds(10);
+    private static final Duration AWAY = Duration.ofSeconds(8);
     private static final Duration SETTLED = Duration.ofSeconds(10);
     /** The stand-in writes its file so often at least. */
     private static final Duration STORED = Duration.ofSeconds(8);
@@ -68,7 +68,7 @@ public final class RealDevices {
         shown.missions();
         undisturbed("undisturbed", began);
         shown.soundDevices("undisturbed");
-        shown.faultsBesideMosquitto();
+        shown.faultsBesideMosquitto("undisturbed");
         logins.obey(every(60));
         logins.answer("undisturbed", commanded());
         logins.rotate(every(40));
@@ -127,7 +127,7 @@ public final class RealDevices {
         long to = System.currentTimeMillis();
         Thread.sleep(Measures.KNOWN_AFTER.toMillis());
         List<ProgramEvent> events = programs.events();
-        measures.arrived(when, events, since, to);
+        measures.arrived(when, events, since, to, true);
         measures.averages(when, events, from, to);
         measures.encounters(when, events, from, to);
     }
@@ -148,6 +148,8 @@ public final class RealDevices {
         Thread.sleep(AWAY.toMillis());
         farm.up().start();
         isBack("the control plane's end", before, killed, false);
+        shown.soundDevices("after the control plane's end");
+        shown.faultsBesideMosquitto("after it");
 
         killed = System.currentTimeMillis();
         say("kill -9 of Mosquitto");
@@ -162,7 +164,7 @@ public final class RealDevices {
         long asked = System.currentTimeMillis();
         logins.answer("after " + after, commanded());
         Thread.sleep(SETTLED.toMillis());
-        measures.arrived("after " + after, programs.events(), asked, System.currentTimeMillis() - 5_000);
+        measures.arrived("after " + after, programs.events(), asked, System.currentTimeMillis() - 5_000, false);
     }
 
     /** Devices with a period of 15 min that are not sent anything until the end. */

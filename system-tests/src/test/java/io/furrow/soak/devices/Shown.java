@@ -1,5 +1,6 @@
 package io.furrow.soak.devices;
 
+import java.io.IOException;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashSet;
@@ -76,9 +77,9 @@ final class Shown {
     }
 
     /** Of each device without a fault its last login, that the agent knows it, a clock that is right, and no cause of silence. */
-    void soundDevices(String when) {
+    void soundDevices(String when) throws IOException, InterruptedException {
         check(
-                "device show, " + when,
+                "device show of the others, " + when,
                 roster.devices().stream().filter(Roster.Device::isSound).toList(),
                 (device, shown) -> shown.at("/connection/loggedIn").isNumber()
                                 && shown.at("/connection/registered").asBoolean()
@@ -91,9 +92,9 @@ final class Shown {
     }
 
     /** The faults as Mosquitto's log and the clock of the control plane let them be known. */
-    void faultsBesideMosquitto() {
+    void faultsBesideMosquitto(String when) throws IOException, InterruptedException {
         for (String fault : List.of("password", "topic", "json", "clock")) {
-            check("device show of a wrong " + fault, faulty(fault), (device, shown) -> {
+            check("device show of a wrong " + fault + ", " + when, faulty(fault), (device, shown) -> {
                 JsonNode connection = shown.path("connection");
                 String cause = connection.path("cause").asText();
                 boolean named = connection.path("registered").asBoolean()
@@ -111,7 +112,7 @@ final class Shown {
     }
 
     /** The faults as the suite's own broker and agent know them. */
-    void faultsOfTheSuite() {
+    void faultsOfTheSuite() throws IOException, InterruptedException {
         for (String fault : List.of("password", "topic", "json", "clock")) {
             check("its own broker and agent: wrong " + fault, faulty(fault), (device, shown) -> {
                 JsonNode connection = shown.path("connection");
@@ -157,22 +158,29 @@ final class Shown {
                 .toList();
     }
 
-    /** @param difference of a device and what is shown of it; null if there is none */
-    private void check(
-            String what, List<Roster.Device> devices, BiFunction<Roster.Device, JsonNode, String> difference) {
+    /**
+     * Asks for the first device with the command, for the others over REST.
+     *
+     * @param difference of a device and what is shown of it; null if there is none
+     */
+    private void check(String what, List<Roster.Device> devices, BiFunction<Roster.Device, JsonNode, String> difference)
+            throws IOException, InterruptedException {
         Until.within(TIMEOUT, () -> devices.stream().allMatch(each -> difference.apply(each, show(each)) == null));
         List<String> differences = new ArrayList<>();
         String example = "";
         for (Roster.Device each : devices) {
-            JsonNode shown = show(each);
-            example = shown.at("/connection/cause").asText(example);
+            JsonNode shown = each == devices.get(0)
+                    ? Json.read(up.run("device", "show", each.id(), "--output", "json"))
+                    : show(each);
+            example = shown.at("/connection/cause")
+                    .asText("offset of a clock %d ms"
+                            .formatted(shown.at("/connection/lastReport/offset").asLong()));
             String differs = difference.apply(each, shown);
             if (differs != null) {
                 differences.add(each.id() + ": " + differs);
             }
         }
-        verdicts.add(
-                what, "%d devices%s".formatted(devices.size(), example.isEmpty() ? "" : ": " + example), differences);
+        verdicts.add(what, "%d devices: %s".formatted(devices.size(), example), differences);
     }
 
     private JsonNode show(Roster.Device device) {

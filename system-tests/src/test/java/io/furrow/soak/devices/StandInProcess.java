@@ -2,6 +2,7 @@ package io.furrow.soak.devices;
 
 import java.io.IOException;
 import java.net.URI;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -9,7 +10,6 @@ import java.util.List;
 import io.furrow.embedded.FreePort;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
-import io.furrow.soak.control.Http;
 import io.furrow.soak.control.JavaProcess;
 import io.furrow.soak.control.Mosquitto;
 import io.furrow.soak.control.Until;
@@ -21,8 +21,10 @@ final class StandInProcess implements AutoCloseable {
     private final int contextBroker = FreePort.orFree(0);
     private final int iotAgent = FreePort.orFree(0);
     private final JavaProcess process;
+    private final Path started;
 
     StandInProcess(Path folder, URI mqtt) {
+        started = folder.resolve("fiware.started");
         process = new JavaProcess(
                 folder.resolve("fiware.out"),
                 List.of("-Xmx384m", "-Dfurrow.log=" + folder.resolve("fiware.log")),
@@ -31,11 +33,12 @@ final class StandInProcess implements AutoCloseable {
                         Integer.toString(contextBroker),
                         Integer.toString(iotAgent),
                         mqtt.toString(),
-                        folder.resolve("fiware.json.gz").toString()));
+                        folder.resolve("fiware.json.gz").toString(),
+                        started.toString()));
     }
 
-    /** Runs until it is killed; arguments: both ports, MQTT broker, file of the state. */
-    public static void main(String... args) throws InterruptedException {
+    /** Runs until it is killed; arguments: both ports, MQTT broker, file of the state, file to be made when it has started. */
+    public static void main(String... args) throws IOException, InterruptedException {
         FiwareStandIn.start(new FiwareSettings(
                         Integer.parseInt(args[0]),
                         Integer.parseInt(args[1]),
@@ -43,6 +46,7 @@ final class StandInProcess implements AutoCloseable {
                         Mosquitto.AGENT,
                         Mosquitto.AGENT_PASSWORD)
                 .withState(Path.of(args[3])));
+        Files.createFile(Path.of(args[4]));
         Thread.currentThread().join();
     }
 
@@ -54,14 +58,11 @@ final class StandInProcess implements AutoCloseable {
         return URI.create("http://127.0.0.1:" + iotAgent);
     }
 
-    /** Returns when it answers. */
+    /** Returns when it answers and hears the devices. */
     void start() throws IOException {
+        Files.deleteIfExists(started);
         process.start();
-        Until.isTrue(
-                "the stand-in answers",
-                START_TIMEOUT,
-                () -> Http.get(contextBroker().resolve("/version")).status() != 0
-                        && Http.get(iotAgent().resolve("/iot/about")).status() != 0);
+        Until.isTrue("the stand-in has started", START_TIMEOUT, () -> Files.exists(started));
     }
 
     void kill() throws InterruptedException {

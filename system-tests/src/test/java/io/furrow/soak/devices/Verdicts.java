@@ -19,7 +19,7 @@ final class Verdicts {
      */
     void add(String what, String figures, List<String> differences) {
         holds &= differences.isEmpty();
-        String line = "%-6s %-52s %s".formatted(differences.isEmpty() ? "holds" : "DIFFERS", what, figures);
+        String line = "%-6s %-58s %s".formatted(differences.isEmpty() ? "holds" : "DIFFERS", what, figures);
         lines.add(line);
         System.out.println(line);
         differences.stream().limit(SHOWN).forEach(each -> System.out.println("         " + each));
