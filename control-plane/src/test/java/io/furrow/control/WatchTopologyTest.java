@@ -43,6 +43,21 @@ class WatchTopologyTest {
         assertThat(health.path("mission").asText()).isEqualTo("m");
     }
 
+    /** Of a clock that is far ahead the event time is that of the receipt, which says nothing of the clock. */
+    @Test
+    void publishesTheTimeThatADeviceItselfGave() throws Exception {
+        farm.want(THERMOMETER, "Thermometer", true);
+        for (int report = 0; report < 2; report++) {
+            farm.pass(Duration.ofSeconds(31));
+            long time = farm.now().plusSeconds(3000).toEpochMilli();
+            farm.report(Entity.builder(THERMOMETER, "Thermometer").integer("Time", time));
+
+            JsonNode health = farm.newest(Topics.DEVICES_HEALTH);
+            assertThat(health.path("deviceTime").asLong()).isEqualTo(time);
+            assertThat(health.path("lastSeen").asLong()).isEqualTo(farm.now().toEpochMilli());
+        }
+    }
+
     @Test
     void raisesACollisionAnewThatWasClosedByHandWhileTheEncounterLasts() throws Exception {
         farm.encounter("started", 3.2);

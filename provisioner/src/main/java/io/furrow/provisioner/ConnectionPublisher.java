@@ -56,9 +56,10 @@ final class ConnectionPublisher {
         this.since = settings.connections().logins().isEmpty() ? null : last;
     }
 
-    /** Publishes all again: another process may have published meanwhile. */
-    void startAnew() {
+    /** @param before what is on the topic, by key: another process may have published meanwhile, or this one before it was started again */
+    void startAnew(Map<String, DeviceConnection> before) {
         published.clear();
+        published.putAll(before);
         last = clock.getAsLong();
     }
 
@@ -82,7 +83,10 @@ final class ConnectionPublisher {
         wanted.all().forEach((key, device) -> {
             LoginReport gateway = byMission.get(device.version().mission());
             LoginReport own = byDevice.get(device.device());
-            put(key, connection(device, own == null ? onlyLogin(gateway) : own, isIn(registered, key)));
+            put(
+                    key,
+                    connection(
+                            device, withLastLogin(key, own == null ? onlyLogin(gateway) : own), isIn(registered, key)));
         });
         new HashSet<>(published.keySet())
                 .stream().filter(key -> !wanted.all().containsKey(key)).forEach(key -> put(key, null));
@@ -93,6 +97,13 @@ final class ConnectionPublisher {
         return gateway == null ? null : new LoginReport(gateway.loggedIn(), null, null);
     }
 
+    /** With a login that was published before: who observes logins may have forgotten it, and the device may be connected since then. */
+    private LoginReport withLastLogin(String key, LoginReport login) {
+        DeviceConnection before = published.get(key);
+        LoginReport last = new LoginReport(before == null ? null : before.loggedIn(), null, null);
+        return login == null ? last : both(login, last);
+    }
+
     private static Boolean isIn(Set<String> registered, String key) {
         return registered == null ? null : Boolean.valueOf(registered.contains(key));
     }
@@ -101,9 +112,9 @@ final class ConnectionPublisher {
         String apiKey = settings.secret().get().apiKey(device.version().mission());
         return new DeviceConnection(
                 since,
-                login == null ? null : login.loggedIn(),
-                login == null ? null : login.refused(),
-                login == null ? null : login.foreign(),
+                login.loggedIn(),
+                login.refused(),
+                login.foreign(),
                 settings.connections()
                         .measures()
                         .unreadable(apiKey, device.device())

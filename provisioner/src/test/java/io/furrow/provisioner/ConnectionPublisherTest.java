@@ -109,6 +109,19 @@ class ConnectionPublisherTest {
         assertThat(producer.history().get(2).value()).isNull();
     }
 
+    /** The broker's log is read from a few megabytes before its end: the device may have connected before, and be connected. */
+    @Test
+    void retainsTheLastLoginOverARestart() throws Exception {
+        publisher.startAnew(Map.of(key, new DeviceConnection(START - 9, START - 5, null, null, null, true)));
+
+        publish(Set.of(key));
+        assertThat(newest()).isEqualTo(new DeviceConnection(START, START - 5, null, null, null, true));
+
+        logins.put(user, new LoginReport(START + 1, null, null));
+        publish(Set.of(key));
+        assertThat(newest()).isEqualTo(new DeviceConnection(START, START + 1, null, null, null, true));
+    }
+
     @Test
     void saysThatNobodyObservesLogins() throws Exception {
         ConnectionPublisher unsure = publisher(ConnectionSources.NONE);

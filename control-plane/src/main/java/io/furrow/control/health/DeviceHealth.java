@@ -17,6 +17,7 @@ import io.furrow.model.event.FiwareScope;
  * @param since when it became silent or reported again, epoch ms
  * @param lastSeen event time of its newest report, epoch ms; null if none
  * @param heard when that report arrived, epoch ms, at most about 30 s behind; null if none
+ * @param deviceTime what the device itself gave as the time of that report, epoch ms; null if it gave none
  * @param battery 0 to 1; null if never reported
  * @param off whether it reported that it is switched off; it is never silent then
  */
@@ -31,6 +32,7 @@ public record DeviceHealth(
         long since,
         Long lastSeen,
         Long heard,
+        Long deviceTime,
         Double battery,
         boolean off) {
 
@@ -49,6 +51,7 @@ public record DeviceHealth(
                 null,
                 null,
                 null,
+                null,
                 false);
     }
 
@@ -64,13 +67,14 @@ public record DeviceHealth(
                 silent ? now : since,
                 sign.reported(),
                 sign.heard(),
+                sign.deviceTime(),
                 sign.battery() == null ? battery : sign.battery(),
                 sign.off());
     }
 
     DeviceHealth silent(long now) {
         return new DeviceHealth(
-                id, service, servicePath, type, domain, mission, true, now, lastSeen, heard, battery, off);
+                id, service, servicePath, type, domain, mission, true, now, lastSeen, heard, deviceTime, battery, off);
     }
 
     /** Returns the health with the device's current domain and mission. */
@@ -87,6 +91,7 @@ public record DeviceHealth(
                 since,
                 lastSeen,
                 heard,
+                deviceTime,
                 battery,
                 off);
     }

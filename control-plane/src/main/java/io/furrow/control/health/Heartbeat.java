@@ -8,10 +8,19 @@ package io.furrow.control.health;
  * @param silent whether the device has not reported for too long; false for a heartbeat
  * @param heard when its last report arrived, epoch ms, by the clock of the control plane
  * @param reported event time of that report, epoch ms
+ * @param deviceTime what the device itself gave as that time, however far ahead its clock is, epoch ms; null if it gave none
  * @param battery 0 to 1; null if never reported
  * @param off whether it reported that it is switched off
  */
-record Heartbeat(String id, String type, boolean silent, long heard, long reported, Double battery, boolean off) {
+record Heartbeat(
+        String id,
+        String type,
+        boolean silent,
+        long heard,
+        long reported,
+        Long deviceTime,
+        Double battery,
+        boolean off) {
     /** Key of a pulse; no device has it, so that earlier versions skip it. */
     static final String PULSE_KEY = "";
 
@@ -21,7 +30,7 @@ record Heartbeat(String id, String type, boolean silent, long heard, long report
      * @param heard when, epoch ms
      */
     static Heartbeat pulse(long heard) {
-        return new Heartbeat("", null, false, heard, heard, null, false);
+        return new Heartbeat("", null, false, heard, heard, null, null, false);
     }
 
     boolean isPulse() {

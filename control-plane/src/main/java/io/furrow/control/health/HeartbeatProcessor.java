@@ -2,6 +2,8 @@ package io.furrow.control.health;
 
 import java.time.Duration;
 import java.util.Set;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import org.apache.kafka.streams.processor.PunctuationType;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
@@ -12,6 +14,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.control.manager.StateJson;
 import io.furrow.control.manager.record.RecordScope;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
@@ -31,7 +34,9 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
     /** Resolution of the time since which no report has arrived. */
     private static final Duration PULSE = Duration.ofSeconds(5);
 
-    private static final Set<String> ATTRIBUTES = Set.of(Battery.ATTRIBUTE, SilenceDetector.STATUS);
+    private static final Set<String> ATTRIBUTES = Stream.concat(
+                    EventTimeRule.Source.DEVICE_TIMES.stream(), Stream.of(Battery.ATTRIBUTE, SilenceDetector.STATUS))
+            .collect(Collectors.toUnmodifiableSet());
 
     private final HealthOptions options;
     private SilenceDetector listener;

@@ -1,6 +1,7 @@
 package io.furrow.control.health;
 
 import java.time.Duration;
+import java.time.Instant;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -10,10 +11,11 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.device.WantedDevice;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.ngsi.Entity;
 
 /**
- * Reduces the reports of devices to heartbeats: emits one at the first report of a device, then every 30 seconds, and
+ * Reduces the reports of devices to heartbeats: emits one at the first report of a device, then of its newest every 30 seconds, and
  * one when it has been silent for too long. Ten thousand devices yield some hundred heartbeats a second. Silence is
  * measured by the clock of the control plane, so that neither a device's clock nor a delayed read causes it.
  *
@@ -51,9 +53,16 @@ final class SilenceDetector {
         private Heartbeat newest;
 
         private long told;
+        /** The newest report was not emitted. */
+        private boolean pending;
+
         private boolean silent;
         private long silentAfter;
         private long from;
+
+        boolean isDue(long now) {
+            return now - told >= SIGN_EVERY.toMillis();
+        }
 
         /** After a new start of its mission the next report is emitted at once. */
         void take(WantedDevice device, long after) {
@@ -61,6 +70,7 @@ final class SilenceDetector {
             if (from != device.version().from()) {
                 from = device.version().from();
                 told = 0;
+                pending = false;
             }
         }
     }
@@ -100,19 +110,29 @@ final class SilenceDetector {
         if (!first && known.newest.reported() == reported) {
             return false;
         }
+        Long deviceTime = EventTimeRule.Source.DEVICE
+                .read(entity)
+                .map(Instant::toEpochMilli)
+                .orElse(null);
         Double battery = Battery.chargeOf(entity);
         boolean off = entity.value(STATUS)
                 .filter(status -> status.isBoolean() && !status.booleanValue())
                 .isPresent();
         boolean switched = !first && off != known.newest.off();
         Double newest = battery == null && !first ? known.newest.battery() : battery;
-        known.newest = new Heartbeat(entity.id(), entity.type(), false, now, reported, newest, off);
-        if (first || known.silent || switched || now - known.told >= SIGN_EVERY.toMillis()) {
-            known.told = now;
+        known.newest = new Heartbeat(entity.id(), entity.type(), false, now, reported, deviceTime, newest, off);
+        known.pending = true;
+        if (first || known.silent || switched || known.isDue(now)) {
             known.silent = false;
-            told.tell(key, known.newest);
+            emit(key, known, now);
         }
         return true;
+    }
+
+    private void emit(String key, Heard heard, long now) {
+        heard.told = now;
+        heard.pending = false;
+        told.tell(key, heard.newest);
     }
 
     /** Whether the context broker notified about something else than what was assigned to the device or asked of it. */
@@ -156,7 +176,10 @@ final class SilenceDetector {
                     && !heard.newest.off()
                     && now - heard.newest.heard() > heard.silentAfter) {
                 heard.silent = true;
+                heard.pending = false;
                 told.tell(key, silence(heard.newest));
+            } else if (heard.pending && heard.isDue(now)) { // the next report may be hours away
+                emit(key, heard, now);
             }
         });
     }
@@ -168,6 +191,14 @@ final class SilenceDetector {
     }
 
     private static Heartbeat silence(Heartbeat last) {
-        return new Heartbeat(last.id(), last.type(), true, last.heard(), last.reported(), last.battery(), last.off());
+        return new Heartbeat(
+                last.id(),
+                last.type(),
+                true,
+                last.heard(),
+                last.reported(),
+                last.deviceTime(),
+                last.battery(),
+                last.off());
     }
 }

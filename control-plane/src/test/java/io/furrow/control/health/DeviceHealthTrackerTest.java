@@ -185,7 +185,7 @@ class DeviceHealthTrackerTest {
     }
 
     private static Heartbeat sign(boolean silent, long heard) {
-        return new Heartbeat(ID, "T", silent, heard, 77, null, false);
+        return new Heartbeat(ID, "T", silent, heard, 77, null, null, false);
     }
 
     private void want(String mission, long from) {

@@ -38,6 +38,18 @@ class SilenceDetectorTest {
         assertThat(signs).hasSize(3).noneMatch(Heartbeat::silent);
     }
 
+    /** As one sends that had stored something: what it sent last may be all for hours, and has another time. */
+    @Test
+    void tellsOfTheLastOfSomeReportsWithinHalfAMinute() {
+        want(PERIOD.multipliedBy(90));
+        hear(Entity.builder(ID, "T"), 5);
+        hear(Entity.builder(ID, "T"), 6);
+        for (int i = 0; i <= 60; i++) {
+            pass(1000);
+        }
+        assertThat(signs).extracting(Heartbeat::reported).containsExactly(5L, 6L);
+    }
+
     @Test
     void tellsOnceOfADeviceThatIsSilentForLongerThanItsPeriods() {
         want(PERIOD);

@@ -131,8 +131,8 @@ class SilencePropertyTest {
             for (int second = 0; second < 300; second += 5) {
                 now += 5000;
                 if (second % 10 == 0) {
-                    talking.forEach(
-                            key -> tracker.take(key, new Heartbeat(id(key), "T", false, now, now, null, false), now));
+                    talking.forEach(key ->
+                            tracker.take(key, new Heartbeat(id(key), "T", false, now, now, null, null, false), now));
                     if (!talking.isEmpty()) {
                         tracker.take(Heartbeat.PULSE_KEY, Heartbeat.pulse(now), now);
                     }

@@ -163,6 +163,7 @@ final class Farm {
                 heard,
                 heard,
                 null,
+                null,
                 false);
         run(() -> missionHandler.reported(version.key(), health, now));
     }

@@ -37,9 +37,11 @@ public record EventTimeRule(List<Source> order, Duration maxSkew) implements Ser
         /** {@code dateModified} of the entity. */
         ENTITY;
 
-        private static final List<String> DEVICE_TIMES = List.of("Time", "TimeInstant", "dateObserved", "timestamp");
+        /** Attributes that hold the time of the device, the first that can be read before the others. */
+        public static final List<String> DEVICE_TIMES = List.of("Time", "TimeInstant", "dateObserved", "timestamp");
 
-        Optional<Instant> read(Entity entity) {
+        /** The time that an entity has from here; empty if none can be read. */
+        public Optional<Instant> read(Entity entity) {
             return switch (this) {
                 case DEVICE ->
                     DEVICE_TIMES.stream()

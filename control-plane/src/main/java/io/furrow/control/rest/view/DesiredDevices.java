@@ -56,7 +56,8 @@ public final class DesiredDevices {
         Long heard = health.hasNonNull("heard") ? health.path("heard").longValue() : null;
         silence(connection, device).ifPresent(cause -> connection.put("cause", cause.text()));
         if (heard != null) {
-            long time = health.path("lastSeen").longValue();
+            long time = health.path(health.has("deviceTime") ? "deviceTime" : "lastSeen")
+                    .longValue();
             connection
                     .putObject("lastReport")
                     .put("time", time)

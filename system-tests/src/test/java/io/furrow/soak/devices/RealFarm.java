@@ -1,0 +1,95 @@
+package io.furrow.soak.devices;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.concurrent.atomic.AtomicBoolean;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.Mosquitto;
+
+/** A farm of processes: Mosquitto, the stand-ins of context broker and IoT Agent, and {@code ./furrow up}, which is told of both. */
+final class RealFarm implements AutoCloseable {
+    static final String WINDOW = "10s";
+
+    private final Mosquitto mosquitto;
+    private final StandInProcess standIn;
+    private final UpProcess up;
+    private final AtomicBoolean closed = new AtomicBoolean();
+
+    RealFarm(Path home, Path folder, Roster roster) throws IOException, InterruptedException {
+        Path broker = folder.resolve("mosquitto").toAbsolutePath();
+        Path log = broker.resolve("broker.log");
+        mosquitto = new Mosquitto(broker, "log_dest file %s%nlog_type all".formatted(log));
+        standIn = new StandInProcess(folder, mosquitto.uri());
+        Path fields = Files.writeString(
+                folder.resolve("fields.geojson"), roster.fields().toString());
+        up = new UpProcess(
+                home,
+                folder.resolve("up"),
+                List.of(
+                        "--orion",
+                        standIn.contextBroker().toString(),
+                        "--iot-agent",
+                        standIn.iotAgent().toString(),
+                        "--iot-agent-interval",
+                        "5s",
+                        "--mqtt-password-file",
+                        mosquitto.passwords().toString(),
+                        "--mqtt-acl-file",
+                        mosquitto.rules().toString(),
+                        "--mqtt-reload",
+                        mosquitto.reload(),
+                        "--mqtt-log",
+                        log.toString(),
+                        "--mqtt-public-url",
+                        mosquitto.uri().toString().replace("tcp:", "mqtt:"),
+                        "--fields",
+                        fields.toString(),
+                        "--window",
+                        WINDOW,
+                        "--start-timeout",
+                        "20s"));
+    }
+
+    void start() throws IOException {
+        mosquitto.start();
+        standIn.start();
+        up.start();
+    }
+
+    Mosquitto mosquitto() {
+        return mosquitto;
+    }
+
+    StandInProcess standIn() {
+        return standIn;
+    }
+
+    UpProcess up() {
+        return up;
+    }
+
+    /** The entities of a type at the context broker. */
+    JsonNode entities(String type) {
+        return Http.get(
+                        standIn.contextBroker().resolve("/v2/entities?limit=1000&type=" + type),
+                        "fiware-service",
+                        "farm",
+                        "fiware-servicepath",
+                        "/#")
+                .body();
+    }
+
+    @Override
+    public void close() {
+        if (closed.compareAndSet(false, true)) {
+            up.close();
+            standIn.close();
+            mosquitto.close();
+        }
+    }
+}
