@@ -15,6 +15,7 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.topic.Topics;
 
 import static io.furrow.ingest.ReportedRecords.TIME;
 import static io.furrow.ingest.ReportedRecords.at;
@@ -147,6 +148,45 @@ class IngestJobTest {
                 .allSatisfy(record -> assertThat(record.headers())
                         .containsEntry(HeaderNames.CE_TYPE, HeaderNames.TYPE_DELETED)
                         .containsKey(HeaderNames.TS_INGEST));
+    }
+
+    /** As NGSI-v2 allows: both exist, and each ends by itself. */
+    @Test
+    void keepsTwoEntitiesOfOneIdApartByTheirType() throws Exception {
+        TopicRecord valve = record("v", Entity.builder("e-13", "Valve").text("Domain", "farm"));
+        TopicRecord pump = record("p", Entity.builder("e-13", "Pump").text("Domain", "yard"));
+        TopicRecord deleted = deletion("d", "e-13", TIME + 1).with(HeaderNames.ENTITY_TYPE, "Pump");
+        TopicRecord late =
+                at(TIME - 1, record("w", Entity.builder("e-13", "Valve").number("level", 1)));
+
+        List<TopicRecord> written = IngestRun.of(options(), KnownDevices.of(), valve, pump, deleted, late);
+
+        assertThat(written)
+                .filteredOn(record -> record.topic().equals(Topics.LATEST))
+                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8)
+                        + (record.value() == null
+                                ? ""
+                                : " is " + Entity.parse(record.value()).type()))
+                .containsExactly("e-13 is Valve", "e-13 Pump is Pump", "e-13 Pump", "e-13 is Valve");
+        assertThat(written)
+                .filteredOn(record -> record.value() == null)
+                .extracting(TopicRecord::topic)
+                .containsExactlyInAnyOrder("data.yard.realtime", "data.latest");
+    }
+
+    @Test
+    void endsAllEntitiesOfAnIdByADeletionThatNamesNoType() throws Exception {
+        TopicRecord valve = record("v", Entity.builder("e-13", "Valve").text("Domain", "farm"));
+        TopicRecord pump = record("p", Entity.builder("e-13", "Pump").text("Domain", "yard"));
+
+        assertThat(IngestRun.of(options(), KnownDevices.of(), valve, pump, deletion("d", "e-13", TIME + 1)))
+                .filteredOn(record -> record.value() == null)
+                .extracting(record -> record.topic() + " " + new String(record.key(), StandardCharsets.UTF_8))
+                .containsExactlyInAnyOrder(
+                        "data.farm.realtime e-13",
+                        "data.yard.realtime e-13",
+                        "data.latest e-13",
+                        "data.latest e-13 Pump");
     }
 
     @Test

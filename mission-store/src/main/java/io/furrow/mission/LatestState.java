@@ -49,19 +49,38 @@ public final class LatestState {
     }
 
     private void add(StoredEvent event) {
-        String key = identity(event);
-        if (event.entity() == null) {
-            byEntity.remove(key);
+        if (event.entity() != null) {
+            byEntity.merge(identity(event), event, LatestState::merged);
+        } else if (type(event).isEmpty()) {
+            byEntity.values()
+                    .removeIf(known -> known.entityId().equals(event.entityId())
+                            && scope(known).equals(scope(event)));
         } else {
-            byEntity.merge(key, event, LatestState::merged);
+            byEntity.remove(identity(event));
         }
     }
 
-    /** What tells entities apart, also those of two tenants. */
-    public static String identity(StoredEvent event) {
-        Map<String, String> headers = event.headers();
-        return FiwareScope.of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH))
-                .identity(event.entityId());
+    /** Whether two events of one id may be of one entity; a deletion that names no type is of all. */
+    public static boolean isOfOneEntity(StoredEvent one, StoredEvent other) {
+        boolean oneType =
+                type(one).isEmpty() || type(other).isEmpty() || type(one).equals(type(other));
+        return oneType && scope(one).equals(scope(other));
+    }
+
+    private static String identity(StoredEvent event) {
+        return scope(event).identity(type(event), event.entityId());
+    }
+
+    private static FiwareScope scope(StoredEvent event) {
+        return FiwareScope.of(
+                event.headers().get(HeaderNames.SERVICE), event.headers().get(HeaderNames.SERVICE_PATH));
+    }
+
+    /** Empty for a deletion that does not name it. */
+    private static String type(StoredEvent event) {
+        return event.entity() == null
+                ? event.headers().getOrDefault(HeaderNames.ENTITY_TYPE, "")
+                : event.entity().path("type").asText();
     }
 
     /** What is reported replaces what was known of the same attribute, the rest stays. */

@@ -24,7 +24,8 @@ class LatestStateTest {
                     "{\"id\":\"t1\",\"type\":\"Robot\",\"x\":{\"value\":1},\"y\":{\"value\":1,\"metadata\":{\"q\":{}}}}"),
             line("b", 11, "farm", "{\"id\":\"t2\",\"type\":\"Robot\",\"x\":{\"value\":2}}"),
             line("c", 12, "other", "{\"id\":\"t1\",\"type\":\"Robot\",\"x\":{\"value\":3}}"),
-            line("d", 13, "farm", "{\"id\":\"t1\",\"type\":\"Rover\",\"y\":{\"value\":4},\"z\":{\"value\":5}}"),
+            line("r", 12, "farm", "{\"id\":\"t1\",\"type\":\"Rover\",\"w\":{\"value\":7}}"),
+            line("d", 13, "farm", "{\"id\":\"t1\",\"type\":\"Robot\",\"y\":{\"value\":4},\"z\":{\"value\":5}}"),
             "{\"id\":\"e\",\"time\":14,\"headers\":{\"fiware-service\":\"farm\"},\"entityId\":\"t2\",\"entity\":null}",
             line("f", 15, "farm", "{\"id\":\"t2\",\"type\":\"Robot\",\"z\":{\"value\":6}}"));
 
@@ -32,21 +33,22 @@ class LatestStateTest {
     Path folder;
 
     @Test
-    void mergesTheAttributesOfEachEntityAndKeepsTenantsApart() throws Exception {
+    void mergesTheAttributesOfEachEntityAndKeepsTenantsAndTypesApart() throws Exception {
         assertThat(before(14))
                 .extracting(LatestStateTest::text)
                 .containsExactly(
                         "b 11 {\"id\":\"t2\",\"type\":\"Robot\",\"x\":{\"value\":2}}",
                         "c 12 {\"id\":\"t1\",\"type\":\"Robot\",\"x\":{\"value\":3}}",
-                        "d 13 {\"id\":\"t1\",\"type\":\"Rover\",\"x\":{\"value\":1},\"y\":{\"value\":4},\"z\":{\"value\":5}}");
+                        "r 12 {\"id\":\"t1\",\"type\":\"Rover\",\"w\":{\"value\":7}}",
+                        "d 13 {\"id\":\"t1\",\"type\":\"Robot\",\"x\":{\"value\":1},\"y\":{\"value\":4},\"z\":{\"value\":5}}");
     }
 
     @Test
     void forgetsWhatWasKnownBeforeADeletion() throws Exception {
-        assertThat(before(15)).extracting(StoredEvent::id).containsExactly("c", "d");
+        assertThat(before(15)).extracting(StoredEvent::id).containsExactly("c", "r", "d");
         assertThat(before(16))
                 .extracting(LatestStateTest::text)
-                .hasSize(3)
+                .hasSize(4)
                 .contains("f 15 {\"id\":\"t2\",\"type\":\"Robot\",\"z\":{\"value\":6}}");
     }
 

@@ -6,7 +6,7 @@ import io.furrow.model.event.FiwareScope;
  * What was found out about the clock of a device.
  *
  * @param topic the topic that reports the device
- * @param identity tenant, service path and id
+ * @param identity begins with tenant and service path
  * @param id the entity id
  * @param mission the mission it works for; empty if that is not known
  * @param millis of {@link Kind#BEHIND} how much too late the newest position came, of {@link Kind#DELAYED} how long after its time the

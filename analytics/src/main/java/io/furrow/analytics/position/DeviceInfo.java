@@ -11,6 +11,7 @@ import org.apache.flink.core.memory.DataOutputView;
 
 import io.furrow.flink.format.SharedByTasks;
 import io.furrow.flink.format.Text;
+import io.furrow.model.event.FiwareScope;
 
 /**
  * What the positions of a device have in common. Texts are empty, never null, where nothing is known.
@@ -32,6 +33,7 @@ public final class DeviceInfo {
     private final String mission;
     private final String carrier;
     private final byte[] block;
+    private final String name;
 
     private DeviceInfo(Device device, String id, String type, String mission, String carrier, byte[] block) {
         this.device = device;
@@ -40,6 +42,7 @@ public final class DeviceInfo {
         this.mission = mission;
         this.carrier = carrier;
         this.block = block;
+        this.name = FiwareScope.ofIdentity(device.identity()).identity(id);
     }
 
     /**
@@ -47,7 +50,7 @@ public final class DeviceInfo {
      * @param id the entity id
      * @param type the entity type
      * @param mission the mission it works for
-     * @param carrier identity of the device that carries it
+     * @param carrier tenant, service path and id of the device that carries it
      */
     public static DeviceInfo of(Device device, String id, String type, String mission, String carrier) {
         int slot = slot(device.hashCode());
@@ -141,6 +144,10 @@ public final class DeviceInfo {
 
     public String id() {
         return id;
+    }
+
+    String name() {
+        return name;
     }
 
     public String type() {

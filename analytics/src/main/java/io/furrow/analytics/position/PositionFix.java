@@ -63,7 +63,7 @@ public record PositionFix(
         return reporter.device().topic();
     }
 
-    /** Tenant, service path and id: what makes the device unique within the topic. */
+    /** Tenant, service path, type and id: what makes the device unique within the topic. */
     public String identity() {
         return reporter.device().identity();
     }
@@ -113,10 +113,15 @@ public record PositionFix(
                 DeviceInfo.of(device(), id(), type(), mission(), other), latitude, longitude, speed, heading, time);
     }
 
+    /** Tenant, service path and id: as what others name the device, and {@code service.devices}. */
+    public String name() {
+        return reporter.name();
+    }
+
     /** Whether both are parts of one aggregate: one carries the other, or a third carries both. */
     public boolean sharesAggregateWith(PositionFix other) {
         return !carrier().isEmpty()
-                        && (carrier().equals(other.identity()) || carrier().equals(other.carrier()))
-                || !other.carrier().isEmpty() && other.carrier().equals(identity());
+                        && (carrier().equals(other.name()) || carrier().equals(other.carrier()))
+                || !other.carrier().isEmpty() && other.carrier().equals(name());
     }
 }

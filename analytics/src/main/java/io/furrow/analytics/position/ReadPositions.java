@@ -42,7 +42,7 @@ public final class ReadPositions extends ReadEntities<PositionFix> {
     @Override
     protected boolean extract(EntityReader entity, TopicRecord record, Collector<PositionFix> out)
             throws UnreadableException {
-        PositionReading reading = entity.position();
+        PositionReading reading = PositionReading.of(record.headers(), entity::position);
         if (reading instanceof PositionReading.Located located) {
             out.collect(fix(entity, located.position(), record));
             return true;
@@ -62,7 +62,7 @@ public final class ReadPositions extends ReadEntities<PositionFix> {
                 entity.text("carriedBy").or(() -> entity.text("refRobot")).orElse("");
         return new PositionFix(
                 record.topic(),
-                scope.identity(entity.id()),
+                scope.identity(entity.type(), entity.id()),
                 entity.id(),
                 entity.type(),
                 entity.text("Mission").orElse(""),

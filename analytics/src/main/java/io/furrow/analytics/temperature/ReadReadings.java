@@ -59,7 +59,7 @@ final class ReadReadings extends ReadEntities<Reading> {
             return false;
         }
         double value = entity.number(attribute);
-        PositionReading place = entity.position();
+        PositionReading place = PositionReading.of(record.headers(), entity::position);
         if (!(Math.abs(value) <= MAX) || place instanceof PositionReading.Faulty) {
             faulty.inc();
         } else if (place instanceof PositionReading.Located located) {

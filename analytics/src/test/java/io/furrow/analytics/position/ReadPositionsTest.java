@@ -1,6 +1,7 @@
 package io.furrow.analytics.position;
 
 import java.nio.charset.StandardCharsets;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 
@@ -30,7 +31,17 @@ class ReadPositionsTest {
                         .number("speed", 1.5)
                         .number("heading", 270)))
                 .containsExactly(new PositionFix(
-                        "data.raw", "farm|/|r1", "r1", "ROBOT", "hoeing", "farm|/|t1", 40.5, -3.25, 1.5, 270, 1000));
+                        "data.raw",
+                        "farm|/|ROBOT|r1",
+                        "r1",
+                        "ROBOT",
+                        "hoeing",
+                        "farm|/|t1",
+                        40.5,
+                        -3.25,
+                        1.5,
+                        270,
+                        1000));
     }
 
     @Test
@@ -61,12 +72,24 @@ class ReadPositionsTest {
         harness.close();
     }
 
+    @Test
+    void takesNoPositionThatIsOfALaterTimeThanTheEvent() throws Exception {
+        assertThat(read(placed(), Map.of(HeaderNames.LATER_ATTRIBUTES, "temp"))).hasSize(1);
+        assertThat(read(placed(), Map.of(HeaderNames.LATER_ATTRIBUTES, "temp,Longitude")))
+                .isEmpty();
+    }
+
     private static List<PositionFix> read(EntityBuilder entity) throws Exception {
+        return read(entity, Map.of());
+    }
+
+    private static List<PositionFix> read(EntityBuilder entity, Map<String, String> others) throws Exception {
         AheadLimit ahead = AheadLimit.of(ReportedRun.options());
         var harness = ProcessFunctionTestHarnesses.forProcessFunction(new ReadPositions("collision", ahead));
         byte[] key = "r1".getBytes(StandardCharsets.UTF_8);
         byte[] value = entity.build().toBytes();
-        Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
+        Map<String, String> headers = new HashMap<>(others);
+        headers.putAll(Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/"));
         harness.processElement(new TopicRecord("data.raw", 0, 7, 1000, key, value, headers), 1000);
         List<PositionFix> fixes = harness.extractOutputValues();
         harness.close();

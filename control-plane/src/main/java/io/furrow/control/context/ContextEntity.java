@@ -27,6 +27,10 @@ final class ContextEntity {
         return "urn:ngsi-ld:Domain:" + domain;
     }
 
+    static String typeOf(String id) {
+        return id.startsWith(domainId("")) ? DOMAIN : MISSION;
+    }
+
     static String missionId(String mission) {
         return "urn:ngsi-ld:Mission:" + mission;
     }

@@ -33,7 +33,7 @@ final class ContextProjection {
     interface PublicationListener {
         void changed(EntityBuilder entity);
 
-        void deleted(String entityId);
+        void deleted(String type, String entityId);
     }
 
     ContextProjection(ContextRecords records, PublicationListener told) {
@@ -182,7 +182,7 @@ final class ContextProjection {
     private void tellDeleted(String entityId) {
         if (records.told().get(entityId) != null) {
             records.told().put(entityId, null);
-            told.deleted(entityId);
+            told.deleted(ContextEntity.typeOf(entityId), entityId);
         }
     }
 }

@@ -175,10 +175,10 @@ public final class ContextWatch {
         }
 
         @Override
-        public void deleted(String entityId) {
+        public void deleted(String type, String entityId) {
             Instant now = Instant.ofEpochMilli(context.currentSystemTimeMs());
             Map<String, String> headers = new LinkedHashMap<>(
-                    new EntityDeletion(entityId, scope, now, now, Origin.NOTIFICATION).headers(SOURCE));
+                    new EntityDeletion(type, entityId, scope, now, now, Origin.NOTIFICATION).headers(SOURCE));
             headers.remove(HeaderNames.ORIGIN);
             headers.remove(HeaderNames.TS_SOURCE);
             forward(entityId, null, headers, now);

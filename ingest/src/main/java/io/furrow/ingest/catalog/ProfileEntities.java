@@ -43,10 +43,13 @@ public final class ProfileEntities extends KeyedProcessFunction<String, Reported
     public void processElement(ReportedEvent event, Context context, Collector<CatalogEntry> out) throws Exception {
         if (event.isDeletion()) {
             flush(out);
-            for (CatalogEntry entry : counted.values()) {
+            List<CatalogEntry> ended = new ArrayList<>();
+            counted.values().forEach(ended::add);
+            ended.removeIf(entry -> !event.type().isEmpty() && !entry.type().equals(event.type()));
+            for (CatalogEntry entry : ended) {
                 out.collect(entry.onlyEntities(-1));
+                counted.remove(entry.key());
             }
-            counted.clear();
             return;
         }
         CatalogEntry entry = entry(event);

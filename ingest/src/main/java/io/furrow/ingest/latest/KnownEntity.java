@@ -61,6 +61,10 @@ public record KnownEntity(
                 : this;
     }
 
+    KnownEntity ofType(String other) {
+        return new KnownEntity(time, deleted, other, attributes, received);
+    }
+
     /** In normalized form, attributes by name; put together from what is JSON already. */
     byte[] toBytes(String id) {
         StringBuilder json = new StringBuilder("{\"id\":").append(quoted(id));

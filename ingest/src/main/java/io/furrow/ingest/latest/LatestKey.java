@@ -15,13 +15,27 @@ public enum LatestKey {
     /** Tenant, service path and id. */
     IDENTITY;
 
-    String of(ReportedEvent event) {
-        return this == ID ? event.entityId() : event.identity();
+    /** @param otherType of an entity that is not the first of its id; empty for the first */
+    String of(ReportedEvent event, String otherType) {
+        return (this == ID ? event.entityId() : event.identity()) + suffix(otherType);
     }
 
-    /** The identity of the entity of a record with such a key. */
+    /** No id has a space in it. */
+    private static String suffix(String otherType) {
+        return otherType.isEmpty() ? "" : " " + otherType;
+    }
+
+    /** The type of an entity that is not the first of its id; empty for the first. */
+    static String otherTypeOf(TopicRecord latest) {
+        String type = latest.headers().getOrDefault(HeaderNames.ENTITY_TYPE, "");
+        return new String(latest.key(), StandardCharsets.UTF_8).endsWith(suffix(type)) ? type : "";
+    }
+
+    /** The identity, without type, of the entity of a record with such a key. */
     String identityOf(TopicRecord latest) {
-        String key = new String(latest.key(), StandardCharsets.UTF_8);
+        String whole = new String(latest.key(), StandardCharsets.UTF_8);
+        String key =
+                whole.substring(0, whole.length() - suffix(otherTypeOf(latest)).length());
         if (this == IDENTITY) {
             return key;
         }

@@ -1,39 +1,42 @@
 package io.furrow.ingest.latest;
 
-import java.io.IOException;
 import java.time.Duration;
 import java.time.Instant;
+import java.util.List;
 import java.util.Map;
 
 import org.apache.flink.api.common.functions.OpenContext;
-import org.apache.flink.api.common.state.ValueState;
-import org.apache.flink.api.common.state.ValueStateDescriptor;
-import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.streaming.api.TimerService;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.ingest.route.ByType;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
+import static io.furrow.ingest.latest.KnownEntity.NEVER_SEEN;
+
 /**
- * Merges what is reported of an entity into the newest that is known of it; keyed by identity.
+ * Merges what is reported of an entity into the newest that is known of it; keyed by identity, and in it by type.
  *
  * <p>State: the newest value of each attribute and its event time, per entity. Cleared: by its deletion, of which the time
  * alone is kept for as long as older events may still come. Late: changes only attributes of which nothing newer is known, else
- * nothing, counted as {@code outdated}. Emits: the whole entity after each event that changed it; no value after its deletion.
+ * nothing, counted as {@code outdated}. Emits: the whole entity after each event that changed it; no value after its deletion. The first entity of an id has the id as its key; one of
+ * another type has its type behind that, and in a header, so that compaction keeps both.
  */
 public final class MergeLatest extends KeyedProcessFunction<String, ReportedEvent, TopicRecord> {
+    private static final ByType.Descriptor<KnownEntity> ENTITY =
+            new ByType.Descriptor<>("entity", KnownEntity.class, KnownEntity::type);
+
     private static final long serialVersionUID = 1L;
 
     private final long deletionKeptMillis;
     private final LatestKey key;
-    private transient ValueState<KnownEntity> entity;
+    private transient ByType<KnownEntity> entities;
     private transient Counter outdated;
 
     /** @param deletionKept how long after a deletion, in event time, older events may still come */
@@ -44,14 +47,13 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
 
     @Override
     public void open(OpenContext context) {
-        entity = getRuntimeContext()
-                .getState(new ValueStateDescriptor<>("entity", TypeInformation.of(KnownEntity.class)));
+        entities = ENTITY.of(getRuntimeContext());
         outdated = getRuntimeContext().getMetricGroup().counter("outdated");
     }
 
-    /** Whether anything is known of the current key's entity. */
-    boolean knows() throws IOException {
-        return entity.value() != null;
+    /** Whether anything is known of an entity of the current key's id. */
+    boolean knows() throws Exception {
+        return !entities.isEmpty();
     }
 
     /**
@@ -59,22 +61,23 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
      * that all count as of the newest. What is from the future counts as of long ago, or nothing that is reported would count any more.
      *
      * @param newest the latest time that is believed, epoch ms
-     * @throws UnreadableException if its value is no entity
+     * @throws io.furrow.model.ngsi.UnreadableException if its value is no entity
      */
-    void begin(TopicRecord latest, long newest, TimerService timers) throws IOException, UnreadableException {
+    void begin(TopicRecord latest, long newest, TimerService timers) throws Exception {
         long time = latest.timestamp() <= newest ? latest.timestamp() : 0;
-        KnownEntity before = entity.value();
+        String other = LatestKey.otherTypeOf(latest);
+        KnownEntity before = other.isEmpty() ? entities.first() : entities.get(other);
         if (before != null && before.time() > time) {
             return; // brought to the topic once more
         }
         KnownEntity known = latest.value() == null
-                ? KnownEntity.NEVER_SEEN.withoutAnything(time)
-                : KnownEntity.NEVER_SEEN.with(Entity.parse(latest.value()), time, time);
-        remember(known, timers);
+                ? NEVER_SEEN.withoutAnything(time).ofType(before == null ? other : before.type())
+                : NEVER_SEEN.with(Entity.parse(latest.value()), time, time);
+        entities.put(other.isEmpty(), known);
+        await(known, timers);
     }
 
-    private void remember(KnownEntity known, TimerService timers) throws IOException {
-        entity.update(known);
+    private void await(KnownEntity known, TimerService timers) {
         if (known.deleted()) {
             timers.registerEventTimeTimer(known.time() + deletionKeptMillis);
         }
@@ -82,26 +85,41 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
 
     @Override
     public void processElement(ReportedEvent event, Context context, Collector<TopicRecord> out) throws Exception {
-        KnownEntity known = entity.value() == null ? KnownEntity.NEVER_SEEN : entity.value();
-        KnownEntity merged = event.isDeletion()
-                ? known.withoutAnything(event.time())
-                : known.with(Entity.parse(event.record().value()), event.time(), event.received());
+        if (event.isDeletion()) {
+            List<KnownEntity> ended = entities.allOf(event.type());
+            for (KnownEntity known : ended.isEmpty() ? List.of(NEVER_SEEN.ofType(event.type())) : ended) {
+                take(event, known, known.withoutAnything(event.time()), context.timerService(), out);
+            }
+        } else {
+            KnownEntity known = entities.get(event.type());
+            KnownEntity before = known == null ? NEVER_SEEN : known;
+            Entity reported = Entity.parse(event.record().value());
+            KnownEntity merged = before.with(reported, event.time(), event.received());
+            take(event, before, merged, context.timerService(), out);
+        }
+    }
+
+    private void take(
+            ReportedEvent event, KnownEntity known, KnownEntity merged, TimerService timers, Collector<TopicRecord> out)
+            throws Exception {
         if (merged == known) {
             outdated.inc();
             return;
         }
-        remember(merged, context.timerService());
-        out.collect(latest(event, merged));
+        boolean isOther = entities.put(merged.type(), merged);
+        await(merged, timers);
+        out.collect(latest(event, merged, isOther ? merged.type() : ""));
     }
 
     /** Of an event that came late the record has the time of the newest, so that time never steps back. */
-    private TopicRecord latest(ReportedEvent event, KnownEntity merged) {
-        TopicRecord record = TopicRecord.of(
+    private TopicRecord latest(ReportedEvent event, KnownEntity merged, String otherType) {
+        TopicRecord latest = TopicRecord.of(
                 Topics.LATEST,
                 merged.time(),
-                key.of(event),
+                key.of(event, otherType),
                 merged.deleted() ? null : merged.toBytes(event.entityId()),
                 event.record().headers());
+        TopicRecord record = otherType.isEmpty() ? latest : latest.with(HeaderNames.ENTITY_TYPE, otherType);
         return merged.time() == event.time()
                 ? record
                 : record.with(Map.of(
@@ -111,15 +129,13 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
 
     @Override
     public void onTimer(long timestamp, OnTimerContext context, Collector<TopicRecord> out) throws Exception {
-        KnownEntity known = entity.value();
-        if (known == null || !known.deleted()) {
-            return;
-        }
-        long until = known.time() + deletionKeptMillis;
-        if (until <= timestamp) {
-            entity.clear();
-        } else { // set when a deletion was remembered for less long
-            context.timerService().registerEventTimeTimer(until);
+        for (KnownEntity known : entities.allOf("")) {
+            long until = known.time() + deletionKeptMillis;
+            if (known.deleted() && until <= timestamp) {
+                entities.remove(known);
+            } else { // of another entity, or set when a deletion was remembered for less long
+                await(known, context.timerService());
+            }
         }
     }
 }

@@ -14,6 +14,7 @@ import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.EntityRecord;
+import io.furrow.model.event.EventTime;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.NotificationRules;
@@ -39,7 +40,7 @@ public final class NormalizeNotifications extends ProcessFunction<TopicRecord, T
     private final Settings settings;
     private transient Counter accepted;
     private transient Counter excluded;
-    private transient Counter clockAhead;
+    private transient Map<EventTime.Fault, Counter> faults;
     private transient DeadCounters dead;
 
     NormalizeNotifications(Settings settings) {
@@ -51,7 +52,10 @@ public final class NormalizeNotifications extends ProcessFunction<TopicRecord, T
         MetricGroup metrics = getRuntimeContext().getMetricGroup();
         accepted = metrics.counter("accepted");
         excluded = metrics.counter("excluded");
-        clockAhead = metrics.counter("clockAhead");
+        faults = Map.of(
+                EventTime.Fault.AHEAD, metrics.counter("clockAhead"),
+                EventTime.Fault.UNSET, metrics.counter("clockUnset"),
+                EventTime.Fault.UNREADABLE, metrics.counter("unreadableTime"));
         dead = new DeadCounters(metrics);
     }
 
@@ -87,8 +91,8 @@ public final class NormalizeNotifications extends ProcessFunction<TopicRecord, T
             return;
         }
         EntityRecord translated = settings.rules().record(entity, scope(record), received(record), source);
-        if (translated.clockAhead()) {
-            clockAhead.inc();
+        if (translated.fault() != null) {
+            faults.get(translated.fault()).inc();
         }
         TopicRecord event = TopicRecord.of(
                 settings.output(),

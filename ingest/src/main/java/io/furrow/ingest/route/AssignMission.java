@@ -3,12 +3,11 @@ package io.furrow.ingest.route;
 import java.io.IOException;
 import java.io.Serializable;
 import java.time.Duration;
+import java.util.List;
 import java.util.Optional;
 
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.api.common.state.MapStateDescriptor;
-import org.apache.flink.api.common.state.ValueState;
-import org.apache.flink.api.common.state.ValueStateDescriptor;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.streaming.api.functions.co.KeyedBroadcastProcessFunction;
@@ -22,17 +21,21 @@ import io.furrow.model.device.DeviceVersion;
 /**
  * Assigns each event to a domain and a mission: as its attributes say, else as {@code service.devices} said of the
  * entity at the event's time, else as configured. A deletion, which names nothing, goes where the entity's newest
- * event went.
+ * event went; one that names no type ends all entities of the id.
  *
- * <p>State: the newest route per entity; every device's versions, the same at each subtask. Cleared: the route by the
+ * <p>State: the newest route per entity, by type; every device's versions, the same at each subtask. Cleared: the route by the
  * deletion, versions when they ended longer ago than they are kept. Late: an event is assigned as of its own time, and does
- * not change the route of a newer one. Emits: every event once.
+ * not change the route of a newer one. Emits: every event
+ * once, a deletion of several entities once for each.
  */
 public final class AssignMission
         extends KeyedBroadcastProcessFunction<String, ReportedEvent, DeviceChange, ReportedEvent> {
     /** The devices, by identity. */
     public static final MapStateDescriptor<String, DeviceHistory> DEVICES =
             new MapStateDescriptor<>("devices", Types.STRING, TypeInformation.of(DeviceHistory.class));
+
+    private static final ByType.Descriptor<KnownRoute> ROUTE =
+            new ByType.Descriptor<>("route", KnownRoute.class, KnownRoute::type);
 
     private static final long serialVersionUID = 1L;
 
@@ -46,7 +49,7 @@ public final class AssignMission
 
     private final DeviceLookup<DeviceHistory> devices;
     private final Rule rule;
-    private transient ValueState<KnownRoute> route;
+    private transient ByType<KnownRoute> routes;
 
     public AssignMission(TopicSnapshot devicesAtStart, Rule rule) {
         this.devices = new DeviceLookup<>(devicesAtStart, rule.kept(), new DeviceHistory.Form());
@@ -56,32 +59,45 @@ public final class AssignMission
     /** Reads what is known of devices before the first event comes, here and after each restart. */
     @Override
     public void open(OpenContext context) throws IOException {
-        route = getRuntimeContext().getState(new ValueStateDescriptor<>("route", TypeInformation.of(KnownRoute.class)));
+        routes = ROUTE.of(getRuntimeContext());
         devices.open();
     }
 
     @Override
     public void processElement(ReportedEvent event, ReadOnlyContext context, Collector<ReportedEvent> out)
             throws Exception {
-        out.collect(event.isDeletion() ? deleted(event, context) : assigned(event, context));
+        if (event.isDeletion()) {
+            deleted(event, context, out);
+        } else {
+            out.collect(assigned(event, context));
+        }
     }
 
     private ReportedEvent assigned(ReportedEvent event, ReadOnlyContext context) throws Exception {
         ReportedEvent assigned =
                 event.domain().isEmpty() || event.mission().isEmpty() ? completed(event, context) : event;
-        KnownRoute known = route.value();
+        KnownRoute known = routes.get(event.type());
         if (known == null || known.time() <= event.time()) {
-            route.update(new KnownRoute(assigned.domain(), assigned.mission(), event.time(), event.received()));
+            routes.put(
+                    event.type(),
+                    new KnownRoute(
+                            event.type(), assigned.domain(), assigned.mission(), event.time(), event.received()));
         }
         return assigned;
     }
 
-    private ReportedEvent deleted(ReportedEvent event, ReadOnlyContext context) throws Exception {
-        KnownRoute known = route.value();
-        if (known != null && Math.min(known.time(), known.received()) <= event.time()) {
-            route.clear();
+    private void deleted(ReportedEvent event, ReadOnlyContext context, Collector<ReportedEvent> out) throws Exception {
+        List<KnownRoute> ended = routes.allOf(event.type());
+        if (ended.isEmpty()) {
+            out.collect(completed(event, context));
         }
-        return known == null ? completed(event, context) : event.belongingTo(known.domain(), known.mission());
+        for (KnownRoute known : ended) {
+            if (Math.min(known.time(), known.received()) <= event.time()) {
+                routes.remove(known);
+            }
+            ReportedEvent deletion = ended.size() > 1 ? event.deletionOf(known.type()) : event;
+            out.collect(deletion.belongingTo(known.domain(), known.mission()));
+        }
     }
 
     /** A mission that is known of a device is one of its domain: an event that names another domain does not get it. */

@@ -87,8 +87,9 @@ public final class RecognizeEvents extends ProcessFunction<TopicRecord, Reported
         String entityId = new String(record.key(), StandardCharsets.UTF_8);
         String known = knownId(record);
         Instant time = Instant.ofEpochMilli(record.timestamp());
-        String id = known == null ? new EntityDeletion(entityId, scope, time, time, Origin.KAFKA).id() : known;
+        String type = record.headers().getOrDefault(HeaderNames.ENTITY_TYPE, "");
+        String id = known == null ? new EntityDeletion(type, entityId, scope, time, time, Origin.KAFKA).id() : known;
         TopicRecord deletion = known == null ? record.with(HeaderNames.CE_ID, id) : record;
-        return new ReportedEvent(id, scope.identity(entityId), entityId, "", "", "", deletion);
+        return new ReportedEvent(id, scope.identity(entityId), entityId, type, "", "", deletion);
     }
 }

@@ -1,15 +1,21 @@
 package io.furrow.ingest.route;
 
+import java.time.Instant;
+import java.util.Map;
+
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.model.event.EntityDeletion;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.event.Origin;
 
 /**
  * An event as the stages of {@code ingest} see it: a change of an entity, or its deletion.
  *
  * @param id event id
- * @param identity tenant, service path and entity id; the key of all state
+ * @param identity tenant, service path and entity id: the key of all state, in which entities of several types are told apart
  * @param entityId id of the entity
- * @param type type of the entity; empty for a deletion, which does not name it
+ * @param type type of the entity; empty for a deletion that does not name it, which ends all entities of the id
  * @param domain empty if there is none
  * @param mission empty if there is none
  * @param record as it was read; null as its value for a deletion
@@ -39,6 +45,16 @@ public record ReportedEvent(
     /** The same event with what was found out of its domain and mission. */
     public ReportedEvent belongingTo(String itsDomain, String itsMission) {
         return new ReportedEvent(id, identity, entityId, type, itsDomain, itsMission, record);
+    }
+
+    /** Of a deletion of all entities of an id: that of the one of this type. */
+    ReportedEvent deletionOf(String its) {
+        Map<String, String> headers = record.headers();
+        FiwareScope scope = FiwareScope.of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH));
+        Instant time = Instant.ofEpochMilli(time());
+        String itsId = new EntityDeletion(its, entityId, scope, time, time, Origin.KAFKA).id();
+        TopicRecord deletion = record.with(Map.of(HeaderNames.CE_ID, itsId, HeaderNames.ENTITY_TYPE, its));
+        return new ReportedEvent(itsId, identity, entityId, its, domain, mission, deletion);
     }
 
     /** The same event as another record, for instance with a reference where an image was. */

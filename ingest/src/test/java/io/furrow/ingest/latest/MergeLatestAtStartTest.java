@@ -89,7 +89,7 @@ class MergeLatestAtStartTest {
 
     @Test
     void knowsWhatWasDeletedAndForgetsItInTime() throws Exception {
-        run(null, report("robot", 100, robot("robot").number("speed", 2)), event("robot", 200, null));
+        run(null, report("robot", 100, robot("robot").number("speed", 2)), deletion("robot", 200));
 
         try (var operator = open(null, 0, 1)) {
             process(operator, report("robot", 150, robot("robot").number("speed", 1)));
@@ -98,6 +98,26 @@ class MergeLatestAtStartTest {
             assertThat(operator.numKeyedStateEntries()).isZero();
             assertThat(operator.numEventTimeTimers()).isZero();
         }
+    }
+
+    @Test
+    void knowsWhichOfSeveralTypesHasTheIdAsItsKey() throws Exception {
+        run(
+                null,
+                report("e-13", 100, Entity.builder("e-13", "Valve").number("level", 1)),
+                report("e-13", 100, Entity.builder("e-13", "Pump").number("level", 2)));
+        topic.remove(0);
+        topic.add(topic.remove(0)); // the valve reports nothing more, compaction keeps the order of the newest
+
+        List<TopicRecord> written = run(
+                null,
+                report("e-13", 200, Entity.builder("e-13", "Pump").number("rate", 3)),
+                report("e-13", 200, Entity.builder("e-13", "Valve").number("rate", 4)));
+
+        assertThat(written)
+                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .containsExactly("e-13 Pump", "e-13");
+        assertThat(Entity.parse(written.get(0).value()).number("level")).contains(2.0);
     }
 
     @Test
@@ -192,14 +212,18 @@ class MergeLatestAtStartTest {
     }
 
     private static ReportedEvent report(String id, long time, EntityBuilder entity) {
-        return event(id, time, entity.toBytes());
+        return event(id, entity.type(), time, entity.toBytes());
     }
 
-    private static ReportedEvent event(String id, long time, byte[] value) {
+    private static ReportedEvent deletion(String id, long time) {
+        return event(id, "", time, null);
+    }
+
+    private static ReportedEvent event(String id, String type, long time, byte[] value) {
         Map<String, String> headers =
                 Map.of(HeaderNames.CE_ID, "e" + time, HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
         TopicRecord record = TopicRecord.of(Topics.RAW, time, id, value, headers);
-        return new ReportedEvent("e" + time, "farm|/|" + id, id, "Robot", "", "", record);
+        return new ReportedEvent("e" + time, "farm|/|" + id, id, type, "", "", record);
     }
 
     private static byte[] utf8(String text) {

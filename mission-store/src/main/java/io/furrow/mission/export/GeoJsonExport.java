@@ -67,7 +67,8 @@ public final class GeoJsonExport implements MissionExport {
         if (event.entity() == null) {
             return Optional.empty();
         }
-        PositionReading reading = PositionReading.of(new Entity(event.entity()));
+        PositionReading reading =
+                PositionReading.of(event.headers(), () -> PositionReading.of(new Entity(event.entity())));
         if (reading instanceof PositionReading.Faulty faulty) {
             return Optional.of(faulty.fault());
         }
@@ -75,11 +76,10 @@ public final class GeoJsonExport implements MissionExport {
         if (position.isPresent()) {
             FiwareScope scope = FiwareScope.of(
                     event.headers().get(HeaderNames.SERVICE), event.headers().get(HeaderNames.SERVICE_PATH));
-            tracks.computeIfAbsent(scope.identity(event.entityId()), ignored -> new Track(event.entityId(), scope))
-                    .add(
-                            event.time(),
-                            position.get(),
-                            event.entity().path("type").asText("Thing"));
+            String type = event.entity().path("type").asText("Thing");
+            tracks.computeIfAbsent(
+                            scope.identity(type, event.entityId()), ignored -> new Track(event.entityId(), scope))
+                    .add(event.time(), position.get(), type);
         }
         return Optional.empty();
     }

@@ -60,7 +60,7 @@ public final class McapExport implements MissionExport {
         private final Map<String, Integer> schemas = new HashMap<>();
         /** By identity and type. */
         private final Map<String, Integer> byEntity = new HashMap<>();
-        /** By identity; a deletion names no type. */
+        /** By tenant, service path and id; a deletion may name no type. */
         private final Map<String, String> types = new HashMap<>();
 
         Channels(String mission, McapWriter file) {
@@ -76,7 +76,7 @@ public final class McapExport implements MissionExport {
                     event.headers().get(HeaderNames.SERVICE), event.headers().get(HeaderNames.SERVICE_PATH));
             String identity = scope.identity(event.entityId());
             String type = event.entity() == null
-                    ? types.getOrDefault(identity, "Thing")
+                    ? event.headers().getOrDefault(HeaderNames.ENTITY_TYPE, types.getOrDefault(identity, "Thing"))
                     : event.entity().path("type").asText("Thing");
             types.put(identity, type);
             String key = type + "|" + identity;

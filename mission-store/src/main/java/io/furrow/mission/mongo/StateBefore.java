@@ -182,17 +182,16 @@ final class StateBefore {
         return Optional.empty();
     }
 
-    /** The state of an entity, of which tenants may have one each; empty where its newest events do not say it. */
+    /** The state of an id, of which tenants and types may have one entity each; empty where its newest events do not say it. */
     private static Optional<List<StoredEvent>> settled(Newest newest, Optional<StoredEvent> oldest) {
         List<StoredEvent> events = newest.events();
         boolean settled = newest.all()
-                || isOfOneTenant(events, oldest) && (hasDeletion(events) || isWhole(events, oldest.orElseThrow()));
+                || isOfOneEntity(events, oldest) && (hasDeletion(events) || isWhole(events, oldest.orElseThrow()));
         return settled ? Optional.of(LatestState.of(events)) : Optional.empty();
     }
 
-    private static boolean isOfOneTenant(List<StoredEvent> events, Optional<StoredEvent> oldest) {
-        return oldest.isPresent()
-                && events.stream().map(LatestState::identity).allMatch(LatestState.identity(oldest.get())::equals);
+    private static boolean isOfOneEntity(List<StoredEvent> events, Optional<StoredEvent> oldest) {
+        return oldest.isPresent() && events.stream().allMatch(event -> LatestState.isOfOneEntity(event, oldest.get()));
     }
 
     private static boolean hasDeletion(List<StoredEvent> events) {

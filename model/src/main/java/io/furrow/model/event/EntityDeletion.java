@@ -13,11 +13,13 @@ import io.furrow.model.time.Instants;
  * The end of an entity as a source passes it on: key = the entity's id, no value, record timestamp = {@code time}, headers =
  * {@link #headers(String)}.
  *
+ * @param type of the entity; empty if it is not known: then all entities of the id end
  * @param time when the entity was deleted if the context broker reports it, else when the source learned of it; whole
  *     milliseconds. Never the time of the entity's last values: a deletion is newer than they are.
  * @param received when the source learned of it
  */
-public record EntityDeletion(String entityId, FiwareScope scope, Instant time, Instant received, Origin origin) {
+public record EntityDeletion(
+        String type, String entityId, FiwareScope scope, Instant time, Instant received, Origin origin) {
     /** Whole milliseconds: what a record timestamp can hold, so that all copies of the time agree. */
     public EntityDeletion {
         time = time.truncatedTo(ChronoUnit.MILLIS);
@@ -30,12 +32,12 @@ public record EntityDeletion(String entityId, FiwareScope scope, Instant time, I
                 .flatMap(Instants::of)
                 .filter(at -> !at.isAfter(received.plus(maxSkew)))
                 .orElse(received);
-        return new EntityDeletion(deleted.id(), scope, time, received, origin);
+        return new EntityDeletion(deleted.type(), deleted.id(), scope, time, received, origin);
     }
 
     /** Equal for every copy of the same deletion, and of no change of the entity. */
     public String id() {
-        return EventId.ofDeletion(scope, entityId, time);
+        return EventId.ofDeletion(scope, type, entityId, time);
     }
 
     /** The headers of {@link HeaderNames} in a fixed order; {@code source} becomes {@code ce_source}. */
@@ -48,6 +50,9 @@ public record EntityDeletion(String entityId, FiwareScope scope, Instant time, I
         headers.put(HeaderNames.CE_TYPE, HeaderNames.TYPE_DELETED);
         headers.put(HeaderNames.SERVICE, scope.service());
         headers.put(HeaderNames.SERVICE_PATH, scope.servicePath());
+        if (!type.isEmpty()) {
+            headers.put(HeaderNames.ENTITY_TYPE, type);
+        }
         headers.put(HeaderNames.ORIGIN, origin.code());
         headers.put(HeaderNames.TS_DEVICE, Long.toString(time.toEpochMilli()));
         headers.put(HeaderNames.TS_SOURCE, Long.toString(received.toEpochMilli()));

@@ -3,8 +3,10 @@ package io.furrow.model.event;
 import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.Map;
+import java.util.stream.Collectors;
 
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.time.Instants;
 
 /**
  * A change of an entity as a source passes it on: key = {@link Entity#id()}, value = {@link Entity#toBytes()}, record
@@ -13,6 +15,8 @@ import io.furrow.model.ngsi.Entity;
  * @param received when the source had it
  */
 public record EntityEvent(Entity entity, FiwareScope scope, EventTime time, Instant received, Origin origin) {
+    private static final String TIME_INSTANT = "TimeInstant";
+
     /** An event whose time is read from the entity, see {@link EventTimeRule}. */
     public static EntityEvent of(
             Entity entity, FiwareScope scope, Instant received, EventTimeRule rule, Origin origin) {
@@ -33,9 +37,28 @@ public record EntityEvent(Entity entity, FiwareScope scope, EventTime time, Inst
         headers.put(HeaderNames.CE_TYPE, HeaderNames.TYPE_CHANGED);
         headers.put(HeaderNames.SERVICE, scope.service());
         headers.put(HeaderNames.SERVICE_PATH, scope.servicePath());
+        String later = laterAttributes();
+        if (!later.isEmpty()) {
+            headers.put(HeaderNames.LATER_ATTRIBUTES, later);
+        }
         headers.put(HeaderNames.ORIGIN, origin.code());
         headers.put(HeaderNames.TS_DEVICE, Long.toString(time.time().toEpochMilli()));
         headers.put(HeaderNames.TS_SOURCE, Long.toString(received.toEpochMilli()));
         return headers;
+    }
+
+    /** The IoT Agent stamps each attribute and the entity with the time of the measure, and merging keeps newer attributes. */
+    private String laterAttributes() {
+        Instant measured = entity.value(TIME_INSTANT).flatMap(Instants::of).orElse(Instant.MAX);
+        return entity.attributes().stream()
+                .filter(attribute -> Instants.of(attribute
+                                .getValue()
+                                .path("metadata")
+                                .path(TIME_INSTANT)
+                                .path("value"))
+                        .filter(measured::isBefore)
+                        .isPresent())
+                .map(Map.Entry::getKey)
+                .collect(Collectors.joining(","));
     }
 }

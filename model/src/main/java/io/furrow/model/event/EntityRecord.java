@@ -9,6 +9,7 @@ import java.util.Map;
  * @param key id of the entity
  * @param value the entity in normalized JSON; null if it was deleted
  * @param time of the event, the record's timestamp
- * @param clockAhead whether the reported time was too far ahead, so that {@code time} is that of the receipt
+ * @param fault what is wrong with the time that the device gives; null if nothing is
  */
-public record EntityRecord(String key, byte[] value, Instant time, Map<String, String> headers, boolean clockAhead) {}
+public record EntityRecord(
+        String key, byte[] value, Instant time, Map<String, String> headers, EventTime.Fault fault) {}

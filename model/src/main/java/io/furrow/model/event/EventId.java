@@ -17,9 +17,9 @@ import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.time.Instants;
 
 /**
- * The id of an event: the first 128 bits of a SHA-256 over tenant, service path, entity id, event time, the sorted attribute name
+ * The id of an event: the first 128 bits of a SHA-256 over tenant, service path, entity type and id, event time, the sorted attribute name
  * and value pairs and, if present, the entity's {@code dateModified}, in lower-case hexadecimal. So three changes that turn
- * something on, off and on again under one time of the device are three events. Types, metadata, other built-ins, the order of
+ * something on, off and on again under one time of the device are three events. Types of attributes, metadata, other built-ins, the order of
  * attributes and the way a number is written (18, 18.0, 1.8e1) make no difference, because they differ between notifications of one
  * change.
  */
@@ -34,7 +34,7 @@ public final class EventId {
         List<Map.Entry<String, JsonNode>> attributes = entity.attributes();
         attributes.sort(Map.Entry.comparingByKey());
         Parts parts = new Parts();
-        parts.addEvent(scope, entity.id(), eventTime);
+        parts.addEvent(scope, entity.type(), entity.id(), eventTime);
         for (Map.Entry<String, JsonNode> attribute : attributes) {
             parts.addAttribute(attribute.getKey(), attribute.getValue().path("value"));
         }
@@ -47,7 +47,7 @@ public final class EventId {
         List<EntityBuilder.Attribute> attributes = entity.attributes();
         attributes.sort(Comparator.comparing(EntityBuilder.Attribute::name));
         Parts parts = new Parts();
-        parts.addEvent(scope, entity.id(), eventTime);
+        parts.addEvent(scope, entity.type(), entity.id(), eventTime);
         for (EntityBuilder.Attribute attribute : attributes) {
             parts.addAttribute(attribute.name(), attribute.value());
             if (attribute.name().equals(Entity.MODIFIED)) {
@@ -57,10 +57,14 @@ public final class EventId {
         return parts.digest();
     }
 
-    /** The id of a deletion: no change of the same entity at the same time has it. */
-    static String ofDeletion(FiwareScope scope, String entityId, Instant eventTime) {
+    /**
+     * The id of a deletion: no change of the same entity at the same time has it.
+     *
+     * @param type empty if it is not known
+     */
+    static String ofDeletion(FiwareScope scope, String type, String entityId, Instant eventTime) {
         Parts parts = new Parts();
-        parts.addEvent(scope, entityId, eventTime);
+        parts.addEvent(scope, type, entityId, eventTime);
         parts.add("deleted");
         return parts.digest();
     }
@@ -84,9 +88,10 @@ public final class EventId {
         private final StringBuilder text = new StringBuilder(TYPICAL_LENGTH);
         private String modified = "";
 
-        void addEvent(FiwareScope scope, String entityId, Instant eventTime) {
+        void addEvent(FiwareScope scope, String type, String entityId, Instant eventTime) {
             addText(scope.service());
             addText(scope.servicePath());
+            addText(type);
             addText(entityId);
             text.append(eventTime.toEpochMilli());
         }

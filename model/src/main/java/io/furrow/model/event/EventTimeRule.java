@@ -27,7 +27,7 @@ public record EventTimeRule(List<Source> order, Duration maxSkew) implements Ser
 
     /** Where a time is read from. */
     public enum Source {
-        /** {@code Time} (epoch ms), else {@code TimeInstant}, {@code dateObserved}, {@code timestamp} (ISO 8601 or epoch ms). */
+        /** {@code Time} (epoch ms), else {@code TimeInstant}, {@code dateObserved}, {@code timestamp} (see {@link Instants}). */
         DEVICE,
         /**
          * The newest metadata {@code dateModified} of an attribute. Metadata {@code TimeInstant} is none: the context broker keeps
@@ -55,6 +55,13 @@ public record EventTimeRule(List<Source> order, Duration maxSkew) implements Ser
                             .max(Instant::compareTo);
                 case ENTITY -> entity.value(Entity.MODIFIED).flatMap(Instants::of);
             };
+        }
+
+        /** Whether the device gives a time, of whatever form. */
+        boolean isNamed(Entity entity) {
+            return DEVICE_TIMES.stream()
+                    .flatMap(name -> entity.value(name).stream())
+                    .anyMatch(value -> value.isContainerNode() || !value.isNull() && !value.asText().isBlank());
         }
 
         private static Stream<Instant> modified(JsonNode attribute) {

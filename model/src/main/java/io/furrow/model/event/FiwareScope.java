@@ -1,7 +1,8 @@
 package io.furrow.model.event;
 
 /**
- * Where an entity lives in the context broker: its tenant and service path. The same id in two scopes is two entities.
+ * Where an entity lives in the context broker: its tenant and service path. The same id in two scopes, or with two types in one, is
+ * two entities.
  *
  * @param service header {@code fiware-service}, lower case; empty for the default tenant
  * @param servicePath header {@code fiware-servicepath}, {@code /} for the root
@@ -16,9 +17,14 @@ public record FiwareScope(String service, String servicePath) {
         return new FiwareScope(tenant, path);
     }
 
-    /** Tenant, service path and id in one text, for keyed state; no two entities share one. */
+    /** Tenant, service path and id in one text: the key of a device on {@code service.devices}, whatever its type. */
     public String identity(String entityId) {
         return escaped(service) + "|" + escaped(servicePath) + "|" + entityId;
+    }
+
+    /** The same of an entity: an id alone is not unique, entities of several types may share one. */
+    public String identity(String type, String entityId) {
+        return escaped(service) + "|" + escaped(servicePath) + "|" + escaped(type) + "|" + entityId;
     }
 
     /** The scope of which {@link #identity} made this text. */

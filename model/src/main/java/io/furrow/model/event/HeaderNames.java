@@ -13,6 +13,12 @@ public final class HeaderNames {
     public static final String CE_TYPE = "ce_type";
     public static final String SERVICE = "fiware-service";
     public static final String SERVICE_PATH = "fiware-servicepath";
+    /** Type of the entity that a record without a value deletes; all entities of the id end where it is missing. */
+    public static final String ENTITY_TYPE = "entity-type";
+
+    /** Names of attributes that are of a later time than the event, as of a measure that a device sends afterwards; with commas. */
+    public static final String LATER_ATTRIBUTES = "later-attributes";
+
     public static final String ORIGIN = "origin";
     /** The event's own time. */
     public static final String TS_DEVICE = "ts-device";

@@ -44,7 +44,7 @@ public record NotificationRules(String name, List<Pattern> excluded, EventTimeRu
     public EntityRecord record(Entity entity, FiwareScope scope, Instant received, String source) {
         if (entity.isDeleted()) {
             EntityDeletion deletion = EntityDeletion.of(entity, scope, received, times.maxSkew(), origin);
-            return new EntityRecord(entity.id(), null, deletion.time(), deletion.headers(source), false);
+            return new EntityRecord(entity.id(), null, deletion.time(), deletion.headers(source), null);
         }
         EntityEvent event = EntityEvent.of(entity, scope, received, times, origin);
         return new EntityRecord(
@@ -52,6 +52,6 @@ public record NotificationRules(String name, List<Pattern> excluded, EventTimeRu
                 entity.toBytes(),
                 event.time().time(),
                 event.headers(source),
-                event.time().basis() == EventTime.Basis.RECEIPT_FOR_FUTURE);
+                event.time().fault());
     }
 }

@@ -89,7 +89,7 @@ public final class EntityBuilder {
         return id;
     }
 
-    String type() {
+    public String type() {
         return type;
     }
 

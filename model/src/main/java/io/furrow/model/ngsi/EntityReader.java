@@ -174,7 +174,7 @@ public final class EntityReader {
             return tree.value(attribute).flatMap(Instants::of);
         }
         String text = value(attribute).textOrNull();
-        return text == null ? Instants.ofMillis(value(attribute).numberOrNaN()) : Instants.ofText(text);
+        return text == null ? Instants.ofNumber(value(attribute).numberOrNaN()) : Instants.ofText(text);
     }
 
     private AttributeValue value(String attribute) {

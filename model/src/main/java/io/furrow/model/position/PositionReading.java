@@ -1,10 +1,14 @@
 package io.furrow.model.position;
 
+import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
+import java.util.function.Supplier;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 
 /**
@@ -24,6 +28,13 @@ public sealed interface PositionReading {
 
     /** The entity has a position that cannot be right; {@code fault} says why. */
     record Faulty(String fault) implements PositionReading {}
+
+    /** Of an event with these headers: none where a part of the position is of a later time than the event. */
+    static PositionReading of(Map<String, String> headers, Supplier<PositionReading> reading) {
+        String later = headers.get(HeaderNames.LATER_ATTRIBUTES);
+        boolean isLater = later != null && Stream.of(later.split(",")).anyMatch(ATTRIBUTES::contains);
+        return isLater ? new Absent() : reading.get();
+    }
 
     static PositionReading of(Entity entity) {
         Optional<JsonNode> location = entity.value("location");

@@ -12,18 +12,30 @@ import java.time.format.ResolverStyle;
 import java.time.temporal.TemporalAccessor;
 import java.util.Locale;
 import java.util.Optional;
+import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
 /**
- * Instants as devices send them: epoch milliseconds, a date and time of ISO 8601 (without offset it is UTC, as NGSI-v2 has it),
- * the start of an ISO 8601 interval, or the digits of epoch milliseconds. Never before 1970.
+ * Instants as devices send them: a number since 1970, or its digits; a date and time of ISO 8601 (without offset it is UTC, as
+ * NGSI-v2 has it) and what is written nearly so, see {@link OtherTimes}; the start of an ISO 8601 interval. Never before 1970.
+ *
+ * <p>A number's size says its unit: of 1e9 to 1e11 it is seconds (2001 to 5138), up to 1e14 milliseconds, up to 1e17
+ * microseconds, then nanoseconds; below 1e9 milliseconds.
  */
 public final class Instants {
-    /** The year 33658: 15 digits of milliseconds. What is later is no time. */
-    private static final double LATEST_MILLIS = 999_999_999_999_999d;
+    private static final double LEAST_SECONDS = 1e9;
+    private static final double LEAST_MILLIS = 1e11;
+    private static final double LEAST_MICROS = 1e14;
+    private static final double LEAST_NANOS = 1e17;
+    private static final double END_OF_NANOS = 1e20;
+    private static final int MILLIS_PER_SECOND = 1000;
+    private static final int NANOS_PER_MILLI = 1_000_000;
 
-    private static final int MAX_DIGITS = 15;
+    /** The years up to 33658. */
+    private static final long LATEST_SECOND = 999_999_999_999L;
+
+    private static final Pattern FRACTION = Pattern.compile("([.]\\d{1,9})?");
 
     private static final DateTimeFormatter ISO = new DateTimeFormatterBuilder()
             .append(DateTimeFormatter.ISO_LOCAL_DATE_TIME)
@@ -38,29 +50,46 @@ public final class Instants {
     public static Optional<Instant> of(JsonNode value) {
         return value.isTextual()
                 ? ofText(value.textValue())
-                : ofMillis(value.isNumber() ? value.doubleValue() : Double.NaN);
+                : ofNumber(value.isNumber() ? value.doubleValue() : Double.NaN);
     }
 
-    public static Optional<Instant> ofMillis(double millis) {
-        return Math.abs(millis) <= LATEST_MILLIS ? sinceEpoch(Instant.ofEpochMilli((long) millis)) : Optional.empty();
+    /** The instant of a number since 1970; empty if it is NaN, negative or too large. */
+    public static Optional<Instant> ofNumber(double number) {
+        if (!(number >= 0 && number < END_OF_NANOS)) {
+            return Optional.empty();
+        }
+        double millis = number;
+        if (number >= LEAST_NANOS) {
+            millis = number / NANOS_PER_MILLI;
+        } else if (number >= LEAST_MICROS) {
+            millis = number / MILLIS_PER_SECOND;
+        } else if (number >= LEAST_SECONDS && number < LEAST_MILLIS) {
+            millis = number * MILLIS_PER_SECOND;
+        }
+        return Optional.of(Instant.ofEpochMilli(Math.round(millis)));
     }
 
     public static Optional<Instant> ofText(String untrimmed) {
         String text = untrimmed.trim();
-        if (isDigits(text)) {
-            return Optional.of(Instant.ofEpochMilli(Long.parseLong(text)));
+        if (isNumber(text)) {
+            return ofNumber(Double.parseDouble(text));
         }
         int slash = text.indexOf('/');
-        String start = slash < 0 ? text : text.substring(0, slash);
-        return IsoTime.parse(start).or(() -> anyForm(start)).flatMap(Instants::sinceEpoch);
+        String start = slash < 0 ? text : text.substring(0, slash).trim();
+        return IsoTime.parse(start)
+                .or(() -> anyForm(start))
+                .or(() -> OtherTimes.parse(start))
+                .flatMap(Instants::sinceEpoch);
     }
 
-    private static boolean isDigits(String text) {
-        boolean digits = !text.isEmpty() && text.length() <= MAX_DIGITS;
-        for (int i = 0; digits && i < text.length(); i++) {
-            digits = text.charAt(i) >= '0' && text.charAt(i) <= '9';
+    /** Digits, at most with a fraction, that are no date. */
+    private static boolean isNumber(String text) {
+        int digits = 0;
+        while (digits < text.length() && text.charAt(digits) >= '0' && text.charAt(digits) <= '9') {
+            digits++;
         }
-        return digits;
+        boolean isDate = digits == text.length() && (digits == OtherTimes.DATE || digits == OtherTimes.COMPACT);
+        return digits > 0 && !isDate && FRACTION.matcher(text.substring(digits)).matches();
     }
 
     /** A date and time of ISO 8601, seconds and offset optional; empty if it is none. */
@@ -70,7 +99,7 @@ public final class Instants {
             Instant instant = time instanceof OffsetDateTime offset
                     ? offset.toInstant()
                     : ((LocalDateTime) time).toInstant(ZoneOffset.UTC);
-            return Optional.of(instant).filter(it -> Math.abs(it.getEpochSecond()) < LATEST_MILLIS / 1000);
+            return Optional.of(instant).filter(it -> Math.abs(it.getEpochSecond()) < LATEST_SECOND);
         } catch (DateTimeException e) {
             return Optional.empty();
         }

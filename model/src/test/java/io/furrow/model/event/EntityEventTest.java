@@ -1,5 +1,6 @@
 package io.furrow.model.event;
 
+import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 
@@ -50,6 +51,30 @@ class EntityEventTest {
 
         assertThat(received(entity, RECEIVED.plusSeconds(60)).id())
                 .isEqualTo(received(entity, RECEIVED).id());
+    }
+
+    /** A measure of yesterday, sent today, in an entity that reported its place in between. */
+    @Test
+    void namesTheAttributesThatAreOfALaterTime() throws Exception {
+        Entity entity = Entity.parse("""
+                {"id": "a", "type": "T", "TimeInstant": {"value": "2026-11-20T01:00:00.000Z"},
+                 "temp": {"value": 5, "metadata": {"TimeInstant": {"value": "2026-11-20T01:00:00.000Z"}}},
+                 "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:00:00.000Z"}}},
+                 "Longitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:00:00.000Z"}}}}""".getBytes(StandardCharsets.UTF_8));
+
+        assertThat(received(entity, RECEIVED).headers("s"))
+                .containsEntry(HeaderNames.LATER_ATTRIBUTES, "Latitude,Longitude");
+    }
+
+    /** The agent stamps with the time of arrival where the device has an attribute of its own for the time. */
+    @Test
+    void comparesTheAttributesWithTheTimeInstantOfTheEntity() throws Exception {
+        Entity entity = Entity.parse("""
+                {"id": "a", "type": "T", "Time": {"value": 1795223399000},
+                 "TimeInstant": {"value": "2026-11-21T01:10:00.000Z"},
+                 "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:10:00.000Z"}}}}""".getBytes(StandardCharsets.UTF_8));
+
+        assertThat(received(entity, RECEIVED).headers("s")).doesNotContainKey(HeaderNames.LATER_ATTRIBUTES);
     }
 
     private static EntityEvent received(Entity entity, Instant when) {

@@ -27,9 +27,9 @@ class EventTimeTest {
                  "y": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:01:00.000Z"},
                    "dateModified": {"value": "2026-11-21T01:08:00.500Z"}}}}""";
         assertThat(time(state, "device,attributes,entity"))
-                .isEqualTo(new EventTime(Instant.parse("2026-11-21T01:08:00.500Z"), EventTime.Basis.BROKER));
+                .isEqualTo(new EventTime(Instant.parse("2026-11-21T01:08:00.500Z"), EventTime.Basis.BROKER, null));
         assertThat(time(state, "entity,attributes").time()).isEqualTo(Instant.parse("2026-11-21T01:09:00Z"));
-        assertThat(time(state, "device")).isEqualTo(new EventTime(RECEIVED, EventTime.Basis.RECEIPT));
+        assertThat(time(state, "device")).isEqualTo(new EventTime(RECEIVED, EventTime.Basis.RECEIPT, null));
     }
 
     @Test
@@ -59,12 +59,13 @@ class EventTimeTest {
 
     @ParameterizedTest
     @CsvFileSource(resources = "event-times.csv", delimiter = '|', quoteCharacter = '\u0001')
-    void followsTheCaseTable(String attributes, EventTime.Basis basis, Instant time) throws Exception {
+    void followsTheCaseTable(String attributes, EventTime.Basis basis, EventTime.Fault fault, Instant time)
+            throws Exception {
         byte[] body = ("{\"id\":\"a\"," + attributes + "}").getBytes(StandardCharsets.UTF_8);
         Entity entity =
                 Notification.read(body, "simplifiedKeyValues").entities().get(0);
 
         assertThat(EventTime.of(entity, RECEIVED, EventTimeRule.within(Duration.ofMinutes(5))))
-                .isEqualTo(new EventTime(time, basis));
+                .isEqualTo(new EventTime(time, basis, fault));
     }
 }

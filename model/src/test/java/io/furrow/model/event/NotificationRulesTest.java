@@ -33,7 +33,7 @@ class NotificationRulesTest {
         assertThat(record.headers())
                 .containsEntry(HeaderNames.CE_SOURCE, "/ngsi/5f1")
                 .containsKey(HeaderNames.CE_ID);
-        assertThat(record.clockAhead()).isFalse();
+        assertThat(record.fault()).isNull();
     }
 
     @Test
@@ -44,13 +44,13 @@ class NotificationRulesTest {
         EntityRecord record = record(notification.entities().get(0));
 
         assertThat(record.value()).isNull();
-        assertThat(record.clockAhead()).isFalse();
+        assertThat(record.fault()).isNull();
     }
 
     @Test
     void saysWhoseClockIsTooFarAhead() {
-        assertThat(record(reported(10)).clockAhead()).isFalse();
-        assertThat(record(reported(600)).clockAhead()).isTrue();
+        assertThat(record(reported(10)).fault()).isNull();
+        assertThat(record(reported(600)).fault()).isEqualTo(EventTime.Fault.AHEAD);
         assertThat(record(reported(600)).time()).isEqualTo(NOW);
     }
 

@@ -63,6 +63,10 @@ public final class Ledger extends Metrics {
             "oversized", "Durable records that became dead letters, because they exceed the record size of the topic");
     public final LongAdder clockAhead =
             counter("clockAhead", "Accepted entities whose own time is too far in the future");
+    public final LongAdder clockUnset =
+            counter("clockUnset", "Accepted entities whose own time is more than ten years ago");
+    public final LongAdder unreadableTime =
+            counter("unreadableTime", "Accepted entities whose own time has no form in which times are read");
     public final LongAdder undated = counter(
             "undated",
             "Accepted entities without dateModified, of which a change back to an earlier value cannot be distinguished"

@@ -36,8 +36,6 @@ public final class LastRecords {
 
     private static final class Last {
         private String eventId;
-        /** Hash of the type; 0 if unknown. */
-        private int type;
         /** The newest known time of any record so far, epoch milliseconds; the last record may be older. */
         private long modified;
 
@@ -47,8 +45,6 @@ public final class LastRecords {
 
         private boolean gone;
         private boolean stale;
-        /** Entities of several types share this id, and their records cannot be compared. */
-        private boolean mixed;
     }
 
     private final long maxBytes;
@@ -100,7 +96,7 @@ public final class LastRecords {
         boolean isOther = last.from != 0 && last.from != from && modified == last.modified;
         set(last, record, from);
         last.modified = modified == UNKNOWN ? UNKNOWN : Math.max(modified, newest);
-        mark(record, last, isStale || last.mixed);
+        mark(record, last, isStale);
         return isNew && !isSuperseded || isOther || modified == UNKNOWN;
     }
 
@@ -125,7 +121,7 @@ public final class LastRecords {
         }
         long modified = millis(found);
         boolean came = last.at > asked;
-        boolean same = found.gone() ? last.gone : !last.mixed && found.eventId().equals(last.eventId);
+        boolean same = found.gone() ? last.gone : found.eventId().equals(last.eventId);
         if (same) {
             if (!found.gone()) {
                 last.modified = came ? Math.max(modified, last.modified) : modified;
@@ -133,10 +129,10 @@ public final class LastRecords {
             mark(found, last, false);
             return Judgment.REPEATED;
         }
-        if (!came || !last.mixed && last.modified != UNKNOWN && modified > last.modified) {
+        if (!came || last.modified != UNKNOWN && modified > last.modified) {
             return Judgment.NEWS;
         }
-        if (!last.mixed && !last.stale && modified != UNKNOWN && modified < last.modified) {
+        if (!last.stale && modified != UNKNOWN && modified < last.modified) {
             return Judgment.REPEATED;
         }
         mark(found, last, true);
@@ -218,9 +214,6 @@ public final class LastRecords {
     }
 
     private void set(Last last, EntityRecord record, int from) {
-        int type = record.type().map(String::hashCode).orElse(last.type);
-        last.mixed |= last.type != 0 && last.type != type;
-        last.type = type;
         last.from = from;
         last.eventId = record.eventId();
         last.gone = record.gone();

@@ -14,9 +14,9 @@ public sealed interface MissedChange {
     record Changed(EntityEvent event, EntityRecord record) implements MissedChange {
         /** @param modified when the context broker stored it */
         static Changed of(EntityEvent event, Instant modified) {
-            String identity = event.scope().identity(event.entity().id());
-            Optional<String> type = Optional.of(event.entity().type());
-            return new Changed(event, new EntityRecord(identity, type, event.id(), Optional.of(modified), false));
+            String identity =
+                    event.scope().identity(event.entity().type(), event.entity().id());
+            return new Changed(event, new EntityRecord(identity, event.id(), Optional.of(modified), false));
         }
     }
 
@@ -24,8 +24,8 @@ public sealed interface MissedChange {
     record Deleted(EntityDeletion deletion) implements MissedChange {
         @Override
         public EntityRecord record() {
-            String identity = deletion.scope().identity(deletion.entityId());
-            return new EntityRecord(identity, Optional.empty(), deletion.id(), Optional.empty(), true);
+            String identity = deletion.scope().identity(deletion.type(), deletion.entityId());
+            return new EntityRecord(identity, deletion.id(), Optional.empty(), true);
         }
     }
 
@@ -34,8 +34,7 @@ public sealed interface MissedChange {
         @Override
         public EntityRecord record() {
             String eventId = "unreadable " + state.time().toEpochMilli();
-            return new EntityRecord(
-                    state.identity(), Optional.of(state.entity().type()), eventId, Optional.of(state.time()), false);
+            return new EntityRecord(state.identity(), eventId, Optional.of(state.time()), false);
         }
 
         public String entityId() {
@@ -51,7 +50,7 @@ public sealed interface MissedChange {
     /** The properties of the resulting record. */
     EntityRecord record();
 
-    /** Tenant, service path and id. */
+    /** Tenant, service path, type and id. */
     default String identity() {
         return record().identity();
     }

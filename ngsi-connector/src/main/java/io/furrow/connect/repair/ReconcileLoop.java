@@ -143,11 +143,10 @@ public final class ReconcileLoop implements AutoCloseable {
     }
 
     /** An entity of the topic changed or was deleted. */
-    public void note(FiwareScope scope, String entityId, boolean gone) {
-        String identity = scope.identity(entityId);
+    public void note(String identity, boolean gone) {
         for (Schedule charge : charges) {
             try {
-                charge.caretaker.note(scope, identity, gone);
+                charge.caretaker.note(identity, gone);
             } catch (IOException | RuntimeException e) {
                 // The next poll fails for the same reason, and logs it.
                 LOG.debug("cannot note {}", LogText.oneLine(identity), e);

@@ -5,6 +5,7 @@ import java.time.Clock;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Optional;
 import java.util.Set;
 import java.util.TreeSet;
 import java.util.function.Predicate;
@@ -97,7 +98,9 @@ public final class Repair {
     private void readAgain(String identity, FiwareScope place)
             throws BrokerException, InterruptedException, IOException {
         long asked = live.now();
-        List<EntityState> states = entities.ofId(place, Identities.id(identity));
+        List<EntityState> states = entities.ofId(place, Identities.id(identity)).stream()
+                .filter(state -> state.identity().equals(identity))
+                .toList();
         if (states.isEmpty()) {
             emitEnd(identity, asked);
             return;
@@ -146,18 +149,25 @@ public final class Repair {
             return;
         }
         long asked = live.now();
-        List<EntityState> there = entities.stubsOfId(Identities.scope(identity), Identities.id(identity));
+        Optional<EntityState> there = entities.stubsOfId(Identities.scope(identity), Identities.id(identity)).stream()
+                .filter(state -> state.identity().equals(identity))
+                .findFirst();
         if (there.isEmpty()) {
             emitEnd(identity, asked);
-        } else if (there.stream().noneMatch(this::isOwn)) {
+        } else if (!isOwn(there.get())) {
             known.remove(identity);
         }
     }
 
     private void emitEnd(String identity, long asked) throws InterruptedException, IOException {
         Instant now = Clock.systemUTC().instant();
-        EntityDeletion deletion =
-                new EntityDeletion(Identities.id(identity), Identities.scope(identity), now, now, Origin.REPAIR);
+        EntityDeletion deletion = new EntityDeletion(
+                Identities.type(identity),
+                Identities.id(identity),
+                Identities.scope(identity),
+                now,
+                now,
+                Origin.REPAIR);
         deleted += emission.emit(List.of(new MissedChange.Deleted(deletion)), asked);
     }
 }

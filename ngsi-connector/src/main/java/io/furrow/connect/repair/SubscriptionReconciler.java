@@ -112,8 +112,8 @@ public final class SubscriptionReconciler implements AutoCloseable {
     }
 
     /** An entity of the topic changed or was deleted; from any thread. */
-    void note(FiwareScope scope, String identity, boolean gone) throws IOException {
-        if (!covers(scope)) {
+    void note(String identity, boolean gone) throws IOException {
+        if (!covers(Identities.scope(identity))) {
             return;
         }
         if (gone) {

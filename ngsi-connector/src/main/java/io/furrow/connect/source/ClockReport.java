@@ -7,9 +7,10 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.LogText;
+import io.furrow.model.event.EventTime;
 
 /**
- * Logs each device whose clock is too far ahead once. Remembers 10 000 devices and forgets the one that was silent
+ * Logs each device that gives no time that can be believed once. Remembers 10 000 devices and forgets the one that was silent
  * longest.
  */
 final class ClockReport {
@@ -33,14 +34,17 @@ final class ClockReport {
     }
 
     /** Whether this is the first such event of its device, as far as remembered. */
-    synchronized boolean note(String device) {
+    synchronized boolean note(String device, EventTime.Fault fault) {
         if (reported.put(device, true) != null) {
             return false;
         }
-        LOG.warn(
-                "The clock of {} is too far ahead; its events get the time of receipt. Correct the device, or raise {}",
-                LogText.oneLine(device),
-                "max.clock.skew.ms");
+        String what = switch (fault) {
+            case AHEAD ->
+                "is too far ahead; its events get the time of receipt. Correct it, or raise max.clock.skew.ms";
+            case UNSET -> "is more than ten years behind; its events get the time of receipt. Set it";
+            case UNREADABLE -> "gives a time that cannot be read; its events do without. Send ISO 8601 or epoch ms";
+        };
+        LOG.warn("The clock of {} {}", LogText.oneLine(device), what);
         return true;
     }
 }

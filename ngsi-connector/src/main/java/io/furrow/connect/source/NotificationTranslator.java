@@ -4,6 +4,7 @@ import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Optional;
+import java.util.concurrent.atomic.LongAdder;
 import java.util.function.Consumer;
 import java.util.regex.Pattern;
 
@@ -14,6 +15,7 @@ import io.furrow.connect.source.http.ReceivedNotification;
 import io.furrow.connect.source.option.JournalOptions;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EntityRecord;
+import io.furrow.model.event.EventTime;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.NotificationRules;
 import io.furrow.model.event.Origin;
@@ -163,15 +165,23 @@ public final class NotificationTranslator {
                     + settings.maxRecordBytes();
             return deadLetter(record.value(), new Refusal(Reason.TOO_LARGE, message), received);
         }
-        if (translated.clockAhead()) {
-            ledger.clockAhead.increment();
-            clocks.note(received.scope().identity(entity.id()));
+        if (translated.fault() != null) {
+            counterOf(translated.fault()).increment();
+            clocks.note(received.scope().identity(entity.id()), translated.fault());
         }
         if (entity.value(Entity.MODIFIED).isEmpty()) {
             ledger.undated.increment();
             undated.note(source);
         }
         return record;
+    }
+
+    private LongAdder counterOf(EventTime.Fault fault) {
+        return switch (fault) {
+            case AHEAD -> ledger.clockAhead;
+            case UNSET -> ledger.clockUnset;
+            case UNREADABLE -> ledger.unreadableTime;
+        };
     }
 
     /** A request without any usable entity is the sender's fault; one valid entity makes it a good request. */

@@ -9,6 +9,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.atomic.AtomicLong;
 
+import org.apache.kafka.connect.data.Struct;
 import org.apache.kafka.connect.errors.ConnectException;
 import org.apache.kafka.connect.header.Header;
 import org.apache.kafka.connect.source.SourceRecord;
@@ -30,6 +31,8 @@ import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.connect.subscription.WantedSubscription.Name;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * Manages the subscriptions of one task and the repair of missed notifications as configured. Without a context broker
@@ -67,10 +70,10 @@ final class OwnSubscriptions implements AutoCloseable {
         }
 
         @Override
-        public void note(FiwareScope scope, String id, boolean gone) {
+        public void note(String identity, boolean gone) {
             ReconcileLoop started = caretakers;
             if (started != null) {
-                started.note(scope, id, gone);
+                started.note(identity, gone);
             }
         }
     }
@@ -100,9 +103,25 @@ final class OwnSubscriptions implements AutoCloseable {
             String entity = record.key() instanceof byte[] utf8
                     ? new String(utf8, StandardCharsets.UTF_8)
                     : record.key().toString();
-            String identity = scope.identity(entity);
-            live.restore(new EntityRecord(
-                    identity, Optional.empty(), id.value().toString(), Optional.empty(), record.value() == null));
+            String identity = scope.identity(type(record), entity);
+            live.restore(new EntityRecord(identity, id.value().toString(), Optional.empty(), record.value() == null));
+        }
+    }
+
+    private static String type(SourceRecord record) {
+        if (record.value() == null) {
+            return text(record, HeaderNames.ENTITY_TYPE);
+        }
+        if (record.value() instanceof Struct struct) {
+            return struct.getString("type");
+        }
+        try {
+            byte[] json = record.value() instanceof byte[] utf8
+                    ? utf8
+                    : record.value().toString().getBytes(StandardCharsets.UTF_8);
+            return Entity.parse(json).type();
+        } catch (UnreadableException e) {
+            throw new IllegalStateException("a record that the source made holds no entity", e);
         }
     }
 

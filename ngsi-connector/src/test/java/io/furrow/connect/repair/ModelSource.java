@@ -48,7 +48,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
      * What is on the topic.
      *
      * @param values of the last record, by id and type
-     * @param gone by id, whether its last record has no value
+     * @param gone by id and type, whether its last record has no value
      * @param unreadable ids and times of dead letters
      */
     record Topic(Map<String, String> values, Map<String, Boolean> gone, Map<String, Instant> unreadable) {
@@ -57,15 +57,14 @@ final class ModelSource implements RepairOutput, AutoCloseable {
         }
 
         private void changed(Entity entity) {
-            values.put(
-                    entity.id() + " " + entity.type(),
-                    entity.value("t").orElseThrow().asText());
-            gone.put(entity.id(), false);
+            String key = entity.id() + " " + entity.type();
+            values.put(key, entity.value("t").orElseThrow().asText());
+            gone.put(key, false);
         }
 
-        private void deleted(String id) {
-            values.keySet().removeIf(key -> key.startsWith(id + " "));
-            gone.put(id, true);
+        private void deleted(String type, String id) {
+            values.remove(id + " " + type);
+            gone.put(id + " " + type, true);
         }
     }
 
@@ -135,21 +134,20 @@ final class ModelSource implements RepairOutput, AutoCloseable {
                     : EntityEvent.of(entity, PLACE, now, TIMES, Origin.NOTIFICATION)
                             .id();
             EntityVersion version = EntityVersion.of(entity);
-            String identity = PLACE.identity(entity.id());
+            String identity = PLACE.identity(entity.type(), entity.id());
             live.arrived(told.subscription());
             live.append(
                     told.subscription(),
-                    List.of(new EntityRecord(
-                            identity, Optional.of(version.type()), eventId, version.modified(), told.gone())),
+                    List.of(new EntityRecord(identity, eventId, version.modified(), told.gone())),
                     () -> {
                         if (told.gone()) {
-                            topic.deleted(entity.id());
+                            topic.deleted(entity.type(), entity.id());
                         } else {
                             topic.changed(entity);
                         }
                         return Optional.of(CompletableFuture.completedFuture(null));
                     });
-            caretaker.note(PLACE, identity, told.gone());
+            caretaker.note(identity, told.gone());
         } catch (UnreadableException | IOException e) {
             throw new AssertionError(e);
         }
@@ -169,7 +167,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
             if (finding instanceof MissedChange.Changed changed) {
                 topic.changed(changed.event().entity());
             } else if (finding instanceof MissedChange.Deleted deleted) {
-                topic.deleted(deleted.deletion().entityId());
+                topic.deleted(deleted.deletion().type(), deleted.deletion().entityId());
             } else if (finding instanceof MissedChange.Unreadable unreadable) {
                 topic.unreadable()
                         .put(

@@ -105,9 +105,9 @@ final class PressedRepair {
         FiwareScope place = new FiwareScope("agri", "/");
         live.append(
                 "s",
-                List.of(new EntityRecord(place.identity(id), Optional.of("T"), "id" + id, Optional.of(T), false)),
+                List.of(new EntityRecord(place.identity("T", id), "id" + id, Optional.of(T), false)),
                 () -> Optional.of(CompletableFuture.completedFuture(null)));
-        caretaker.note(place, place.identity(id), false);
+        caretaker.note(place.identity("T", id), false);
     }
 
     private static void answer(HttpExchange exchange) throws IOException {

@@ -137,12 +137,12 @@ class RepairPublisherTest {
     private void append(String id, String eventId, Optional<Instant> modified) {
         live.append(
                 "s",
-                List.of(new EntityRecord(identity(id), Optional.of("Probe"), eventId, modified, false)),
+                List.of(new EntityRecord(identity(id), eventId, modified, false)),
                 () -> Optional.of(CompletableFuture.completedFuture(null)));
     }
 
     private static String identity(String id) {
-        return FiwareScope.DEFAULT.identity(id);
+        return FiwareScope.DEFAULT.identity("Probe", id);
     }
 
     private static MissedChange.Changed finding(String id) {

@@ -157,7 +157,7 @@ class SubscriptionReconcilerTest {
             broker.queue.remove(1);
             broker.failed();
             source.look();
-            assertThat(topic.gone()).containsEntry("deleted", true);
+            assertThat(topic.gone()).containsEntry("deleted Probe", true);
 
             broker.put("lost", "Probe", "v");
             broker.queue.remove(1);

@@ -12,6 +12,7 @@ import org.apache.logging.log4j.core.config.Configurator;
 import org.apache.logging.log4j.core.config.Property;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.model.event.EventTime;
 import io.furrow.model.event.FiwareScope;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -21,11 +22,13 @@ class ClockReportTest {
     void namesADeviceOnceUntilItIsForgotten() {
         ClockReport report = new ClockReport(2);
 
-        assertThat(report.note(device("a"))).isTrue();
-        assertThat(report.note(device("a"))).isFalse();
-        assertThat(report.note(device("b"))).isTrue();
-        assertThat(report.note(device("c"))).isTrue();
-        assertThat(report.note(device("a"))).as("only two are remembered").isTrue();
+        assertThat(report.note(device("a"), EventTime.Fault.AHEAD)).isTrue();
+        assertThat(report.note(device("a"), EventTime.Fault.AHEAD)).isFalse();
+        assertThat(report.note(device("b"), EventTime.Fault.AHEAD)).isTrue();
+        assertThat(report.note(device("c"), EventTime.Fault.AHEAD)).isTrue();
+        assertThat(report.note(device("a"), EventTime.Fault.AHEAD))
+                .as("only two are remembered")
+                .isTrue();
     }
 
     @Test
@@ -43,7 +46,7 @@ class ClockReportTest {
         Level usual = logger.getLevel();
         Configurator.setLevel(logger, Level.WARN);
         try {
-            new ClockReport(2).note(device("a\nERROR all is lost"));
+            new ClockReport(2).note(device("a\nERROR all is lost"), EventTime.Fault.AHEAD);
         } finally {
             logger.removeAppender(recorder);
             Configurator.setLevel(logger, usual);

@@ -72,7 +72,7 @@ public final class AssignCarriers
             out.collect(fix);
             return;
         }
-        Optional<String> carrier = devices.at(fix.identity(), fix.time(), context.getBroadcastState(DEVICES))
+        Optional<String> carrier = devices.at(fix.name(), fix.time(), context.getBroadcastState(DEVICES))
                 .map(device -> carrier(device, fix.scope()));
         out.collect(carrier.isEmpty() ? fix : fix.carriedBy(carrier.get()));
     }

@@ -47,7 +47,7 @@ class RecordTypesTest {
             PAIR,
             new Device("t", "farm|/|a"),
             FIX,
-            new PositionFix("t", "somebody", "else", "", "é", "", -90, 180, 1.5, 270, Long.MIN_VALUE),
+            new PositionFix("t", "farm|/|T|somebody", "else", "", "é", "", -90, 180, 1.5, 270, Long.MIN_VALUE),
             new PositionFix("t", "farm|/|" + "x".repeat(300), "x".repeat(300), "", "", "", 0, 1, 0, 0, 0),
             new CellUpdate(-7, 1000, Presence.HALO, FIX),
             new PairObservation(FIX, FIX, 1000, -1),

@@ -8,11 +8,9 @@ import io.furrow.connect.repair.LastRecords;
 /**
  * The properties of a record that {@link LastRecords} tracks.
  *
- * @param identity tenant, service path and id of the entity
- * @param type of the entity; empty for any
+ * @param identity tenant, service path, type and id of the entity
  * @param eventId {@code ce_id}
  * @param modified when the context broker stored the state of the record; empty if unknown
  * @param gone whether the record reports a deletion
  */
-public record EntityRecord(
-        String identity, Optional<String> type, String eventId, Optional<Instant> modified, boolean gone) {}
+public record EntityRecord(String identity, String eventId, Optional<Instant> modified, boolean gone) {}

@@ -18,18 +18,13 @@ public record EntityState(Entity entity, FiwareScope scope, Instant time, Option
         this(entity, scope, time, Optional.empty());
     }
 
-    /** The identity of the entity without its type. */
+    /** Tenant, service path, type and id. */
     public String identity() {
-        return scope.identity(entity.id());
-    }
-
-    /** The identity of the entity with its type. */
-    String key() {
-        return identity() + "|" + entity.type();
+        return scope.identity(entity.type(), entity.id());
     }
 
     /** The identity of this state: the entity may change twice in a millisecond. */
     String version() {
-        return key() + "|" + entity.json().hashCode();
+        return identity() + "|" + entity.json().hashCode();
     }
 }

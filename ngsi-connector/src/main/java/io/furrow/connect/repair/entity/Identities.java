@@ -2,9 +2,10 @@ package io.furrow.connect.repair.entity;
 
 import io.furrow.model.event.FiwareScope;
 
-/** The inverse of {@link FiwareScope#identity}. */
+/** The inverse of {@link FiwareScope#identity(String, String)}. */
 public final class Identities {
-    private static final int PARTS = 3;
+    private static final int PARTS = 4;
+    private static final int TYPE = 2;
 
     private Identities() {}
 
@@ -12,7 +13,11 @@ public final class Identities {
         return FiwareScope.ofIdentity(identity);
     }
 
+    public static String type(String identity) {
+        return identity.split("\\|", PARTS)[TYPE].replace("%7C", "|").replace("%25", "%");
+    }
+
     public static String id(String identity) {
-        return identity.split("\\|", PARTS)[2];
+        return identity.split("\\|", PARTS)[PARTS - 1];
     }
 }

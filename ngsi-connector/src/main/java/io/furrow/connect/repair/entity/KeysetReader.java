@@ -31,7 +31,7 @@ public final class KeysetReader {
     public record Page(List<EntityState> states, int asked, boolean isFull) {
         boolean beginsWith(EntityState last) {
             return !states.isEmpty()
-                    && states.get(0).key().equals(last.key())
+                    && states.get(0).identity().equals(last.identity())
                     && states.get(0).time().equals(last.time());
         }
     }

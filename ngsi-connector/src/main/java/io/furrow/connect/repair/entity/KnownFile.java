@@ -68,7 +68,7 @@ final class KnownFile implements AutoCloseable {
         }
 
         private static boolean isOne(String line) {
-            return line.equals("!") || line.equals(".") || line.matches("[-+?][^|]*\\|[^|]*\\|.*");
+            return line.equals("!") || line.equals(".") || line.matches("[-+?][^|]*\\|[^|]*\\|[^|]*\\|.*");
         }
 
         private static Change of(String line) {

@@ -19,7 +19,7 @@ public final class TrackedRecordLog implements RecordLog {
         boolean covers(FiwareScope scope);
 
         /** A record of an entity was appended to the topic. */
-        void note(FiwareScope scope, String id, boolean gone);
+        void note(String identity, boolean gone);
     }
 
     private final JournalRecordLog intake;
@@ -43,7 +43,7 @@ public final class TrackedRecordLog implements RecordLog {
                 subscription = subscription(record.headers());
                 if (entities.covers(scope)) {
                     events.add(record);
-                    covered.add(entity(record, scope));
+                    covered.add(entity(record));
                 }
             }
         }
@@ -53,16 +53,19 @@ public final class TrackedRecordLog implements RecordLog {
     }
 
     private void note(OutgoingRecord record) {
-        entities.note(scope(record.headers()), record.key(), record.value() == null);
+        entities.note(identity(record), record.value() == null);
     }
 
-    private static EntityRecord entity(OutgoingRecord record, FiwareScope scope) {
+    private static EntityRecord entity(OutgoingRecord record) {
         return new EntityRecord(
-                scope.identity(record.key()),
-                Optional.of(record.version().type()),
+                identity(record),
                 record.headers().get(HeaderNames.CE_ID),
                 record.version().modified(),
                 record.value() == null);
+    }
+
+    private static String identity(OutgoingRecord record) {
+        return scope(record.headers()).identity(record.version().type(), record.key());
     }
 
     private static String subscription(Map<String, String> headers) {

@@ -103,8 +103,8 @@ public final class FuzzPages {
         LiveEvents live = new LiveEvents(1 << 20);
         FuzzOutput output = new FuzzOutput();
         try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 1 << 20)) {
-            known.add(ROOT.identity("known"));
-            live.restoreStale(List.of(ROOT.identity("stale")));
+            known.add(ROOT.identity("T", "known"));
+            live.restoreStale(List.of(ROOT.identity("T", "stale")));
             Repair repair = new Repair(
                     entities(broker),
                     new RepairSettings.Reading(PAGE, MAX_BYTES, EventTimeRule.within(Duration.ofMinutes(5)), List.of()),

@@ -90,7 +90,7 @@ class KeysetReaderTest {
         List<String> read = new ArrayList<>();
 
         new KeysetReader(store::page, 4)
-                .readFrom(START, states -> states.forEach(state -> read.add(state.key() + state.time())));
+                .readFrom(START, states -> states.forEach(state -> read.add(state.identity() + state.time())));
 
         assertThat(read).hasSize(50).doesNotHaveDuplicates();
     }

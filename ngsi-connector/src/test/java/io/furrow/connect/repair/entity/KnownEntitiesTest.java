@@ -30,39 +30,39 @@ class KnownEntitiesTest {
     @Test
     void knowsAfterARestartWhatCameAndWasNotDeleted() throws IOException {
         try (KnownEntities known = open()) {
-            known.add("|/|a");
-            known.add("|/|b");
-            known.add("|/|a");
-            known.remove("|/|a");
+            known.add("|/|T|a");
+            known.add("|/|T|b");
+            known.add("|/|T|a");
+            known.remove("|/|T|a");
         }
 
         try (KnownEntities known = open()) {
-            assertThat(known.copy()).isEqualTo(Set.of("|/|b"));
+            assertThat(known.copy()).isEqualTo(Set.of("|/|T|b"));
         }
-        assertThat(folder.resolve("known")).hasContent("+|/|b");
+        assertThat(folder.resolve("known")).hasContent("+|/|T|b");
     }
 
     @Test
     void leavesOutALineThatWasNotFinished() throws IOException {
         try (KnownEntities known = open()) {
-            known.add("|/|w");
+            known.add("|/|T|w");
         }
-        Files.writeString(folder.resolve("known"), "+|/|hal", StandardOpenOption.APPEND);
+        Files.writeString(folder.resolve("known"), "+|/|T|hal", StandardOpenOption.APPEND);
 
         try (KnownEntities known = open()) {
-            assertThat(known.copy()).isEqualTo(Set.of("|/|w"));
+            assertThat(known.copy()).isEqualTo(Set.of("|/|T|w"));
         }
     }
 
     @Test
     void keepsLineBreaksAndBackslashesOfAnId() throws IOException {
-        Set<String> strange = Set.of("|/|one\n+|/|two", "|/|a\r\nb", "|/|\\n", "|/|100%0A\r");
+        Set<String> strange = Set.of("|/|T|one\n+|/|T|two", "|/|T|a\r\nb", "|/|T|\\n", "|/|T|100%0A\r");
         try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 1 << 20)) {
             for (String identity : strange) {
                 known.add(identity);
             }
-            known.add("|/|gone\n+x");
-            known.remove("|/|gone\n+x");
+            known.add("|/|T|gone\n+x");
+            known.remove("|/|T|gone\n+x");
         }
 
         try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 1 << 20)) {
@@ -72,10 +72,10 @@ class KnownEntitiesTest {
 
     @Test
     void leavesOutLinesThatAreNoIdentity() throws IOException {
-        Files.writeString(folder.resolve("known"), "+x\n+|/|a\n+\n-x\n");
+        Files.writeString(folder.resolve("known"), "+x\n+|/|T|a\n+\n-x\n");
 
         try (KnownEntities known = open()) {
-            assertThat(known.copy()).isEqualTo(Set.of("|/|a"));
+            assertThat(known.copy()).isEqualTo(Set.of("|/|T|a"));
         }
     }
 
@@ -92,14 +92,14 @@ class KnownEntitiesTest {
     void knowsNoneOfMoreThanItCanKnow() throws IOException {
         try (KnownEntities known = open()) {
             for (int i = 0; i < 4; i++) {
-                known.add("|/|" + i);
+                known.add("|/|T|" + i);
             }
             assertThat(known.isOverfull()).isTrue();
             assertThat(known.copy()).isEmpty();
         }
 
         try (KnownEntities known = open()) {
-            known.add("|/|0");
+            known.add("|/|T|0");
             assertThat(known.isOverfull()).isTrue();
             assertThat(known.size()).isZero();
         }
@@ -108,10 +108,10 @@ class KnownEntitiesTest {
     @Test
     void takesNoMoreOfTheDiskThanItsEntitiesNeedHoweverManyComeAndGo() throws IOException {
         try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 1 << 20)) {
-            known.add("|/|stays");
+            known.add("|/|T|stays");
             for (int i = 0; i < 200_000; i++) {
-                known.add("|/|urn:" + i);
-                known.remove("|/|urn:" + i);
+                known.add("|/|T|urn:" + i);
+                known.remove("|/|T|urn:" + i);
                 if (i % 10_000 == 0) {
                     known.flush();
                 }
@@ -121,7 +121,7 @@ class KnownEntitiesTest {
             assertThat(Files.size(folder.resolve("known"))).isLessThan(2 << 20);
         }
         try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 1 << 20)) {
-            assertThat(known.copy()).containsExactly("|/|stays");
+            assertThat(known.copy()).containsExactly("|/|T|stays");
         }
     }
 
@@ -129,10 +129,10 @@ class KnownEntitiesTest {
     void isWrittenAnewOnceThereIsRoomOnTheDisk() throws IOException {
         Path file = folder.resolve("known");
         try (KnownEntities known = KnownEntities.open(file, 1 << 20)) {
-            known.add("|/|stays");
+            known.add("|/|T|stays");
             for (int i = 0; i < 200_000; i++) {
-                known.add("|/|urn:" + i);
-                known.remove("|/|urn:" + i);
+                known.add("|/|T|urn:" + i);
+                known.remove("|/|T|urn:" + i);
             }
             Path inTheWay = Files.createDirectory(folder.resolve("known.tmp"));
             assertThatThrownBy(known::flush).isInstanceOf(IOException.class);
@@ -151,9 +151,9 @@ class KnownEntitiesTest {
             Thread writer = new Thread(() -> {
                 for (int i = 0; i < 100_000; i++) {
                     try {
-                        known.add("|/|urn:" + i);
+                        known.add("|/|T|urn:" + i);
                         if (i % 10 > 0) {
-                            known.remove("|/|urn:" + i);
+                            known.remove("|/|T|urn:" + i);
                         }
                     } catch (IOException e) {
                         throw new java.io.UncheckedIOException(e);
@@ -175,16 +175,16 @@ class KnownEntitiesTest {
     @Test
     void keepsWhatHasToBeReadAgainUntilAllOfItWas() throws IOException {
         try (KnownEntities known = open()) {
-            known.markStale("|/|a");
+            known.markStale("|/|T|a");
         }
         try (KnownEntities known = open()) {
-            assertThat(known.stale()).containsExactly("|/|a");
+            assertThat(known.stale()).containsExactly("|/|T|a");
             Set<String> read = known.stale();
-            known.markStale("|/|b");
+            known.markStale("|/|T|b");
             known.settle(read);
         }
         try (KnownEntities known = open()) {
-            assertThat(known.stale()).containsExactlyInAnyOrder("|/|a", "|/|b");
+            assertThat(known.stale()).containsExactlyInAnyOrder("|/|T|a", "|/|T|b");
             known.settle(known.stale());
         }
         try (KnownEntities known = open()) {
@@ -210,9 +210,10 @@ class KnownEntitiesTest {
     @Test
     void takesAnIdentityApart() {
         var scope = new io.furrow.model.event.FiwareScope("agri", "/a%|b");
-        String identity = scope.identity("urn:x|y");
+        String identity = scope.identity("T%|U", "urn:x|y");
 
         assertThat(Identities.scope(identity)).isEqualTo(scope);
+        assertThat(Identities.type(identity)).isEqualTo("T%|U");
         assertThat(Identities.id(identity)).isEqualTo("urn:x|y");
     }
 }

@@ -1,0 +1,59 @@
+package io.furrow.model.time;
+
+import java.time.DateTimeException;
+import java.time.Instant;
+import java.time.LocalDateTime;
+import java.time.ZoneOffset;
+import java.util.Optional;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
+/**
+ * Date and time in the forms in which databases and programs write them beside that of {@link IsoTime}: a space instead of the
+ * {@code T}, a comma before the fraction, ISO 8601 in basic form, no seconds, no time of day, {@code UTC} or an offset in hours behind it.
+ */
+final class OtherTimes {
+    private static final Pattern TIME = Pattern.compile("(\\d{4})(-?)(\\d\\d)\\2(\\d\\d)"
+            + "(?:[Tt _]\\s*(\\d\\d)(:?)(\\d\\d)(?:\\6(\\d\\d)(?:[.,](\\d{1,9})\\d*)?)?)?"
+            + "\\s*(?:[Zz]|UTC|GMT|([+-]\\d\\d(?::?\\d\\d)?))?");
+
+    static final int DATE = "yyyyMMdd".length();
+    static final int COMPACT = "yyyyMMddHHmmss".length();
+    private static final int NANO_DIGITS = 9;
+    private static final int SECOND = 8;
+    private static final int FRACTION = 9;
+    private static final int OFFSET = 10;
+
+    private OtherTimes() {}
+
+    /** The instant, in UTC where no offset is given; empty if the text is none. */
+    static Optional<Instant> parse(String text) {
+        boolean isCompact = text.length() == COMPACT && text.indexOf('-') < 0 && text.indexOf('T') < 0;
+        Matcher time = TIME.matcher(isCompact ? text.substring(0, DATE) + "T" + text.substring(DATE) : text);
+        if (!time.matches()) {
+            return Optional.empty();
+        }
+        try {
+            LocalDateTime local = LocalDateTime.of(
+                    number(time.group(1)),
+                    number(time.group(3)),
+                    number(time.group(4)),
+                    number(time.group(5)),
+                    number(time.group(7)),
+                    number(time.group(SECOND)),
+                    nanos(time.group(FRACTION)));
+            String offset = time.group(OFFSET);
+            return Optional.of(local.toInstant(offset == null ? ZoneOffset.UTC : ZoneOffset.of(offset)));
+        } catch (DateTimeException e) {
+            return Optional.empty();
+        }
+    }
+
+    private static int number(String digits) {
+        return digits == null ? 0 : Integer.parseInt(digits);
+    }
+
+    private static int nanos(String digits) {
+        return digits == null ? 0 : number(digits + "0".repeat(NANO_DIGITS - digits.length()));
+    }
+}
