@@ -3,6 +3,7 @@ package io.furrow.provisioner.account;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.nio.file.attribute.FileTime;
 import java.nio.file.attribute.PosixFilePermissions;
 import java.util.List;
 import java.util.Map;
@@ -86,6 +87,20 @@ class MosquittoFilesTest {
 
         files.replace(List.of(device));
         assertThat(calls()).isEqualTo(2);
+    }
+
+    /** As for a rotation, which removes an account and adds one: Mosquitto would lose the second signal, and refuse the new password. */
+    @Test
+    void letsTheBrokerReadTheFilesBeforeItTellsItAgain() throws IOException {
+        MosquittoFiles files = files(count());
+        files.replace(List.of(gateway, device));
+        FileTime first = Files.getLastModifiedTime(directory.resolve("calls"));
+
+        files.retain(Set.of(device.login().user()));
+
+        assertThat(calls()).isEqualTo(2);
+        assertThat(Files.getLastModifiedTime(directory.resolve("calls")).toInstant())
+                .isAfterOrEqualTo(first.toInstant().plusSeconds(1));
     }
 
     @Test
