@@ -56,9 +56,10 @@ final class ConnectionPublisher {
         this.since = settings.connections().logins().isEmpty() ? null : last;
     }
 
-    /** Publishes all again: another process may have published meanwhile. */
-    void startAnew() {
+    /** @param before what is on the topic, by key: another process may have published meanwhile, or this one before it was started again */
+    void startAnew(Map<String, DeviceConnection> before) {
         published.clear();
+        published.putAll(before);
         last = clock.getAsLong();
     }
 
@@ -82,7 +83,8 @@ final class ConnectionPublisher {
         wanted.all().forEach((key, device) -> {
             LoginReport gateway = byMission.get(device.version().mission());
             LoginReport own = byDevice.get(device.device());
-            put(key, connection(device, own == null ? onlyLogin(gateway) : own, isIn(registered, key)));
+            LoginReport login = withFormer(published.get(key), own == null ? onlyLogin(gateway) : own);
+            put(key, connection(device, login, published.get(key), isIn(registered, key)));
         });
         new HashSet<>(published.keySet())
                 .stream().filter(key -> !wanted.all().containsKey(key)).forEach(key -> put(key, null));
@@ -93,21 +95,30 @@ final class ConnectionPublisher {
         return gateway == null ? null : new LoginReport(gateway.loggedIn(), null, null);
     }
 
+    /** With what was published before: who observes logins may have forgotten it, and the device may be connected since then. */
+    private static LoginReport withFormer(DeviceConnection former, LoginReport login) {
+        LoginReport before = former == null
+                ? new LoginReport(null, null, null)
+                : new LoginReport(former.loggedIn(), former.refusedLogin(), former.foreignTopic());
+        return login == null ? before : both(login, before);
+    }
+
     private static Boolean isIn(Set<String> registered, String key) {
         return registered == null ? null : Boolean.valueOf(registered.contains(key));
     }
 
-    private DeviceConnection connection(WantedDevice device, LoginReport login, Boolean isRegistered) {
+    private DeviceConnection connection(
+            WantedDevice device, LoginReport login, DeviceConnection former, Boolean isRegistered) {
         String apiKey = settings.secret().get().apiKey(device.version().mission());
         return new DeviceConnection(
                 since,
-                login == null ? null : login.loggedIn(),
-                login == null ? null : login.refused(),
-                login == null ? null : login.foreign(),
+                login.loggedIn(),
+                login.refused(),
+                login.foreign(),
                 settings.connections()
                         .measures()
                         .unreadable(apiKey, device.device())
-                        .orElse(null),
+                        .orElse(former == null ? null : former.unreadablePayload()),
                 isRegistered);
     }
 

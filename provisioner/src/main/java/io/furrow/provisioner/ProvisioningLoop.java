@@ -22,6 +22,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
+import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -129,6 +130,23 @@ final class ProvisioningLoop implements AutoCloseable {
         return !records.isEmpty();
     }
 
+    private Map<String, DeviceConnection> publishedConnections() {
+        Map<String, DeviceConnection> published = new HashMap<>();
+        try (CommittedReader<String> reader = CommittedReader.openExisting(client, Topics.DEVICES_CONNECTION)) {
+            reader.readToEnd(record -> {
+                published.remove(record.key());
+                try {
+                    if (record.value() != null) {
+                        published.put(record.key(), DeviceConnection.read(record.value()));
+                    }
+                } catch (UnreadableException e) { // a later version wrote it; the device is observed anew
+                    LOG.debug("{}@{} is no connection of a device", record.topic(), record.offset(), e);
+                }
+            });
+        }
+        return published;
+    }
+
     private void closeLists() {
         if (lists != null) {
             lists.close();
@@ -181,7 +199,7 @@ final class ProvisioningLoop implements AutoCloseable {
             active = true;
             wanted.clear();
             failures.clear();
-            connections.startAnew();
+            connections.startAnew(publishedConnections());
             provisioning.startAnew();
             closeLists();
             lists = CommittedReader.open(client, Topics.MISSION_DEVICES);
