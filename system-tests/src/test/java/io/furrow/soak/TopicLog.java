@@ -19,12 +19,12 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** All committed records of a topic from the beginning; grows with each reading. */
-final class TopicLog implements AutoCloseable {
+public final class TopicLog implements AutoCloseable {
     private final KafkaConsumer<String, byte[]> consumer;
     private final List<Entity> entities = new ArrayList<>();
     private final List<Long> ingestTimes = new ArrayList<>();
 
-    TopicLog(String bootstrapServers, String topic) {
+    public TopicLog(String bootstrapServers, String topic) {
         Properties kafka = new Properties();
         kafka.setProperty("bootstrap.servers", bootstrapServers);
         kafka.setProperty("isolation.level", "read_committed");
@@ -52,7 +52,7 @@ final class TopicLog implements AutoCloseable {
     }
 
     /** Reads for this long and at least to the end that the topic had at the beginning. */
-    List<Entity> read(Duration howLong) throws UnreadableException {
+    public List<Entity> read(Duration howLong) throws UnreadableException {
         var ends = consumer.endOffsets(consumer.assignment());
         long until = System.nanoTime() + howLong.toNanos();
         while (System.nanoTime() < until

@@ -14,7 +14,7 @@ import com.fasterxml.jackson.databind.node.MissingNode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** JSON over HTTP with a server that may be away: then the answer has status 0. */
-final class Http {
+public final class Http {
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
     private static final HttpClient CLIENT = HttpClient.newBuilder()
             .version(HttpClient.Version.HTTP_1_1)
@@ -24,11 +24,11 @@ final class Http {
     private Http() {}
 
     /** @param status 0 where there was no answer @param body a missing node where there was no JSON */
-    record Answer(int status, JsonNode body) {
+    public record Answer(int status, JsonNode body) {
         static final Answer NONE = new Answer(0, MissingNode.getInstance());
     }
 
-    static Answer get(URI uri, String... headers) {
+    public static Answer get(URI uri, String... headers) {
         HttpRequest.Builder request = HttpRequest.newBuilder(uri).timeout(TIMEOUT);
         if (headers.length > 0) {
             request.headers(headers);
@@ -36,7 +36,7 @@ final class Http {
         return send(request.build()).join();
     }
 
-    static CompletableFuture<Answer> send(String method, URI uri, byte[] body, String... headers) {
+    public static CompletableFuture<Answer> send(String method, URI uri, byte[] body, String... headers) {
         HttpRequest.Builder request = HttpRequest.newBuilder(uri)
                 .timeout(TIMEOUT)
                 .header("Content-Type", "application/json")

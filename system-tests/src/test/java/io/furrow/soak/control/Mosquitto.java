@@ -14,9 +14,9 @@ import java.util.TreeSet;
 import io.furrow.embedded.FreePort;
 
 /** Eclipse Mosquitto on loopback, whose accounts are in files that somebody else may change. */
-final class Mosquitto implements AutoCloseable {
-    static final String AGENT = "agent";
-    static final String AGENT_PASSWORD = "plough";
+public final class Mosquitto implements AutoCloseable {
+    public static final String AGENT = "agent";
+    public static final String AGENT_PASSWORD = "plough";
     private static final Duration START_TIMEOUT = Duration.ofSeconds(20);
 
     private final int port = FreePort.orFree(0);
@@ -24,7 +24,12 @@ final class Mosquitto implements AutoCloseable {
     private Process process;
 
     /** One that has the IoT Agent's user only. */
-    Mosquitto(Path folder) throws IOException, InterruptedException {
+    public Mosquitto(Path folder) throws IOException, InterruptedException {
+        this(folder, "");
+    }
+
+    /** @param settings further lines of its configuration */
+    public Mosquitto(Path folder, String settings) throws IOException, InterruptedException {
         this.folder = Files.createDirectories(folder);
         run("mosquitto_passwd", "-b", "-c", passwords().toString(), AGENT, AGENT_PASSWORD);
         Files.write(rules(), List.of("user " + AGENT, "topic readwrite #"));
@@ -35,24 +40,25 @@ final class Mosquitto implements AutoCloseable {
                 allow_anonymous false
                 set_tcp_nodelay true
                 user %s
+                %s
                 """.formatted(
-                        port, passwords(), rules(), System.getProperty("user.name")));
+                        port, passwords(), rules(), System.getProperty("user.name"), settings));
     }
 
-    URI uri() {
+    public URI uri() {
         return URI.create("tcp://127.0.0.1:" + port);
     }
 
-    Path passwords() {
+    public Path passwords() {
         return folder.resolve("passwords");
     }
 
-    Path rules() {
+    public Path rules() {
         return folder.resolve("rules");
     }
 
     /** A command for the shell by which it reads both files again; fails while it does not run. */
-    String reload() {
+    public String reload() {
         return "kill -HUP $(cat " + pidFile() + ")";
     }
 
@@ -72,7 +78,7 @@ final class Mosquitto implements AutoCloseable {
         return users;
     }
 
-    void start() throws IOException {
+    public void start() throws IOException {
         process = new ProcessBuilder(
                         program("mosquitto"),
                         "-c",
@@ -93,7 +99,7 @@ final class Mosquitto implements AutoCloseable {
         }
     }
 
-    void kill() throws IOException, InterruptedException {
+    public void kill() throws IOException, InterruptedException {
         Files.deleteIfExists(pidFile());
         process.destroyForcibly().waitFor();
     }

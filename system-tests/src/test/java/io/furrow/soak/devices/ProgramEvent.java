@@ -1,0 +1,42 @@
+package io.furrow.soak.devices;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+/**
+ * What the program of a device did or met.
+ *
+ * @param at epoch ms
+ * @param kind {@code connected}, {@code refused}, {@code cut}, {@code asked} or {@code sent}
+ * @param json the rest: the user; of {@code sent} the time, value and position that it told
+ */
+record ProgramEvent(long at, String device, String kind, JsonNode json) {
+    static ProgramEvent read(String line) {
+        JsonNode json = Json.read(line);
+        return new ProgramEvent(
+                json.path("at").asLong(),
+                json.path("device").asText(),
+                json.path("event").asText(),
+                json);
+    }
+
+    boolean is(String other) {
+        return kind.equals(other);
+    }
+
+    /** The time that a measure bears, epoch ms. */
+    long time() {
+        return json.path("time").asLong();
+    }
+
+    double value() {
+        return json.path("value").asDouble();
+    }
+
+    double latitude() {
+        return json.at("/position/0").asDouble();
+    }
+
+    double longitude() {
+        return json.at("/position/1").asDouble();
+    }
+}

@@ -1,0 +1,201 @@
+package io.furrow.soak.devices;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.stream.Stream;
+
+import io.furrow.soak.control.Until;
+
+/** Two hundred devices on a farm of processes: first undisturbed, then while agent, control plane and broker are killed in turn. */
+public final class RealDevices {
+    private static final Duration AWAY = Duration.ofSeconds(8);
+    private static final Duration TIMEOUT = Duration.ofMinutes(1);
+    private static final Duration SETTLED = Duration.ofSeconds(10);
+    /** The stand-in writes its file so often at least. */
+    private static final Duration STORED = Duration.ofSeconds(8);
+
+    private final Path home;
+    private final Path folder;
+    private final Duration undisturbed;
+    private final Roster roster = new Roster();
+    private final Verdicts verdicts = new Verdicts();
+    private final RealFarm farm;
+    private final Programs programs;
+    private final Logins logins;
+    private final Measures measures;
+    private final Shown shown;
+
+    private RealDevices(Path home, Path folder, Duration undisturbed) throws IOException, InterruptedException {
+        this.home = home;
+        this.folder = folder;
+        this.undisturbed = undisturbed;
+        farm = new RealFarm(home, folder, roster);
+        programs = new Programs(program(), folder.resolve("programs"));
+        logins = new Logins(farm, roster, programs, verdicts);
+        measures = new Measures(farm.up().kafka(), roster, verdicts);
+        shown = new Shown(farm.up(), roster, verdicts);
+    }
+
+    private Path program() {
+        return home.resolve("soak").resolve("parts").resolve("device_programs.py");
+    }
+
+    /** Arguments: the checkout, a folder for data and logs, for how many seconds nothing is disturbed. */
+    public static void main(String... args) throws Exception {
+        Runtime.getRuntime()
+                .addShutdownHook(new Thread(
+                        () -> ProcessHandle.current().descendants().forEach(ProcessHandle::destroyForcibly), "stop"));
+        RealDevices soak = new RealDevices(
+                Path.of(args[0]).toAbsolutePath(),
+                Path.of(args[1]).toAbsolutePath(),
+                Duration.ofSeconds(Long.parseLong(args[2])));
+        boolean holds = false;
+        try {
+            holds = soak.run();
+        } finally {
+            System.out.println();
+            soak.verdicts.lines().forEach(System.out::println);
+        }
+        System.exit(holds ? 0 : 1);
+    }
+
+    private boolean run() throws Exception {
+        say("Mosquitto, the stand-ins of Orion and IoT Agent, and ./furrow up start");
+        farm.start();
+        long began = System.currentTimeMillis();
+        startMissions(farm.up(), programs, roster.missions());
+        say("%d devices in %d processes".formatted(roster.devices().size(), programs.processes()));
+        shown.missions();
+        undisturbed("undisturbed", began);
+        shown.soundDevices("undisturbed");
+        shown.faultsBesideMosquitto("undisturbed");
+        logins.obey(every(60));
+        logins.answer("undisturbed", commanded());
+        logins.rotate(every(40));
+        killEachInTurn();
+        undisturbed("after all came back", System.currentTimeMillis());
+        shown.soundDevices("after all came back");
+        shown.nobodyIsSilent(quiet());
+        logins.answer("to those that said nothing", quiet());
+        boolean alive = programs.areAlive();
+        programs.close();
+        farm.close();
+        faultsAtTheSuitesOwnBroker();
+        return verdicts.hold() && alive;
+    }
+
+    /** The same faults where broker and agent are the suite's own, which know more of them. */
+    private void faultsAtTheSuitesOwnBroker() throws Exception {
+        say("./furrow up starts with its own broker and agent");
+        try (UpProcess up = new UpProcess(home, folder.resolve("own"), List.of("--start-timeout", "20s"));
+                Programs faulty = new Programs(program(), folder.resolve("own").resolve("programs"))) {
+            up.start();
+            startMissions(
+                    up,
+                    faulty,
+                    roster.missions().stream()
+                            .filter(mission -> mission.name().equals(Roster.FAULTY))
+                            .toList());
+            new Shown(up, roster, verdicts).faultsOfTheSuite();
+        }
+    }
+
+    private static void startMissions(UpProcess up, Programs programs, List<Roster.Mission> missions) throws Exception {
+        up.run("domain", "create", Roster.DOMAIN);
+        for (Roster.Mission mission : missions) {
+            up.run(
+                    "mission",
+                    "start",
+                    mission.name(),
+                    "--domain",
+                    Roster.DOMAIN,
+                    "--devices",
+                    mission.groups().toString());
+        }
+        for (Roster.Mission mission : missions) {
+            programs.bring(
+                    mission.name(), up.run("device", "credentials", "--mission", mission.name(), "--output", "csv"));
+            programs.start(mission);
+        }
+    }
+
+    /** Lets time pass, and compares what came of it. */
+    private void undisturbed(String when, long since) throws Exception {
+        Thread.sleep(SETTLED.toMillis());
+        long from = System.currentTimeMillis();
+        Thread.sleep(undisturbed.toMillis());
+        long to = System.currentTimeMillis();
+        Thread.sleep(Measures.KNOWN_AFTER.toMillis());
+        List<ProgramEvent> events = programs.events();
+        measures.arrived(when, events, since, to, true);
+        measures.averages(when, events, from, to);
+        measures.encounters(when, events, from, to);
+    }
+
+    private void killEachInTurn() throws Exception {
+        Thread.sleep(STORED.toMillis());
+        Map<String, String> before = logins.connected();
+        long killed = System.currentTimeMillis();
+        say("kill -9 of context broker and IoT Agent");
+        farm.standIn().kill();
+        Thread.sleep(AWAY.toMillis());
+        farm.standIn().start();
+        isBack("the agent's end", before, killed, false);
+
+        killed = System.currentTimeMillis();
+        say("kill -9 of ./furrow up, with control plane, Kafka, Connect and Flink");
+        farm.up().kill();
+        Thread.sleep(AWAY.toMillis());
+        farm.up().start();
+        isBack("the control plane's end", before, killed, false);
+        shown.soundDevices("after the control plane's end");
+        shown.faultsBesideMosquitto("after it");
+
+        killed = System.currentTimeMillis();
+        say("kill -9 of Mosquitto");
+        long subscriptions = farm.agentSubscriptions();
+        farm.mosquitto().kill();
+        Thread.sleep(AWAY.toMillis());
+        farm.mosquitto().start();
+        Until.isTrue("the agent is back at Mosquitto", TIMEOUT, () -> farm.agentSubscriptions() > subscriptions);
+        isBack("the broker's end", before, killed, true);
+    }
+
+    private void isBack(String after, Map<String, String> before, long since, boolean mayBeCut) throws Exception {
+        logins.remain(after, before, since, mayBeCut);
+        long asked = System.currentTimeMillis();
+        logins.answer("after " + after, commanded());
+        Thread.sleep(SETTLED.toMillis());
+        measures.arrived("after " + after, programs.events(), asked, System.currentTimeMillis() - 5_000, false);
+    }
+
+    /** Devices with a period of 15 min that are not sent anything until the end. */
+    private List<Roster.Device> quiet() {
+        return roster.devices().stream()
+                .filter(each -> each.mission().equals("quarter-hour"))
+                .skip(15)
+                .toList();
+    }
+
+    private List<Roster.Device> commanded() {
+        List<Roster.Device> quiet = quiet();
+        return roster.devices().stream()
+                .filter(each -> each.reports() && !quiet.contains(each))
+                .toList();
+    }
+
+    /** The first of so many that can be commanded. */
+    private List<Roster.Device> every(int count) {
+        List<Roster.Device> all = commanded();
+        return Stream.iterate(0, index -> index < all.size(), index -> index + count)
+                .map(all::get)
+                .toList();
+    }
+
+    private static void say(String words) {
+        System.out.println(words);
+    }
+}

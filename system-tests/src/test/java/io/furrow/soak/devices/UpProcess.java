@@ -1,0 +1,130 @@
+package io.furrow.soak.devices;
+
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.TimeUnit;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.embedded.FreePort;
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.Until;
+
+/** {@code ./furrow up} in a process of its own, on the same ports and directory whenever it is started, and commands to it. */
+final class UpProcess implements AutoCloseable {
+    private static final Duration START_TIMEOUT = Duration.ofSeconds(180);
+    private static final long COMMAND_SECONDS = 90;
+    private static final long STOP_SECONDS = 60;
+    private static final List<String> PORTS = List.of(
+            "dashboard",
+            "kafka",
+            "connect",
+            "flink",
+            "notify",
+            "mqtt",
+            "orion",
+            "iot-agent",
+            "mongo",
+            "control",
+            "health");
+
+    private final Path furrow;
+    private final Path folder;
+    private final Map<String, Integer> ports = new LinkedHashMap<>();
+    private final List<String> command = new ArrayList<>();
+    private Process process;
+
+    /** @param home of the checkout @param folder for its data and what it prints */
+    UpProcess(Path home, Path folder, List<String> options) throws IOException {
+        this.furrow = home.resolve("furrow");
+        this.folder = Files.createDirectories(folder);
+        command.addAll(List.of(furrow.toString(), "up", "--no-simulated-devices"));
+        command.addAll(List.of("--data", folder.resolve("data").toString()));
+        for (String port : PORTS) {
+            ports.put(port, FreePort.orFree(0));
+            command.addAll(List.of("--%s-port".formatted(port), ports.get(port).toString()));
+        }
+        command.addAll(options);
+    }
+
+    URI api(String path) {
+        return URI.create("http://127.0.0.1:" + ports.get("control") + path);
+    }
+
+    String kafka() {
+        return "127.0.0.1:" + ports.get("kafka");
+    }
+
+    /** Returns when it is ready. */
+    void start() throws IOException {
+        process = new ProcessBuilder(command)
+                .redirectErrorStream(true)
+                .redirectOutput(ProcessBuilder.Redirect.appendTo(
+                        folder.resolve("up.out").toFile()))
+                .start();
+        Until.isTrue("up is ready", START_TIMEOUT, () -> !process.isAlive() || isReady());
+        if (!process.isAlive()) {
+            throw new IOException("up ended while it started: " + Files.readString(folder.resolve("up.out")));
+        }
+    }
+
+    private boolean isReady() {
+        URI ready = URI.create("http://127.0.0.1:" + ports.get("health") + "/ready");
+        return Http.get(ready).body().path("status").asText().equals("ready");
+    }
+
+    /** Ends it as {@code kill -9} does. */
+    void kill() throws InterruptedException {
+        process.destroyForcibly().waitFor();
+    }
+
+    /** What a path of the REST API has. */
+    JsonNode get(String path) {
+        return Http.get(api(path)).body();
+    }
+
+    /** Runs a command of {@code ./furrow} to its end. @return what it printed */
+    String run(String... words) throws IOException, InterruptedException {
+        List<String> all = new ArrayList<>(List.of(furrow.toString()));
+        all.addAll(List.of(words));
+        all.addAll(List.of("--api", api("").toString()));
+        Path output = Files.createTempFile(folder, "command", ".out");
+        Process ran = new ProcessBuilder(all)
+                .redirectErrorStream(true)
+                .redirectOutput(output.toFile())
+                .start();
+        if (!ran.waitFor(COMMAND_SECONDS, TimeUnit.SECONDS)) {
+            ran.destroyForcibly();
+            throw new IOException("has not ended within %d s: %s".formatted(COMMAND_SECONDS, all));
+        }
+        String printed = Files.readString(output);
+        Files.delete(output);
+        if (ran.exitValue() != 0) {
+            throw new IOException("%s ended with %d: %s".formatted(all, ran.exitValue(), printed));
+        }
+        return printed;
+    }
+
+    @Override
+    public void close() {
+        if (process == null) {
+            return;
+        }
+        process.destroy();
+        try {
+            if (!process.waitFor(STOP_SECONDS, TimeUnit.SECONDS)) {
+                process.destroyForcibly();
+            }
+        } catch (InterruptedException e) {
+            process.destroyForcibly();
+            Thread.currentThread().interrupt();
+        }
+    }
+}
