@@ -83,10 +83,8 @@ final class ConnectionPublisher {
         wanted.all().forEach((key, device) -> {
             LoginReport gateway = byMission.get(device.version().mission());
             LoginReport own = byDevice.get(device.device());
-            put(
-                    key,
-                    connection(
-                            device, withLastLogin(key, own == null ? onlyLogin(gateway) : own), isIn(registered, key)));
+            LoginReport login = withFormer(published.get(key), own == null ? onlyLogin(gateway) : own);
+            put(key, connection(device, login, published.get(key), isIn(registered, key)));
         });
         new HashSet<>(published.keySet())
                 .stream().filter(key -> !wanted.all().containsKey(key)).forEach(key -> put(key, null));
@@ -97,18 +95,20 @@ final class ConnectionPublisher {
         return gateway == null ? null : new LoginReport(gateway.loggedIn(), null, null);
     }
 
-    /** With a login that was published before: who observes logins may have forgotten it, and the device may be connected since then. */
-    private LoginReport withLastLogin(String key, LoginReport login) {
-        DeviceConnection before = published.get(key);
-        LoginReport last = new LoginReport(before == null ? null : before.loggedIn(), null, null);
-        return login == null ? last : both(login, last);
+    /** With what was published before: who observes logins may have forgotten it, and the device may be connected since then. */
+    private static LoginReport withFormer(DeviceConnection former, LoginReport login) {
+        LoginReport before = former == null
+                ? new LoginReport(null, null, null)
+                : new LoginReport(former.loggedIn(), former.refusedLogin(), former.foreignTopic());
+        return login == null ? before : both(login, before);
     }
 
     private static Boolean isIn(Set<String> registered, String key) {
         return registered == null ? null : Boolean.valueOf(registered.contains(key));
     }
 
-    private DeviceConnection connection(WantedDevice device, LoginReport login, Boolean isRegistered) {
+    private DeviceConnection connection(
+            WantedDevice device, LoginReport login, DeviceConnection former, Boolean isRegistered) {
         String apiKey = settings.secret().get().apiKey(device.version().mission());
         return new DeviceConnection(
                 since,
@@ -118,7 +118,7 @@ final class ConnectionPublisher {
                 settings.connections()
                         .measures()
                         .unreadable(apiKey, device.device())
-                        .orElse(null),
+                        .orElse(former == null ? null : former.unreadablePayload()),
                 isRegistered);
     }
 

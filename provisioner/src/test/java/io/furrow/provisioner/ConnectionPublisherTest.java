@@ -109,17 +109,23 @@ class ConnectionPublisherTest {
         assertThat(producer.history().get(2).value()).isNull();
     }
 
-    /** The broker's log is read from a few megabytes before its end: the device may have connected before, and be connected. */
+    /** The broker's log is read from a few megabytes before its end, and the stand-in forgets: the device may be connected all along. */
     @Test
-    void retainsTheLastLoginOverARestart() throws Exception {
-        publisher.startAnew(Map.of(key, new DeviceConnection(START - 9, START - 5, null, null, null, true)));
+    void retainsWhatWasKnownBeforeARestart() throws Exception {
+        RefusedLogin refused = new RefusedLogin(2, START - 6, DeviceConnection.WRONG_PASSWORD, user);
+        ForeignTopic foreign = new ForeignTopic(9, START - 4, "/k/e/attrs");
+        UnreadablePayload former = new UnreadablePayload(1, START - 3, "no JSON", "{");
+        publisher.startAnew(Map.of(key, new DeviceConnection(START - 9, START - 5, refused, foreign, former, true)));
 
         publish(Set.of(key));
-        assertThat(newest()).isEqualTo(new DeviceConnection(START, START - 5, null, null, null, true));
+        assertThat(newest()).isEqualTo(new DeviceConnection(START, START - 5, refused, foreign, former, true));
 
-        logins.put(user, new LoginReport(START + 1, null, null));
+        unreadable = new UnreadablePayload(1, START + 2, "no JSON", "[");
+        logins.put(user, new LoginReport(START + 1, null, new ForeignTopic(1, START + 3, "/k/f/attrs")));
         publish(Set.of(key));
-        assertThat(newest()).isEqualTo(new DeviceConnection(START, START + 1, null, null, null, true));
+        assertThat(newest())
+                .isEqualTo(new DeviceConnection(
+                        START, START + 1, refused, new ForeignTopic(1, START + 3, "/k/f/attrs"), unreadable, true));
     }
 
     @Test

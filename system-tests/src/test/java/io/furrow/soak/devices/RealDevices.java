@@ -7,9 +7,12 @@ import java.util.List;
 import java.util.Map;
 import java.util.stream.Stream;
 
+import io.furrow.soak.control.Until;
+
 /** Two hundred devices on a farm of processes: first undisturbed, then while agent, control plane and broker are killed in turn. */
 public final class RealDevices {
     private static final Duration AWAY = Duration.ofSeconds(8);
+    private static final Duration TIMEOUT = Duration.ofMinutes(1);
     private static final Duration SETTLED = Duration.ofSeconds(10);
     /** The stand-in writes its file so often at least. */
     private static final Duration STORED = Duration.ofSeconds(8);
@@ -153,9 +156,11 @@ public final class RealDevices {
 
         killed = System.currentTimeMillis();
         say("kill -9 of Mosquitto");
+        long subscriptions = farm.agentSubscriptions();
         farm.mosquitto().kill();
         Thread.sleep(AWAY.toMillis());
         farm.mosquitto().start();
+        Until.isTrue("the agent is back at Mosquitto", TIMEOUT, () -> farm.agentSubscriptions() > subscriptions);
         isBack("the broker's end", before, killed, true);
     }
 

@@ -1,10 +1,12 @@
 package io.furrow.soak.devices;
 
 import java.io.IOException;
+import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.concurrent.atomic.AtomicBoolean;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -15,6 +17,7 @@ import io.furrow.soak.control.Mosquitto;
 final class RealFarm implements AutoCloseable {
     static final String WINDOW = "10s";
 
+    private final Path log;
     private final Mosquitto mosquitto;
     private final StandInProcess standIn;
     private final UpProcess up;
@@ -22,7 +25,7 @@ final class RealFarm implements AutoCloseable {
 
     RealFarm(Path home, Path folder, Roster roster) throws IOException, InterruptedException {
         Path broker = folder.resolve("mosquitto").toAbsolutePath();
-        Path log = broker.resolve("broker.log");
+        log = broker.resolve("broker.log");
         mosquitto = new Mosquitto(broker, "log_dest file %s%nlog_type all".formatted(log));
         standIn = new StandInProcess(folder, mosquitto.uri());
         Path fields = Files.writeString(
@@ -59,6 +62,15 @@ final class RealFarm implements AutoCloseable {
         mosquitto.start();
         standIn.start();
         up.start();
+    }
+
+    /** How often the IoT Agent has subscribed to what devices send: it comes back to the broker later than they do. */
+    long agentSubscriptions() {
+        try (Stream<String> lines = Files.lines(log)) {
+            return lines.filter(line -> line.endsWith(" 1 /json/+/+/cmdexe")).count();
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
     }
 
     Mosquitto mosquitto() {
