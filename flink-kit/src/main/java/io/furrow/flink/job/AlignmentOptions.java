@@ -12,7 +12,7 @@ public final class AlignmentOptions {
             paramLabel = "DURATION",
             description =
                     "A partition that is ahead of the slowest one by more than this event time waits, as looked at"
-                            + " five times a second. Shorter: a backlog that is read unevenly takes less memory. Longer: fewer"
+                            + " ten times a second. Shorter: a backlog that is read unevenly takes less memory. Longer: fewer"
                             + " waits where partitions differ by nature. 0s: none waits, as always with --idle-advance and in a replay. Default: 1min; 0s with --eager,"
                             + " of which the answers would wait, too.")
     private Duration maxDrift;
