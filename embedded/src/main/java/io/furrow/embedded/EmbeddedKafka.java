@@ -162,6 +162,9 @@ public final class EmbeddedKafka implements AutoCloseable {
                 Map.entry("log.dirs", directory.toString()),
                 Map.entry("num.partitions", PARTITIONS),
                 Map.entry("message.max.bytes", MAX_RECORD_BYTES),
+                // There is no replica: after a power cut the last second is missing at most.
+                Map.entry("log.flush.interval.ms", 1_000),
+                Map.entry("log.flush.scheduler.interval.ms", 1_000),
                 Map.entry("offsets.topic.num.partitions", PARTITIONS),
                 Map.entry("offsets.topic.replication.factor", 1),
                 // A single node loses and regains its own leadership at each start. A load that was begun before may

@@ -10,6 +10,7 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Properties;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -59,8 +60,9 @@ public final class Connectors {
      *
      * @param journal folder for what Kafka does not have yet
      * @param allowed hosts and origins beside its own
+     * @param kafka settings of a Kafka client, with which it looks whether Kafka still has what it acknowledged
      */
-    record Source(int port, Path journal, AllowedNames allowed) {}
+    record Source(int port, Path journal, AllowedNames allowed, Properties kafka) {}
 
     /**
      * Creates or changes the source; returns when it listens for notifications and has subscribed to every change.
@@ -90,6 +92,10 @@ public final class Connectors {
                 String.join(",", source.allowed().origins()),
                 "subscription.tenants",
                 scope.service().isEmpty() ? "-" : scope.service()));
+        source.kafka()
+                .stringPropertyNames()
+                .forEach(name ->
+                        settings.put("admin.override." + name, source.kafka().getProperty(name)));
         settings.put("listen.host", listening.host());
         settings.put("subscription.servicepaths", scope.servicePath().replaceFirst("/$", "") + "/#");
         if (listening.publicUrl() != null) {

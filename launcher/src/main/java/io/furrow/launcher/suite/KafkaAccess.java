@@ -6,6 +6,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Properties;
+import java.util.Set;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
@@ -22,6 +23,7 @@ import io.furrow.model.topic.Topics;
 public final class KafkaAccess implements AutoCloseable {
     private static final int PARTITIONS = 4;
     private static final long SECONDS = 20;
+    private static final Set<String> JOBS_READ = Set.of(Topics.RAW, Topics.NOTIFICATIONS);
     private static final List<String> TOPICS = List.of(
             Topics.RAW,
             Topics.dead(Topics.RAW),
@@ -86,10 +88,15 @@ public final class KafkaAccess implements AutoCloseable {
 
     /** Makes the topics that are read before anybody writes to them; those that exist stay as they are. */
     void ensureTopics() throws InterruptedException {
+        boolean isAlone = hasOneBroker();
         for (String topic : TOPICS) {
             NewTopic wanted = new NewTopic(topic, Optional.of(PARTITIONS), Optional.empty());
             if (Topics.ofDeadLetters(topic).isPresent()) { // a letter is larger than the record that it was
                 wanted.configs(Map.of("max.message.bytes", Integer.toString(16 * 1024 * 1024)));
+            } else if (isAlone
+                    && JOBS_READ.contains(
+                            topic)) { // a job's checkpoint must not be ahead of the topic after a power cut
+                wanted.configs(Map.of("flush.messages", "1"));
             }
             try {
                 admin.createTopics(List.of(wanted)).all().get(SECONDS, TimeUnit.SECONDS);
@@ -109,6 +116,19 @@ public final class KafkaAccess implements AutoCloseable {
                                 .formatted(bootstrapServers),
                         e);
             }
+        }
+    }
+
+    /** Without a replica what is not on the disk is lost with it. */
+    private boolean hasOneBroker() throws InterruptedException {
+        try {
+            return admin.describeCluster()
+                            .nodes()
+                            .get(SECONDS, TimeUnit.SECONDS)
+                            .size()
+                    == 1;
+        } catch (ExecutionException | TimeoutException e) {
+            return false; // the topics say what is wrong
         }
     }
 

@@ -260,7 +260,9 @@ public final class Suite implements AutoCloseable {
         connectors = new Connectors(connect.uri(), listener.resolve("/health"), settings.fiware());
         progress.step("NGSI source and sink", () -> {
             connectors.source(
-                    new Connectors.Source(port, directory.resolve("journal"), settings.allowed()), contextBroker);
+                    new Connectors.Source(
+                            port, directory.resolve("journal"), settings.allowed(), kafka.clientProperties()),
+                    contextBroker);
             connectors.sink(
                     contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION, Topics.PRESENCE, Topics.CONTEXT));
             return listener;

@@ -122,6 +122,11 @@ public final class Journal implements AutoCloseable {
         return segments.bytes();
     }
 
+    /** Whether its files take half of the bytes that they may. */
+    public boolean isHalfFull() {
+        return room.isHalfFull();
+    }
+
     /** Bytes of records that are not durable yet. */
     public long waitingBytes() {
         return commit.waitingBytes();

@@ -41,6 +41,10 @@ final class JournalQuota {
         return segments.bytes() + needed <= settings.maxBytes() && isFree(needed);
     }
 
+    boolean isHalfFull() {
+        return segments.bytes() > settings.maxBytes() / 2;
+    }
+
     /** Bytes of records as they are on the disk. */
     static long sizeOf(List<byte[]> payloads) {
         return payloads.stream().mapToLong(SegmentFormat::sizeOf).sum();

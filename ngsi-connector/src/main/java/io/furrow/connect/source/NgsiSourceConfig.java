@@ -1,5 +1,6 @@
 package io.furrow.connect.source;
 
+import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 
@@ -9,6 +10,8 @@ import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.journal.JournalSettings;
+import io.furrow.connect.source.journal.AcknowledgedRecords;
+import io.furrow.connect.source.journal.TaskJournals;
 import io.furrow.connect.source.option.AccessOptions;
 import io.furrow.connect.source.option.AcknowledgingOptions;
 import io.furrow.connect.source.option.EntityOptions;
@@ -250,6 +253,19 @@ public class NgsiSourceConfig extends AbstractConfig {
 
     JournalSettings journalSettings() {
         return JournalSettings.of(journal.maxBytes(), pending.maxBytes(), journal.minFreeBytes());
+    }
+
+    /** What is done for the case that Kafka loses what it acknowledged; transforms may give records another form or topic. */
+    TaskJournals.Safety safety() {
+        Map<String, Object> client = sizes.admin();
+        boolean isVerifiable = client.containsKey("bootstrap.servers")
+                && String.valueOf(originals().getOrDefault("transforms", "")).isBlank();
+        return new TaskJournals.Safety(
+                journal.retention(),
+                isVerifiable
+                        ? new AcknowledgedRecords(
+                                client, List.of(topics.topic(), topics.deadLetterTopic()), journal.retention())
+                        : TaskJournals.Verification.NONE);
     }
 
     /** The settings of the translation of notifications. */

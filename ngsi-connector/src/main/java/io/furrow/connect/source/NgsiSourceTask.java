@@ -4,6 +4,7 @@ import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 import java.util.OptionalLong;
+import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.atomic.AtomicReference;
 
 import org.apache.kafka.clients.producer.RecordMetadata;
@@ -30,6 +31,10 @@ public class NgsiSourceTask extends SourceTask {
 
     private final AtomicReference<SourceRuntime> source = new AtomicReference<>();
     private final AtomicReference<JournalMaintenance> keeper = new AtomicReference<>();
+    /** By partition, the offset of the newest record. */
+    private final Map<String, Long> offsets = new ConcurrentHashMap<>();
+
+    private volatile boolean hasLost;
     private NgsiSourceConfig config;
     private int batchSize;
     private SourceRecords sourceRecords;
@@ -109,6 +114,10 @@ public class NgsiSourceTask extends SourceTask {
                             + JournalOptions.DIR + ", then restart the task",
                     failure);
         });
+        if (hasLost) {
+            hasLost = false;
+            open.resume(this::committed);
+        }
         TaskJournals.Batch turn = open.next(batchSize, POLL_WAIT);
         if (turn.records().isEmpty()) {
             return null;
@@ -133,6 +142,17 @@ public class NgsiSourceTask extends SourceTask {
                             SourceOffsets.sequenceOf(record.sourceOffset()));
         } else {
             running.journals().produced();
+            watch(metadata);
+        }
+    }
+
+    /** A broker that has lost records gives their offsets again. */
+    private void watch(RecordMetadata metadata) {
+        if (metadata.hasOffset()) {
+            Long before = offsets.put(metadata.topic() + "-" + metadata.partition(), metadata.offset());
+            if (before != null && metadata.offset() <= before) {
+                hasLost = true;
+            }
         }
     }
 

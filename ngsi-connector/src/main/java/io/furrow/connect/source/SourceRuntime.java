@@ -81,7 +81,7 @@ record SourceRuntime(
     private static TaskJournals openJournals(NgsiSourceConfig config, TaskJournals.Committed committed, Ledger ledger) {
         JournalFolders folders = new JournalFolders(config.journal().dir(), config.name(), config.journalSettings());
         try {
-            return new TaskJournals(folders, config.taskIndex(), committed, ledger);
+            return new TaskJournals(folders, config.taskIndex(), committed, config.safety(), ledger);
         } catch (UncheckedIOException e) {
             String cause = e.getMessage() + " (" + e.getCause() + ")";
             throw new ConnectException(cause + "; change " + JournalOptions.DIR + " or make the folder writable", e);

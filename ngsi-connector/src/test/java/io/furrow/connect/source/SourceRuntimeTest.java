@@ -137,7 +137,8 @@ class SourceRuntimeTest {
             }
             return OptionalLong.empty();
         };
-        return new TaskJournals(new JournalFolders(directory, "kept", settings), 0, committed, new Ledger());
+        return new TaskJournals(
+                new JournalFolders(directory, "kept", settings), 0, committed, TaskJournals.Safety.NONE, new Ledger());
     }
 
     private SourceRuntime open(Duration standby) {

@@ -3,6 +3,8 @@ package io.furrow.connect.source.journal;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.time.Duration;
+import java.util.ArrayDeque;
+import java.util.Deque;
 import java.util.List;
 import java.util.Map;
 import java.util.OptionalLong;
@@ -17,10 +19,15 @@ import io.furrow.connect.journal.JournalRecord;
  * Kafka.
  */
 final class JournalConsumer implements AutoCloseable {
+    private static final long NOTHING = -1;
+
     private final Journal journal;
     private final JournalReader reader;
     private final long start;
+    private final Duration retention;
+    private final Deque<Done> done = new ArrayDeque<>();
     private volatile long released;
+    private long outdated;
     private boolean closed;
     /**
      * From and to (exclusive) of records that will never be in Kafka, because the worker was configured to skip them.
@@ -30,12 +37,28 @@ final class JournalConsumer implements AutoCloseable {
     /**
      * @param committed number of the first record that is not known to be in Kafka; empty for the oldest retained
      *     record
+     * @param retention how long records stay after they were committed
      */
-    JournalConsumer(Journal journal, OptionalLong committed) {
+    JournalConsumer(Journal journal, OptionalLong committed, Duration retention) {
+        this(journal, Math.max(committed.orElse(0), journal.begin()), NOTHING, retention);
+    }
+
+    private JournalConsumer(Journal journal, long start, long outdated, Duration retention) {
         this.journal = journal;
-        this.start = Math.max(committed.orElse(0), journal.begin());
+        this.start = start;
         this.released = start;
+        this.outdated = outdated;
+        this.retention = retention;
         this.reader = journal.reader(start);
+    }
+
+    /**
+     * Begins at a record before the committed position, because Kafka lost it.
+     *
+     * @param outdated the committed position, which says nothing until another one is committed
+     */
+    static JournalConsumer putBack(Journal journal, long start, long outdated, Duration retention) {
+        return new JournalConsumer(journal, start, outdated, retention);
     }
 
     Journal journal() {
@@ -85,11 +108,31 @@ final class JournalConsumer implements AutoCloseable {
      * Returns whether nothing is left.
      */
     boolean release(OptionalLong committed) {
-        long done = behindSkipped(Math.max(committed.orElse(0), 0));
-        released = Math.max(released, done);
-        journal.release(done);
-        return done >= journal.end();
+        long known = committed.orElse(0);
+        if (known == outdated) {
+            return false;
+        }
+        outdated = NOTHING;
+        long upTo = behindSkipped(Math.max(known, 0));
+        released = Math.max(released, upTo);
+        long free = retained(upTo);
+        journal.release(free);
+        return free >= journal.end();
     }
+
+    /** The position that was reached before the retention, or now if the journal is short of space. */
+    private long retained(long upTo) {
+        long now = System.nanoTime();
+        done.add(new Done(now, upTo));
+        long free = 0;
+        while (!done.isEmpty() && (journal.isHalfFull() || now - done.peek().nanos() >= retention.toNanos())) {
+            free = Math.max(free, done.remove().upTo());
+        }
+        return free;
+    }
+
+    /** That all below a position was in Kafka. */
+    private record Done(long nanos, long upTo) {}
 
     private synchronized long behindSkipped(long committed) {
         Map.Entry<Long, Long> around = skipped.floorEntry(committed);

@@ -33,10 +33,33 @@ public final class TaskJournals implements AutoCloseable {
         OptionalLong of(String journal);
     }
 
+    /** Sees to it that Kafka has what it acknowledged. */
+    @FunctionalInterface
+    public interface Verification {
+        /** Believes the offset store. */
+        Verification NONE = (journal, committed) -> committed;
+
+        /**
+         * The number of the first record below the committed position that Kafka has no longer; that position if it has all.
+         * May wait for Kafka.
+         */
+        long firstMissing(Journal journal, long committed) throws InterruptedException;
+    }
+
+    /**
+     * What is done for the case that Kafka loses what it acknowledged.
+     *
+     * @param retention how long records stay in the journal after they were committed
+     */
+    public record Safety(Duration retention, Verification verification) {
+        public static final Safety NONE = new Safety(Duration.ZERO, Verification.NONE);
+    }
+
     /** Records of one journal, in order. */
     public record Batch(String journal, List<JournalRecord> records) {}
 
     private final JournalFolders folders;
+    private final Safety safety;
     private final Ledger ledger;
     private final LeftRecords left;
     private volatile Committed committed;
@@ -48,8 +71,9 @@ public final class TaskJournals implements AutoCloseable {
     private boolean closed;
 
     /** Opens the task's own journal, the one of the slot. */
-    public TaskJournals(JournalFolders folders, int slot, Committed committed, Ledger ledger) {
+    public TaskJournals(JournalFolders folders, int slot, Committed committed, Safety safety, Ledger ledger) {
         this.folders = folders;
+        this.safety = safety;
         this.committed = committed;
         this.ledger = ledger;
         this.left = LeftRecords.of(folders.owner());
@@ -99,14 +123,14 @@ public final class TaskJournals implements AutoCloseable {
     }
 
     private JournalConsumer again(JournalConsumer drain) {
-        JournalConsumer fresh = new JournalConsumer(
-                drain.journal(), committed.of(drain.journal().id()));
+        JournalConsumer fresh =
+                consumer(drain.journal(), committed.of(drain.journal().id()));
         drain.closeReader();
         return fresh;
     }
 
     private JournalConsumer opened(Journal journal, OptionalLong known) {
-        JournalConsumer drain = new JournalConsumer(journal, known);
+        JournalConsumer drain = consumer(journal, known);
         left.take(journal.folder());
         ledger.recovered.add(drain.left());
         for (Corruption damage : journal.damages()) {
@@ -117,6 +141,25 @@ public final class TaskJournals implements AutoCloseable {
             }
         }
         return drain;
+    }
+
+    private JournalConsumer consumer(Journal journal, OptionalLong known) {
+        long committed = known.orElse(0);
+        long first = committed;
+        try {
+            first = safety.verification().firstMissing(journal, Math.min(committed, journal.end()));
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+        if (first >= Math.min(committed, journal.end())) {
+            return new JournalConsumer(journal, known, safety.retention());
+        }
+        LOG.warn(
+                "journal {}: Kafka acknowledged record {} and has it no longer; sends again all from there to {}",
+                journal.id(),
+                first,
+                committed);
+        return JournalConsumer.putBack(journal, first, committed, safety.retention());
     }
 
     /** The journal to which new records are appended. */

@@ -20,6 +20,7 @@ public record JournalOptions(AbstractConfig config) {
     public static final String MAX_BYTES = "journal.max.bytes";
     static final String MIN_FREE_BYTES = "journal.min.free.bytes";
     static final String STANDBY = "journal.standby.ms";
+    static final String RETENTION = "journal.retention.ms";
 
     private static final long MIB = 1024 * 1024;
 
@@ -56,6 +57,20 @@ public record JournalOptions(AbstractConfig config) {
                 "Milliseconds that the source accepts notifications after a worker that does not reach Kafka has"
                         + " stopped the task, which it does after heartbeat.interval.ms. It starts the task again when"
                         + " Kafka is back. 0 stops listening with the task.");
+        defineRetention(group);
+    }
+
+    private static void defineRetention(OptionGroup group) {
+        group.number(
+                RETENTION,
+                Duration.ofMinutes(2).toMillis(),
+                Range.between(0, Duration.ofDays(1).toMillis()),
+                "Retention (ms)",
+                "Milliseconds that records stay in the journal after Kafka has acknowledged them, unless it is half full. A"
+                        + " broker that lost power, and has no replica, may come back without the last of them: at each"
+                        + " start, and where the offsets of a partition step back, the source looks for them and sends again"
+                        + " what is missing. That needs " + SizeOptions.ADMIN_PREFIX
+                        + "bootstrap.servers, and no transforms.");
     }
 
     private static void requireAbsolutePath(String name, Object value) {
@@ -84,6 +99,10 @@ public record JournalOptions(AbstractConfig config) {
 
     public long maxBytes() {
         return config.getLong(MAX_BYTES);
+    }
+
+    public Duration retention() {
+        return Duration.ofMillis(config.getLong(RETENTION));
     }
 
     public Duration standby() {

@@ -29,6 +29,7 @@ class TaskJournalsTest {
     private final Ledger ledger = new Ledger();
     private final AtomicInteger failures = new AtomicInteger();
     private Runnable whenAsked = () -> {};
+    private TaskJournals.Safety safety = TaskJournals.Safety.NONE;
 
     @TempDir
     private Path root;
@@ -188,6 +189,51 @@ class TaskJournalsTest {
     }
 
     @Test
+    void handsOnAgainWhatKafkaLostAndKeepsItUntilKafkaHasItOnceMore() throws Exception {
+        Path left;
+        String id;
+        try (TaskJournals gone = open(1)) {
+            take(gone, 4);
+            left = gone.own().folder();
+            id = gone.own().id();
+        }
+        offsets.put(id, 4L);
+        safety = new TaskJournals.Safety(Duration.ZERO, (journal, committed) -> Math.min(committed, 2));
+        try (TaskJournals journals = open(0)) {
+            journals.adopt();
+            assertThat(ledger.recovered.sum()).isEqualTo(2);
+            assertThat(numbers(journals)).containsExactly(2L, 3L);
+            journals.release();
+            assertThat(left).as("the offset store says what it said before").exists();
+            offsets.put(id, 3L);
+            journals.release();
+            assertThat(left).exists();
+            offsets.put(id, 4L);
+            journals.release();
+            assertThat(left).doesNotExist();
+        }
+    }
+
+    @Test
+    void keepsForAWhileWhatKafkaHas() throws Exception {
+        String id;
+        Path left;
+        try (TaskJournals gone = open(1)) {
+            take(gone, 1);
+            left = gone.own().folder();
+            id = gone.own().id();
+        }
+        safety = new TaskJournals.Safety(Duration.ofHours(1), TaskJournals.Verification.NONE);
+        try (TaskJournals journals = open(0)) {
+            journals.adopt();
+            numbers(journals);
+            offsets.put(id, 1L);
+            journals.release();
+            assertThat(left).exists();
+        }
+    }
+
+    @Test
     void takesOffsetsOfItsShapeOnly() {
         NgsiSourceConnector connector = new NgsiSourceConnector();
         Map<String, ?> partition = Map.of("journal", "0-0123456789abcdef");
@@ -209,7 +255,7 @@ class TaskJournalsTest {
 
     private TaskJournals open(int slot) {
         JournalSettings settings = JournalSettings.of(64 * 1024 * 1024, 1024 * 1024, 0);
-        return new TaskJournals(new JournalFolders(root, "farm", settings), slot, this::committed, ledger);
+        return new TaskJournals(new JournalFolders(root, "farm", settings), slot, this::committed, safety, ledger);
     }
 
     private OptionalLong committed(String journal) {
