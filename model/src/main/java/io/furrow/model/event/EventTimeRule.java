@@ -61,7 +61,8 @@ public record EventTimeRule(List<Source> order, Duration maxSkew) implements Ser
         boolean isNamed(Entity entity) {
             return DEVICE_TIMES.stream()
                     .flatMap(name -> entity.value(name).stream())
-                    .anyMatch(value -> value.isContainerNode() || !value.isNull() && !value.asText().isBlank());
+                    .anyMatch(value -> value.isContainerNode()
+                            || !value.isNull() && !value.asText().isBlank());
         }
 
         private static Stream<Instant> modified(JsonNode attribute) {

@@ -24,10 +24,10 @@ import com.fasterxml.jackson.databind.JsonNode;
  * microseconds, then nanoseconds; below 1e9 milliseconds.
  */
 public final class Instants {
-    private static final double LEAST_SECONDS = 1e9;
-    private static final double LEAST_MILLIS = 1e11;
-    private static final double LEAST_MICROS = 1e14;
-    private static final double LEAST_NANOS = 1e17;
+    private static final double MIN_SECONDS = 1e9;
+    private static final double MIN_MILLIS = 1e11;
+    private static final double MIN_MICROS = 1e14;
+    private static final double MIN_NANOS = 1e17;
     private static final double END_OF_NANOS = 1e20;
     private static final int MILLIS_PER_SECOND = 1000;
     private static final int NANOS_PER_MILLI = 1_000_000;
@@ -59,11 +59,11 @@ public final class Instants {
             return Optional.empty();
         }
         double millis = number;
-        if (number >= LEAST_NANOS) {
+        if (number >= MIN_NANOS) {
             millis = number / NANOS_PER_MILLI;
-        } else if (number >= LEAST_MICROS) {
+        } else if (number >= MIN_MICROS) {
             millis = number / MILLIS_PER_SECOND;
-        } else if (number >= LEAST_SECONDS && number < LEAST_MILLIS) {
+        } else if (number >= MIN_SECONDS && number < MIN_MILLIS) {
             millis = number * MILLIS_PER_SECOND;
         }
         return Optional.of(Instant.ofEpochMilli(Math.round(millis)));
