@@ -141,8 +141,10 @@ public class NgsiSinkTask extends SinkTask {
             context.timeout(backoff.after(e.away()).toMillis());
             throw new RetriableException(e.getMessage(), e);
         } catch (WrongSettingException e) {
-            String remedy = "; check " + BrokerOptions.URL + " and the rights of this client";
-            throw new ConnectException(e.getMessage() + remedy, e);
+            ledger.retried.increment();
+            context.timeout(backoff.after().toMillis());
+            String remedy = "; tries again. Check " + BrokerOptions.URL + " and the rights of this client";
+            throw new RetriableException(e.getMessage() + remedy, e);
         }
     }
 

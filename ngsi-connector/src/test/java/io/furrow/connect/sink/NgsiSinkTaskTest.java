@@ -172,13 +172,19 @@ class NgsiSinkTaskTest {
 
     @ParameterizedTest
     @ValueSource(ints = {301, 401, 404})
-    void failsWhereWhatAnswersIsNoContextBroker(int status) {
+    void triesAgainWhereAProxyAnswersForTheContextBroker(int status) {
         broker.behaviour = update -> new Reply(status, "");
+        List<SinkRecord> delivery = List.of(record("a", entity("a", 1)));
 
-        assertThatThrownBy(() -> task.put(List.of(record("a", entity("a", 1)))))
-                .isInstanceOf(ConnectException.class)
-                .isNotInstanceOf(RetriableException.class)
-                .hasMessageContaining("context.broker.url");
+        for (int i = 0; i < 3; i++) {
+            assertThatThrownBy(() -> task.put(delivery))
+                    .isInstanceOf(RetriableException.class)
+                    .hasMessageContaining("context.broker.url");
+        }
+        broker.behaviour = update -> Reply.WRITTEN;
+        task.put(delivery);
+
+        assertThat(broker.value("a", "x").asInt()).isEqualTo(1);
         assertThat(context.reported).isEmpty();
     }
 

@@ -33,8 +33,9 @@ public final class Webhook {
 
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
     private static final Duration MAX_RETRY_AFTER = Duration.ofHours(1);
-    /** 4xx status codes that are temporary. */
-    private static final Set<Integer> TEMPORARY = Set.of(408, 425, 429);
+    /** 4xx status codes that say nothing of the alarm: a token has expired, a proxy does not know the receiver now. */
+    private static final Set<Integer> TEMPORARY =
+            Set.of(401, 402, 403, 404, 405, 407, 408, 410, 421, 423, 425, 429, 451);
 
     private final URI url;
     private final WebhookSecret secret;

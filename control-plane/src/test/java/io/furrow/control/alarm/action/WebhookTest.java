@@ -117,8 +117,10 @@ class WebhookTest {
 
     @ParameterizedTest
     @CsvSource({
-        "200, TAKEN", "202, TAKEN", "204, TAKEN", "301, FAILED", "307, FAILED", "400, REFUSED", "401, REFUSED",
-        "404, REFUSED", "408, FAILED", "410, REFUSED", "425, FAILED", "429, FAILED", "500, FAILED", "503, FAILED"
+        "200, TAKEN", "202, TAKEN", "204, TAKEN", "301, FAILED", "307, FAILED", "400, REFUSED", "401, FAILED",
+                "403, FAILED",
+        "404, FAILED", "408, FAILED", "410, FAILED", "422, REFUSED", "425, FAILED", "429, FAILED", "500, FAILED",
+                "503, FAILED"
     })
     void tellsWhatMayBeTakenLaterFromWhatNeverWill(int answered, Webhook.Outcome outcome) throws Exception {
         status = answered;

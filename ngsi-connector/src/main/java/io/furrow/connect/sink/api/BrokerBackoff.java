@@ -23,6 +23,11 @@ public final class BrokerBackoff {
         return heeded.compareTo(delay) > 0 ? heeded : delay;
     }
 
+    /** After an answer that names no time. */
+    public Duration after() {
+        return backoff.next();
+    }
+
     /** It answered. */
     public void reset() {
         backoff.reset();
