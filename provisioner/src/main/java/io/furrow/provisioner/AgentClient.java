@@ -26,7 +26,7 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * The provisioning interface of an IoT Agent JSON. Each call is one attempt of at most ten seconds. {@link IOException} means that
- * the agent is unavailable: no answer, 429, what it cannot have answered, or, as {@link AgentFaultException}, 5xx;
+ * the agent is unavailable: no answer, what a proxy in front of it answers, what it cannot have answered, or, as {@link AgentFaultException}, 5xx;
  * {@link RefusedByAgentException} any other refusal. The scopes name a tenant: the agent has no default one.
  */
 final class AgentClient {
@@ -37,7 +37,9 @@ final class AgentClient {
     private static final String GROUPS = "/iot/services";
     private static final int CONFLICT = 409;
     private static final int NOT_FOUND = 404;
-    private static final int TOO_MANY = 429;
+    /** A proxy has no token, or too much to do. */
+    private static final Set<Integer> NOT_OF_AGENT = Set.of(401, 403, 405, 407, 429);
+
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 
     private final HttpClient http = HttpClient.newBuilder()
@@ -237,7 +239,7 @@ final class AgentClient {
         if (answer.status() / 100 == 5) {
             throw new AgentFaultException(answer.toString());
         }
-        if (answer.status() == TOO_MANY) {
+        if (NOT_OF_AGENT.contains(answer.status())) {
             throw new IOException(answer.toString());
         }
         return answer;

@@ -48,6 +48,8 @@ final class FakeAgent implements AutoCloseable {
     /** Values of {@code X-Farm}. */
     final Set<String> tokens = new HashSet<>();
 
+    /** What a proxy in front of it answers to requests that change something; 0 if it lets them pass. */
+    volatile int proxy;
     /** It answers 503 to everything. */
     volatile boolean away;
     /** What it answers with 200 to every GET; null for what is asked. */
@@ -120,6 +122,9 @@ final class FakeAgent implements AutoCloseable {
         try {
             if (away) {
                 throw new Refusal(503, "AWAY", "the registry is away");
+            }
+            if (proxy > 0 && !exchange.getRequestMethod().equals("GET")) {
+                throw new Refusal(proxy, "PROXY", "no token");
             }
             if (garbage != null && exchange.getRequestMethod().equals("GET")) {
                 answer(exchange, 200, garbage.getBytes(StandardCharsets.UTF_8));

@@ -97,6 +97,20 @@ class ProvisioningFailuresTest {
         assertThat(provisioning.step()).isEqualTo(DONE);
     }
 
+    @ParameterizedTest
+    @ValueSource(ints = {401, 403, 407})
+    void refusesNoDeviceForAnAnswerOfAProxy(int status) throws Exception {
+        want(1);
+        agent.proxy = status;
+        assertThatThrownBy(provisioning::step)
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining(Integer.toString(status));
+
+        agent.proxy = 0;
+        assertThat(provisioning.step().refused()).isEmpty();
+        assertThat(agent.devices).containsKey(id(1));
+    }
+
     @Test
     void isAwayWhenItFailsOnAllDevices() {
         want(3);
