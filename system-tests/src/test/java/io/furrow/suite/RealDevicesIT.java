@@ -115,6 +115,10 @@ class RealDevicesIT {
         send("POST", "/api/missions/first/stop", "{}");
         await().atMost(TIMEOUT)
                 .until(() -> mission("first").at("/status/state").asText().equals("stopped"));
+        send("DELETE", "/api/missions/first", "");
+        await().atMost(TIMEOUT)
+                .until(() ->
+                        running.ngsi().entities("id=urn:ngsi-ld:Mission:first").isEmpty());
     }
 
     @Tag("full")

@@ -186,6 +186,8 @@ public final class Connectors {
                 "1",
                 "topics",
                 String.join(",", topics),
+                "delete.on.null",
+                "true",
                 "errors.tolerance",
                 "all",
                 "errors.deadletterqueue.topic.name",
