@@ -39,6 +39,7 @@ class LedgerEquationsTest {
             "");
 
     private final HttpClient client = HttpClient.newHttpClient();
+    private long offset;
     private final Random random = new Random(7);
     private final Map<Map<String, ?>, Map<String, ?>> committed = new HashMap<>();
 
@@ -138,7 +139,7 @@ class LedgerEquationsTest {
                 boolean skipped = random.nextInt(10) == 0;
                 committed.put(record.sourcePartition(), record.sourceOffset());
                 task.commitRecord(
-                        record, skipped ? null : new RecordMetadata(new TopicPartition("t", 0), 0, 0, 0, 0, 0));
+                        record, skipped ? null : new RecordMetadata(new TopicPartition("t", 0), offset++, 0, 0, 0, 0));
             }
         }
     }
