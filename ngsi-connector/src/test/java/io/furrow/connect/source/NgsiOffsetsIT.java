@@ -206,6 +206,7 @@ class NgsiOffsetsIT {
         int port = twoFreePorts();
         Map<String, String> options = options("fewer", port);
         options.put("tasks.max", "2");
+        options.put("journal.retention.ms", "1000");
         rig.create("fewer", "ngsi-source-exactly-once", options);
         SourceOnConnect first = new SourceOnConnect(port);
         SourceOnConnect second = new SourceOnConnect(port + 1);

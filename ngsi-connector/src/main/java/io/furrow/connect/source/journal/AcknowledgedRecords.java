@@ -111,11 +111,12 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
         return events;
     }
 
-    private static Optional<Event> event(JournalRecord kept) {
+    /** Empty for a record without id, or of a topic of before the configuration was changed. */
+    private Optional<Event> event(JournalRecord kept) {
         OutgoingRecord record = JournalRecordCodec.read(kept.payload());
         String id = record.headers().get(HeaderNames.CE_ID);
         String received = record.headers().get(HeaderNames.TS_SOURCE);
-        return id == null || received == null
+        return id == null || received == null || !topics.contains(record.topic())
                 ? Optional.empty()
                 : Optional.of(new Event(kept.sequence(), id, Long.parseLong(received)));
     }
