@@ -41,6 +41,16 @@ class ReadPositionsTest {
                 .satisfies(ReadPositionsTest::movesUnknown);
     }
 
+    /** Metadata says in which unit it is; the page shows the same. */
+    @Test
+    void readsTheSpeedInItsUnit() throws Exception {
+        byte[] robot = """
+                {"id":"r1","type":"Robot","Latitude":{"value":1},"Longitude":{"value":2},
+                 "speed":{"value":36,"metadata":{"unitCode":{"type":"Text","value":"KMH"}}}}""".getBytes(StandardCharsets.UTF_8);
+
+        assertThat(read(robot)).extracting(PositionFix::speed).containsExactly(10.0);
+    }
+
     private static void movesUnknown(PositionFix fix) {
         assertThat(fix.speed()).isNaN();
         assertThat(fix.heading()).isNaN();
@@ -62,10 +72,13 @@ class ReadPositionsTest {
     }
 
     private static List<PositionFix> read(EntityBuilder entity) throws Exception {
+        return read(entity.build().toBytes());
+    }
+
+    private static List<PositionFix> read(byte[] value) throws Exception {
         AheadLimit ahead = AheadLimit.of(ReportedRun.options());
         var harness = ProcessFunctionTestHarnesses.forProcessFunction(new ReadPositions("collision", ahead));
         byte[] key = "r1".getBytes(StandardCharsets.UTF_8);
-        byte[] value = entity.build().toBytes();
         Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
         harness.processElement(new TopicRecord("data.raw", 0, 7, 1000, key, value, headers), 1000);
         List<PositionFix> fixes = harness.extractOutputValues();
