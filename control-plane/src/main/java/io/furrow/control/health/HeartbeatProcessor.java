@@ -1,7 +1,6 @@
 package io.furrow.control.health;
 
 import java.time.Duration;
-import java.util.Set;
 
 import org.apache.kafka.streams.processor.PunctuationType;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
@@ -31,8 +30,6 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
     /** Resolution of the time since which no report has arrived. */
     private static final Duration PULSE = Duration.ofSeconds(5);
 
-    private static final Set<String> ATTRIBUTES = Set.of(Battery.ATTRIBUTE, SilenceDetector.STATUS);
-
     private final HealthOptions options;
     private SilenceDetector listener;
     private long pulsed;
@@ -59,8 +56,7 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
             return;
         }
         try {
-            Entity entity =
-                    listener.hasHeard(key) ? Entity.parse(record.value(), ATTRIBUTES) : Entity.parse(record.value());
+            Entity entity = Entity.parse(record.value());
             long now = context().currentSystemTimeMs();
             if (listener.hear(key, entity, record.timestamp(), now) && now - pulsed >= PULSE.toMillis()) {
                 pulsed = now;
