@@ -112,7 +112,12 @@ class ReplaysIT {
     @Test
     void plansAWholeMissionAcrossTheEndOfSummerTime(PageSuite suite) {
         FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
-        farm.page().route("**/api/recordings", route -> route.fulfill(new Route.FulfillOptions().setContentType("application/json").setBody("""
+        farm.page()
+                .route(
+                        "**/api/recordings",
+                        route -> route.fulfill(new Route.FulfillOptions()
+                                .setContentType("application/json")
+                                .setBody("""
                 [{"mission": "long", "first": 1792887000000, "last": 1792892400000},
                  {"mission": "short", "first": 1792889400000, "last": 1792890600000}]""")));
         List<String> plans = new ArrayList<>();
@@ -131,7 +136,8 @@ class ReplaysIT {
         assertThat(farm.find(".plan")).containsText("Length: 20 min");
         farm.button("Start replay").click();
         farm.page().waitForCondition(() -> plans.size() == 2);
-        org.assertj.core.api.Assertions.assertThat(plans).noneMatch(plan -> plan.contains("\"from\"") || plan.contains("\"to\""));
+        org.assertj.core.api.Assertions.assertThat(plans)
+                .noneMatch(plan -> plan.contains("\"from\"") || plan.contains("\"to\""));
 
         farm.find("#plan-to").fill("2026-10-25T02:05");
         farm.button("Start replay").click();
