@@ -73,7 +73,7 @@ export const texts = {
     columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects' },
     speed: '{speed} m/s',
     phases: { predicted: 'predicted', provisional: 'predicted', started: 'too close', ongoing: 'too close', ended: 'over', crossed: 'crossed', confirms: 'too close' },
-    faults: { 'no-number': 'no number', 'out-of-range': 'outside the map', 'no-fix': 'no fix' },
+    faults: { 'no-number': 'no number', 'no-point': 'no point', 'out-of-range': 'outside the map', 'no-fix': 'no fix' },
     moreRows: 'and {count} more; search to find them',
     emptyTitle: 'No devices yet', emptyText: 'As soon as a device reports, it is here. Simulated ones come with',
   },
@@ -269,7 +269,7 @@ export const texts = {
  * @param {Object<string, *>=} values put in the place of `{name}`
  */
 export function t(key, values = {}) {
-  const text = key.split('.').reduce((section, name) => section?.[name], texts);
+  const text = key.split('.').reduce((section, name) => (section && Object.hasOwn(section, name) ? section[name] : undefined), texts);
   if (typeof text !== 'string') {
     console.error(`no text ${key}`);
     return key;

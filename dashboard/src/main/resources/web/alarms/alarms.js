@@ -159,7 +159,7 @@ function lineOf(alarm) {
 
 /** Leads to the first of its devices on the map. */
 function show(alarm) {
-  const device = (alarm.devices ?? []).map((each) => each.id).find((id) => store.entities.has(id)) ?? (store.entities.has(alarm.subject) ? alarm.subject : null);
+  const device = (alarm.devices ?? []).map(({ id, type }) => store.identities.keyOfType(id, type)).find((key) => store.entities.has(key)) ?? (store.entities.has(alarm.subject) ? alarm.subject : null);
   device && store.select(device, { reveal: true });
 }
 

@@ -1,6 +1,6 @@
 /** Which alarms are shown, and in which order. */
 
-const SEVERITY = { critical: 0, major: 1, minor: 2, warning: 3 };
+const SEVERITY = { __proto__: null, critical: 0, major: 1, minor: 2, warning: 3 };
 
 /**
  * @param {Iterable<Object>} alarms records of `service.alarms`

@@ -34,7 +34,7 @@ export class Card {
     this.more = h('button.button.quiet.square.small', {
       type: 'button', 'aria-expanded': 'false', 'aria-controls': this.details.id, on: { click: () => this.toggle() },
     }, icon('chevron-down', 18));
-    this.element = h('li.card.device', { data: { id: entity.id }, on: {
+    this.element = h('li.card.device', { data: { id: entity.identity.id }, on: {
       pointerenter: () => store.setHovered(entity.id), pointerleave: () => store.setHovered(null), focusin: () => store.setHovered(entity.id),
     } },
       h('div.card-head', null, h('h3.cut', null, this.name), this.mark, this.age, this.more),
@@ -146,7 +146,7 @@ export class Card {
     const sent = (this.sent = { command, at: Date.now(), info: infoOf(this.entity, command), waiting: true });
     this.drawCommands();
     try {
-      await api.post(`/api/devices/${encodeURIComponent(this.entity.id)}/commands`, { command, type: this.entity.type });
+      await api.post(deviceAt(this.entity, '/commands'), { command, type: this.entity.type });
     } catch (error) {
       sent.error = error.message;
     }
@@ -167,8 +167,8 @@ export class Card {
     const { entity } = this;
     this.askForConnection();
     replace(this.details,
-      h('p.small.muted', null, [entity.type, entity.domain, entity.mission].filter(Boolean).join(' · ')),
-      h('p.small.muted.code', null, entity.id),
+      h('p.small.muted', null, [entity.type, entity.domain, entity.mission, entity.difference && `${entity.identity.service} ${entity.identity.servicePath}`.trim()].filter(Boolean).join(' · ')),
+      h('p.small.muted.code', null, entity.identity.id),
       this.connection.map((sentence) => h('p.small.connection', null, sentence)),
       h('dl.attributes', null, allAttributes(entity).map(({ name, value }) => h('div', null, h('dt', null, name.slice(0, 80)), h('dd.numbers', null, value)))),
       entity.omitted > 0 && h('p.small.muted', null, t('cards.omitted', { count: entity.omitted })));
@@ -181,7 +181,7 @@ export class Card {
     }
     this.asked = Date.now();
     try {
-      const { connection } = await api.get(`/api/devices/${encodeURIComponent(this.entity.id)}`);
+      const { connection } = await api.get(deviceAt(this.entity));
       this.connection = sentencesOf(connection);
     } catch {
       this.connection = [];
@@ -194,3 +194,8 @@ export class Card {
   }
 }
 Card.count = 0;
+
+/** The device of an entity in the REST API. */
+function deviceAt({ type, identity: { id, service, servicePath } }, what = '') {
+  return `/api/devices/${encodeURIComponent(id)}${what}?${new URLSearchParams({ service, servicePath, type })}`;
+}

@@ -16,7 +16,7 @@ export function commandsOf(entity) {
   const names = new Set();
   if ('cmd' in entity.attributes) {
     ROBOT.forEach((each) => names.add(each));
-  } else if (store.devices.get(entity.id)?.device) {
+  } else if (store.deviceOf(entity)?.device) {
     const off = entity.word === 'off';
     [off ? 'on' : 'off', 'restart'].forEach((each) => names.add(each));
   }

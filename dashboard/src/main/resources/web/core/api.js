@@ -1,5 +1,6 @@
 /** The REST API: JSON in, JSON out, with the user's token. */
 import { t } from '../texts.js';
+import { parse } from './json.js';
 
 const TOKEN = 'furrow-token';
 
@@ -40,7 +41,7 @@ export const api = {
 async function request(method, path, body, options) {
   const response = await send(path, { ...options, method, body });
   const text = await response.text();
-  return text ? JSON.parse(text) : null;
+  return text ? parse(text) : null;
 }
 
 async function send(path, { method = 'GET', body, headers = {}, signal } = {}) {

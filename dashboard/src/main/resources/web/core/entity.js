@@ -1,6 +1,8 @@
 /** What the page makes of an NGSI-v2 entity, whatever its attributes are. */
-import { shortId } from './format.js';
+import { hasUnit, shortId } from './format.js';
+import { parse } from './json.js';
 import { Line } from './line.js';
+import { finite, isPercent, positionOf, quantityOf } from './readings.js';
 
 /** Points that are kept of a trail and of a number. */
 const POINTS = 120;
@@ -20,11 +22,14 @@ const LOOK_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'em
 
 /**
  * @typedef {Object} Entity
- * @property {string} id
+ * @property {string} id under which the page has it: that of its identity, unless another entity has the same
+ * @property {{key: string, id: string, service: string, servicePath: string, type: string}} identity as the context broker has it
+ * @property {string} difference from other entities of its id, in words; empty where there are none
  * @property {string} type
  * @property {'robot'|'sensor'|'camera'|'other'} kind
  * @property {string} name
- * @property {Object<string, {type: string, value: *, metadata: Object, time: number}>} attributes values of FIROS are read
+ * @property {Object<string, {type: string, value: *, metadata: Object, percent: boolean, time: number}>} attributes values of FIROS are read;
+ *     `percent` where a number without a unit was once more than 1
  * @property {number} time of its newest report, event time, epoch ms
  * @property {[number, number]|null} position degrees, longitude first
  * @property {string|null} positionFault why there is none
@@ -45,9 +50,9 @@ const LOOK_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'em
 const NO_TRAIL = new Line(['lon', 'lat', 'time'], 0);
 
 /** @returns {Entity} */
-export function newEntity(id) {
+export function newEntity(identity) {
   return {
-    id, type: '', kind: 'other', name: shortId(id), attributes: {}, time: 0, position: null, positionFault: null, heading: null, speed: null,
+    id: identity.key, identity, difference: '', type: '', kind: 'other', name: shortId(identity.id), attributes: Object.create(null), time: 0, position: null, positionFault: null, heading: null, speed: null,
     period: null, place: null, trail: NO_TRAIL, series: new Map(), domain: null, mission: null, word: null, state: 'ok', suspect: false, omitted: 0,
   };
 }
@@ -70,7 +75,8 @@ export function takeReport(entity, record) {
     if (!(name in entity.attributes) && ++count > MOST_ATTRIBUTES) {
       omitted++;
     } else if (!(entity.attributes[name]?.time > record.time) || COMMAND_STATE.test(name)) {
-      entity.attributes[name] = { ...readAttribute(reported[name]), time: record.time };
+      const attribute = readAttribute(name, reported[name]);
+      entity.attributes[name] = { ...attribute, percent: isPercent(attribute) || Boolean(entity.attributes[name]?.percent), time: record.time };
     }
   }
   entity.omitted = omitted;
@@ -88,21 +94,23 @@ export function takeReport(entity, record) {
   }
 }
 
-function readAttribute(reported) {
+function readAttribute(name, reported) {
   if (reported === null || typeof reported !== 'object' || Array.isArray(reported) || !('value' in reported)) {
     return { type: '', value: cut(reported), metadata: {} };
   }
-  return { type: text(reported.type), value: readValue(text(reported.type), reported.value), metadata: reported.metadata ?? {} };
+  const attribute = { type: text(reported.type), value: readValue(reported.value), metadata: reported.metadata ?? {} };
+  // of any other text nobody says that it is a number: it may be one with zeros in front
+  return typeof attribute.value === 'string' && hasUnit(name, attribute) ? { ...attribute, value: finite(attribute.value) ?? attribute.value } : attribute;
 }
 
 /** Values of FIROS are messages of ROS as text, whose quotes are written `%27`. */
-function readValue(type, value) {
+function readValue(value) {
   if (typeof value !== 'string') {
     return cut(value);
   }
   if (value.startsWith('{%27') && value.length < LONGEST_VALUE) {
     try {
-      const message = JSON.parse(value.replaceAll('%27', '"'));
+      const message = parse(value.replaceAll('%27', '"'));
       const names = Object.keys(message);
       if (names.length === 1 && names[0] === 'data') {
         return message.data;
@@ -128,19 +136,25 @@ function cut(value) {
 
 function describe(entity, reported) {
   const attributes = entity.attributes;
-  const given = text(attributes.name?.value) || text(attributes.Name?.value);
-  entity.name = given ? given.slice(0, 80) : shortId(entity.id);
+  entity.name = named(entity);
   entity.kind = kindOf(entity);
   entity.domain = text(attributes.Domain?.value) || null;
   entity.mission = text(attributes.Mission?.value) || null;
-  entity.speed = numberOf(attributes.speed?.value ?? attributes.Speed?.value);
-  entity.heading = numberOf(attributes.heading?.value ?? attributes.Heading?.value);
+  entity.speed = quantityOf(attributes.speed ?? attributes.Speed, 'SPEED');
+  entity.heading = quantityOf(attributes.heading ?? attributes.Heading, 'HEADING');
   entity.word = wordOf(attributes);
-  if (hasPosition(reported)) {
-    const found = positionOf(attributes);
+  const found = positionOf(reported);
+  if (found.position || found.fault) {
     entity.position = found.position ?? entity.position;
     entity.positionFault = found.fault ?? null;
   }
+}
+
+/** What people call it. */
+export function named({ attributes, identity, difference }) {
+  const given = text(attributes.name?.value) || text(attributes.Name?.value);
+  const name = given ? given.slice(0, 80) : shortId(identity.id);
+  return difference ? `${name} (${difference.slice(0, 80)})` : name;
 }
 
 function kindOf(entity) {
@@ -167,36 +181,6 @@ function wordOf(attributes) {
     }
   }
   return null;
-}
-
-/** Where it is, as the analytics jobs read it: `gnss` or `pose`, `Latitude` and `Longitude`, `location`. */
-function positionOf(attributes) {
-  const message = attributes.gnss?.value ?? attributes.pose?.value;
-  if (message && typeof message === 'object') {
-    return checked(message.longitude, message.latitude);
-  }
-  const latitude = attributes.Latitude ?? attributes.latitude;
-  const longitude = attributes.Longitude ?? attributes.longitude;
-  if (latitude && longitude) {
-    return checked(longitude.value, latitude.value);
-  }
-  const location = attributes.location?.value;
-  if (typeof location === 'string') {
-    const [lat, lon] = location.split(',');
-    return checked(lon, lat);
-  }
-  return Array.isArray(location?.coordinates) && location.type === 'Point' ? checked(...location.coordinates) : {};
-}
-
-function checked(longitude, latitude) {
-  const [lon, lat] = [numberOf(longitude), numberOf(latitude)];
-  if (lon === null || lat === null) {
-    return { fault: 'no-number' };
-  }
-  if (Math.abs(lat) > 90 || Math.abs(lon) > 180) {
-    return { fault: 'out-of-range' };
-  }
-  return lat === 0 && lon === 0 ? { fault: 'no-fix' } : { position: [lon, lat] };
 }
 
 function remember(entity, reported, time) {
@@ -242,15 +226,15 @@ function addNumber(series, name, time, value) {
  * @param {import('./stream.js').TopicRecord[]} records of the entity, oldest first
  */
 export function takePast(entity, records) {
-  const past = { position: null, place: null, trail: NO_TRAIL, series: new Map(), attributes: {} };
+  const past = { position: null, place: null, trail: NO_TRAIL, series: new Map(), attributes: Object.create(null) };
   for (const { time, value } of records) {
     if (value === null || typeof value !== 'object' || Array.isArray(value) || time > entity.time) {
       continue;
     }
     for (const name in value) {
-      !FRAME.has(name) && name in entity.attributes && (past.attributes[name] = readAttribute(value[name]));
+      !FRAME.has(name) && name in entity.attributes && (past.attributes[name] = readAttribute(name, value[name]));
     }
-    past.position = hasPosition(value) ? positionOf(past.attributes).position ?? past.position : past.position;
+    past.position = positionOf(value).position ?? past.position;
     remember(past, value, time);
   }
   entity.trail === NO_TRAIL ? (entity.trail = past.trail) : entity.trail.prepend(past.trail, 'time');
@@ -260,10 +244,6 @@ export function takePast(entity, records) {
   if (entity.period === null && records.length > 1) {
     entity.period = (records.at(-1).time - records[0].time) / (records.length - 1);
   }
-}
-
-function hasPosition(reported) {
-  return 'gnss' in reported || 'pose' in reported || 'Latitude' in reported || 'latitude' in reported || 'location' in reported;
 }
 
 /**
@@ -294,9 +274,4 @@ function millisOf(duration) {
 
 function text(value) {
   return typeof value === 'string' ? value : '';
-}
-
-function numberOf(value) {
-  const number = typeof value === 'string' && value.trim() !== '' ? Number(value) : value;
-  return typeof number === 'number' && Number.isFinite(number) ? number : null;
 }

@@ -1,14 +1,14 @@
 /** Brings topics into the store: what is live, or what a replay plays. */
 import { api } from './api.js';
 import { resource } from './resource.js';
-import { endOf, store } from './store.js';
+import { deviceKey, endOf, store } from './store.js';
 import { streams } from './stream.js';
 
 const LISTS = {
-  domains: { path: '/api/domains', key: 'domain', topics: ['service.domains'] },
-  missions: { path: '/api/missions', key: 'mission', topics: ['service.missions', 'service.missions.status'] },
-  devices: { path: '/api/devices', key: 'id', topics: ['service.devices'] },
-  recordings: { path: '/api/recordings', key: 'mission', topics: ['service.recordings'] },
+  domains: { path: '/api/domains', key: (each) => each.domain, topics: ['service.domains'] },
+  missions: { path: '/api/missions', key: (each) => each.mission, topics: ['service.missions', 'service.missions.status'] },
+  devices: { path: '/api/devices', key: (each, known) => (known.has(each.id) ? deviceKey(each) : each.id), topics: ['service.devices'] },
+  recordings: { path: '/api/recordings', key: (each) => each.mission, topics: ['service.recordings'] },
 };
 /** How often a replay looks for newer pictures. */
 const IMAGES_MILLIS = 5_000;
@@ -38,6 +38,7 @@ class Feeds {
   /**
    * A topic whose records one function takes, with its figures in `store.topics`. A known state has no deletions: `forget` gets each key
    * that an earlier stream had and the known state lacks, with the time of the newest record that it has, and when the key came last.
+   * `take` returns keys where they are not that of the record.
    */
   feed(topic, mode, take, { main = false, forget = (key) => take({ key, headers: {}, value: null }), known = null, whileHidden } = {}) {
     const before = new Map();
@@ -47,10 +48,9 @@ class Feeds {
     const stream = streams.subscribe(topic, { mode, prime: true, whileHidden }, {
       records: (records, merged) => {
         for (const record of records) {
-          take(record);
+          const taken = take(record) ?? [record.key];
           record.kind === 'event' ? figures.count++ : (newest = Math.max(newest, record.time));
-          // an entity may have another key in the known state
-          record.value === null && !record.cut ? keys.delete(record.key) : keys.set(record.key, Date.now()).set(record.value?.id ?? record.key, Date.now());
+          taken.forEach((key) => (record.value === null && !record.cut ? keys.delete(key) : keys.set(key, Date.now())));
         }
         figures.count += merged;
         figures.last = Date.now();
@@ -101,7 +101,8 @@ class Feeds {
     const list = resource(path, { topics });
     list.on(() => {
       if (!list.error) {
-        store[name] = new Map((list.value ?? []).map((each) => [each[key], each]));
+        store[name] = new Map();
+        (list.value ?? []).forEach((each) => store[name].set(key(each, store[name]), each));
       }
       store.tell(name);
     });
@@ -114,7 +115,7 @@ class Feeds {
       this.feed('data.raw', 'latest', (record) => store.takeEntity(record), {
         main: true,
         // what came a moment ago and is newer than the known state is not merged yet
-        forget: (key, newest, came) => (store.entities.get(key)?.time <= newest || Date.now() - came > MERGED_MILLIS) && store.takeEntity({ key, value: null }),
+        forget: (key, newest, came) => (store.entities.get(key)?.time <= newest || Date.now() - came > MERGED_MILLIS) && store.forgetEntity(key),
       }),
       this.feed('data.collision', 'all', (record) => store.takeEncounter(record)),
       this.feed('data.temperature', 'all', (record) => store.takeTemperature(record)),
@@ -199,7 +200,7 @@ class Feeds {
     });
     this.epochs = new Map();
     this.shown = members.flatMap((each, index) => [
-      this.feed(each.topic, 'latest', (record) => this.takeReplayed(record), { main: index === 0, forget: (key) => store.takeEntity({ key, value: null }) }),
+      this.feed(each.topic, 'latest', (record) => this.takeReplayed(record), { main: index === 0, forget: (key) => store.forgetEntity(key) }),
       this.feed(`${each.topic}.collision`, 'all', (record) => this.takeResult(record, each.topic, () => store.takeEncounter(record))),
       this.feed(`${each.topic}.temperature`, 'all', (record) => this.takeResult(record, each.topic, () => store.takeTemperature(record))),
     ]);
@@ -212,7 +213,7 @@ class Feeds {
     const epoch = Number(record.headers['replay-epoch'] ?? 0);
     const known = this.epochs.get(record.topic) ?? -1;
     if (epoch < known) {
-      return;
+      return [];
     }
     if (epoch > known) {
       this.epochs.set(record.topic, epoch);
@@ -222,9 +223,10 @@ class Feeds {
       }
       store.mode.epoch = Math.max(store.mode.epoch, epoch);
     }
-    if (record.headers['replay-kind'] !== 'end') {
-      store.takeEntity(record.headers['replay-kind'] === 'prime' ? { ...record, kind: 'prime' } : record);
+    if (record.headers['replay-kind'] === 'end') {
+      return [];
     }
+    return store.takeEntity(record.headers['replay-kind'] === 'prime' ? { ...record, kind: 'prime' } : record);
   }
 
   takeResult(record, topic, take) {

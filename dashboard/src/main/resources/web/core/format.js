@@ -1,5 +1,6 @@
 /** How numbers, times and names are written on the page. */
 import { t } from '../texts.js';
+import { unitOf } from './readings.js';
 
 const SECOND = 1000;
 const MINUTE = 60 * SECOND;
@@ -70,7 +71,7 @@ export function number(value) {
     return '–';
   }
   const size = Math.abs(value);
-  if (size >= 1e9 || (size > 0 && size < 0.001)) {
+  if ((size >= 1e9 && !Number.isSafeInteger(value)) || (size > 0 && size < 0.001)) {
     return value.toExponential(2);
   }
   return size >= 100 || Number.isInteger(value)
@@ -109,14 +110,18 @@ function inUnit(value, unit) {
 
 /** Units of UN/CEFACT that FIWARE's data models use, and those of attributes that say none. */
 const UNIT_CODES = {
+  __proto__: null,
   CEL: 'celsius', MTS: 'meterPerSecond', KMH: 'kilometerPerHour', P1: 'percent', MTR: 'meter', DD: 'degree', HPA: 'hectopascal', A97: 'hectopascal', LUX: 'lux',
   VLT: 'volt', AMP: 'ampere', WTT: 'watt', MMT: 'millimeter', D54: 'wattPerSquareMeter',
 };
 const KNOWN_UNITS = {
+  __proto__: null,
   temperature: 'celsius', soiltemperature: 'celsius', dewpoint: 'celsius', speed: 'meterPerSecond', windspeed: 'meterPerSecond', heading: 'degree', winddirection: 'degree',
-  humidity: 'percent', relativehumidity: 'percent', soilmoisture: 'percent', battery: 'percent', pressure: 'hectopascal', atmosphericpressure: 'hectopascal', altitude: 'meter',
+  humidity: 'percent', relativehumidity: 'percent', soilmoisture: 'percent', battery: 'percent', batterylevel: 'percent', pressure: 'hectopascal', atmosphericpressure: 'hectopascal', altitude: 'meter',
   illuminance: 'lux', voltage: 'volt', precipitation: 'millimeter', rainfall: 'millimeter', solarradiation: 'wattPerSquareMeter',
 };
+/** Of a part of a whole, 0 to 1. */
+const SHARE_CODE = 'C62';
 /** They are told without a fraction. */
 const WHOLE = new Set(['percent', 'degree']);
 const SHARES = new Set(['battery', 'relativehumidity', 'humidity', 'batterylevel']);
@@ -129,18 +134,25 @@ const SHARES = new Set(['battery', 'relativehumidity', 'humidity', 'batterylevel
  * @returns {{label: string, value: string, unit: string, numeric: boolean}}
  */
 export function quantity(name, attribute) {
-  const known = name.toLowerCase();
   let value = attribute.value;
   if (typeof value === 'number') {
-    const code = attribute.metadata?.unitCode?.value ?? attribute.metadata?.unit?.value;
-    const unit = typeof code === 'string' ? UNIT_CODES[code] : KNOWN_UNITS[known];
-    if (SHARES.has(known) && value >= 0 && value <= 1 && unit === 'percent') {
-      value *= 100;
-    }
-    const words = unit ? t(`units.${unit}`) : typeof code === 'string' ? code.slice(0, 12) : '';
+    const code = unitOf(attribute);
+    const isShare = SHARES.has(name.toLowerCase()) && (code === SHARE_CODE || (code === '' && value >= 0 && value <= 1 && !attribute.percent));
+    const unit = isShare ? 'percent' : unitNamed(name, code);
+    value *= isShare ? 100 : 1;
+    const words = unit ? t(`units.${unit}`) : code.slice(0, 12);
     return { label: label(name), value: WHOLE.has(unit) ? String(Math.round(value)) : number(value), unit: words, numeric: true };
   }
   return { label: label(name), value: plain(value), unit: '', numeric: false };
+}
+
+/** Whether an attribute measures something: by its metadata or by its name. */
+export function hasUnit(name, attribute) {
+  return unitOf(attribute) !== '' || unitNamed(name, '') !== undefined;
+}
+
+function unitNamed(name, code) {
+  return code ? UNIT_CODES[code] : KNOWN_UNITS[name.toLowerCase()];
 }
 
 /** A value as one line of text, cut to what a line can show. */

@@ -1,5 +1,6 @@
 /** All that the page shows. Feeds write it, elements listen to it. */
 import { stateOf } from './entity.js';
+import { Identities, scope } from './identities.js';
 import { Taking } from './taking.js';
 
 /** How long an encounter that ended stays to be seen, ms of what is shown. */
@@ -40,6 +41,7 @@ class Store extends Taking(Object) {
   /** What belongs to one run of time: all goes when a replay begins, jumps or ends. */
   clearShown() {
     this.entities = new Map();
+    this.identities = new Identities();
     this.encounters = new Map();
     this.suspects = new Map();
     this.images = new Map();
@@ -102,7 +104,20 @@ class Store extends Taking(Object) {
   }
 
   stateOf(entity) {
-    return stateOf(entity, this.now(), this.devices.get(entity.id)?.period);
+    return stateOf(entity, this.now(), this.deviceOf(entity)?.period);
+  }
+
+  /** What the REST API lists of an entity: robots of FIROS write their type in upper case. @returns {Object|undefined} */
+  deviceOf({ type, identity }) {
+    const key = deviceKey(identity);
+    const first = this.devices.get(identity.id);
+    const device = first && deviceKey(first) === key ? first : this.devices.get(key);
+    return device?.type && device.type.toLowerCase() !== type.toLowerCase() ? undefined : device;
+  }
+
+  /** The entity of a device that the REST API lists. @returns {import('./entity.js').Entity|undefined} */
+  entityOf(device) {
+    return this.entities.get(this.identities.keyOf(device.id, scope(device.service, device.servicePath)));
   }
 
   /** Whether what is shown stands for now, or was recorded. */
@@ -168,7 +183,7 @@ class Store extends Taking(Object) {
 
   /** Whether a name, type or attribute holds what is searched for. */
   matches(entity) {
-    return this.isFound(entity.name, entity.id, entity.type, entity.mission ?? '');
+    return this.isFound(entity.name, entity.identity.id, entity.type, entity.mission ?? '');
   }
 
   /** Whether one of the texts holds what is searched for. */
@@ -211,6 +226,12 @@ class Store extends Taking(Object) {
   may(what) {
     return this.me.role === 'admin' || (what === 'operate' && this.me.role === 'operator');
   }
+}
+
+/** Of a device as the REST API lists it, by which the store has it where another one has its id. @param {{id: string, service: string=, servicePath: string=}} device */
+export function deviceKey({ id, service, servicePath }) {
+  const of = scope(service, servicePath);
+  return [of.service, of.servicePath, id].join('|');
 }
 
 /** Where a replay ends, as far as that is known: a mission that is recorded meanwhile goes on. @returns {number|undefined} */

@@ -1,5 +1,6 @@
 /** Topics as streams of records, over WebSockets. */
 import { api } from './api.js';
+import { parse } from './json.js';
 
 const FIRST_WAIT = 500;
 const LONGEST_WAIT = 15_000;
@@ -83,7 +84,7 @@ class Stream {
       this.isFirst = true;
       this.say('open');
     };
-    socket.onmessage = (message) => this.take(JSON.parse(message.data));
+    socket.onmessage = (message) => this.take(parse(message.data));
     socket.onclose = (event) => {
       if (this.socket === socket) {
         this.socket = null;

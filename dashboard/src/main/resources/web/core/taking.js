@@ -1,28 +1,29 @@
 /** What the records of each topic change in the store. */
-import { newEntity, takePast, takeReport } from './entity.js';
+import { named, newEntity, takePast, takeReport } from './entity.js';
+import { scopeOf } from './identities.js';
 
 /** Most entities that are kept; beyond it those not heard of for longest go. */
 const MOST_ENTITIES = 5_000;
 
 /** @template T @param {T} Base @returns {T} with `take…` */
 export const Taking = (Base) => class extends Base {
-  /** @param {import('./stream.js').TopicRecord} record of an entity */
+  /** @param {import('./stream.js').TopicRecord} record of an entity @returns {string[]} the keys of the entities that it changes */
   takeEntity(record) {
-    const id = record.value?.id ?? record.key;
-    if (typeof id !== 'string' || id === '') {
-      return;
-    }
     if (record.value === null && !record.cut) {
-      if (this.entities.delete(id)) {
-        this.all = true;
-        this.tell('entities', id);
-      }
-      return;
+      const deleted = this.identities.deletedBy(record);
+      deleted.forEach((each) => this.forgetEntity(each));
+      return deleted;
     }
-    let entity = this.entities.get(id);
+    const identity = this.identities.take(record);
+    if (!identity) {
+      return [];
+    }
+    const key = identity.key;
+    let entity = this.entities.get(key);
     if (!entity) {
-      entity = newEntity(id);
-      this.entities.set(id, entity);
+      entity = newEntity(identity);
+      this.entities.set(key, entity);
+      this.nameAll(identity);
       this.entities.size > MOST_ENTITIES && this.forgetOldest();
     }
     if (record.cut) {
@@ -31,9 +32,33 @@ export const Taking = (Base) => class extends Base {
     } else if (typeof record.value === 'object' && !Array.isArray(record.value)) {
       takeReport(entity, record);
     }
-    entity.suspect = this.suspects.has(id);
+    entity.suspect = this.suspects.has(key);
     entity.state = this.stateOf(entity);
-    this.tell('entities', id);
+    this.tell('entities', key);
+    return [key];
+  }
+
+  forgetEntity(key) {
+    const entity = this.entities.get(key);
+    if (entity) {
+      this.entities.delete(key);
+      this.identities.forget(entity.identity);
+      this.nameAll(entity.identity);
+      this.all = true;
+      this.tell('entities', key);
+    }
+  }
+
+  /** Entities of one id say in their names how they differ. */
+  nameAll(identity) {
+    for (const { key } of this.identities.all(identity.id)) {
+      const entity = this.entities.get(key);
+      if (entity) {
+        entity.difference = this.identities.difference(entity.identity);
+        entity.name = named(entity);
+        this.tell('entities', key);
+      }
+    }
   }
 
   /**
@@ -43,17 +68,22 @@ export const Taking = (Base) => class extends Base {
    */
   takePast(records) {
     const reports = new Map();
-    records.forEach((record) => reports.has(record.key) ? reports.get(record.key).push(record) : reports.set(record.key, [record]));
-    for (const [id, of] of reports) {
-      const known = this.entities.get(id)?.time ?? -Infinity;
+    for (const record of records) {
+      const isDeleted = record.value === null && !record.cut;
+      const keys = isDeleted ? this.identities.deletedBy(record) : [this.identities.take(record)?.key ?? null];
+      keys.forEach((key) => reports.has(key) ? reports.get(key).push(record) : reports.set(key, [record]));
+    }
+    reports.delete(null);
+    for (const [key, of] of reports) {
+      const known = this.entities.get(key)?.time ?? -Infinity;
       const newer = of.filter((each) => each.time > known);
       const deleted = newer.findLastIndex((each) => each.value === null && !each.cut);
       newer.slice(Math.max(0, deleted)).forEach((each) => this.takeEntity(each));
-      const entity = this.entities.get(id);
+      const entity = this.entities.get(key);
       if (entity && known > -Infinity) {
         takePast(entity, of.filter((each) => each.time <= known));
         entity.state = this.stateOf(entity);
-        this.tell('entities', id);
+        this.tell('entities', key);
       }
     }
   }
@@ -63,8 +93,12 @@ export const Taking = (Base) => class extends Base {
     for (const each of this.entities.values()) {
       oldest = oldest === null || each.time < oldest.time ? each : oldest;
     }
-    this.entities.delete(oldest.id);
-    this.all = true;
+    this.forgetEntity(oldest.id);
+  }
+
+  /** @param {{headers: Object=}} record that names entities by their ids @returns {string[]} under which keys they are here */
+  keysOf({ headers }, ids) {
+    return ids.map((id) => this.identities.keyOf(id, scopeOf(headers)));
   }
 
   takeEncounter(record) {
@@ -73,10 +107,11 @@ export const Taking = (Base) => class extends Base {
       return;
     }
     const of = (name) => value[name]?.value;
-    const [a, b, phase] = [of('Device1_ID'), of('Device2_ID'), of('phase')];
-    if (typeof a !== 'string' || typeof b !== 'string') {
+    const phase = of('phase');
+    if (typeof of('Device1_ID') !== 'string' || typeof of('Device2_ID') !== 'string') {
       return;
     }
+    const [a, b] = this.keysOf(record, [of('Device1_ID'), of('Device2_ID')]);
     const pair = `${a}|${b}`;
     const known = this.encounters.get(pair);
     if (known && known.time > record.time) {
@@ -107,7 +142,7 @@ export const Taking = (Base) => class extends Base {
     if (value?.type !== 'Analytics:FieldTemperature' || this.averages.get(field)?.time > record.time) {
       return;
     }
-    const suspects = Array.isArray(of('suspects')) ? of('suspects') : [];
+    const suspects = this.keysOf(record, Array.isArray(of('suspects')) ? of('suspects') : []);
     this.averages.set(field, {
       value: of('averageTemperature'), count: of('devices'), time: record.time, suspects,
       verified: of('quality') !== 'unverified', quality: of('quality'), window: [of('windowStart'), of('windowEnd')],
@@ -172,8 +207,9 @@ export const Taking = (Base) => class extends Base {
   takeImage(record) {
     const image = record.value;
     if (image?.entity) {
-      this.images.set(image.entity, { ...image, time: record.time });
-      this.tell('images', image.entity);
+      const [key] = this.keysOf(record, [image.entity]);
+      this.images.set(key, { ...image, time: record.time });
+      this.tell('images', key);
     }
   }
 

@@ -1,13 +1,14 @@
 /** Encounters and markers of missions: where something happened. */
 import { api } from '../core/api.js';
 import { shortId } from '../core/format.js';
+import { store } from '../core/store.js';
 
 /** Encounters of a pair that begin within so many ms are one that was found twice. */
 const SAME = 2_000;
 
 /**
  * @typedef {Object} Encounter
- * @property {string} id @property {string} a @property {string} b ids of the devices @property {string} phase
+ * @property {string} id @property {string} a @property {string} b the keys that the page has for the devices @property {string} phase
  * @property {number} start @property {number} end epoch ms; the end of one that is not over is what is known of it
  * @property {number} closest meters @property {string[]} missions @property {number} epoch of a replay @property {[number, number]|null} at
  */
@@ -25,11 +26,12 @@ export function readEncounter(record) {
     return null;
   }
   const ahead = Number(record.headers?.['replay-offset'] ?? 0);
-  const [a, b] = [String(of('Device1_ID')), String(of('Device2_ID'))];
+  const ids = [String(of('Device1_ID')), String(of('Device2_ID'))];
+  const [a, b] = store.keysOf(record, ids);
   const end = Number(of('time') ?? record.time) - ahead;
   const [lon, lat] = [of('Device1_longitude'), of('Device1_latitude')];
   return {
-    id: String(of('encounter') ?? `${a}-${b}-${record.time}`), a, b, phase, pair: `${shortId(a)} – ${shortId(b)}`,
+    id: String(of('encounter') ?? `${a}-${b}-${record.time}`), a, b, phase, pair: ids.map(shortId).join(' – '),
     start: Math.min(end, Number(of('startTime') ?? end) - ahead), end,
     closest: Number(of('minDistance') ?? of('dcpa') ?? of('distance')),
     missions: [of('Device1_Mission'), of('Device2_Mission')].filter((each) => typeof each === 'string'),

@@ -1,4 +1,5 @@
 /** Which stretch of time lies between two edges in pixels, and how it zooms and pans within an extent. */
+import { ofWallClock, wallClock } from '../core/local-time.js';
 
 const SECOND = 1000;
 const MINUTE = 60 * SECOND;
@@ -83,10 +84,12 @@ export class Scale {
   ticks() {
     const atLeast = (this.length / this.width) * LABEL;
     const step = STEPS.find((each) => each >= atLeast) ?? Math.ceil(atLeast / (28 * DAY)) * 28 * DAY;
-    const zone = new Date(this.from).getTimezoneOffset() * MINUTE;
+    // up to an hour each step is as long as the next; above it comes at the same hours of the clock, also across a change of it
+    const first = Math.ceil(wallClock(this.from) / step) * step;
+    const timeOf = step > HOUR ? ofWallClock : (wall) => wall - wallClock(this.from) + this.from;
     const times = [];
-    for (let time = Math.ceil((this.from - zone) / step) * step + zone; time <= this.to; time += step) {
-      times.push(time);
+    for (let wall = first; timeOf(wall) <= this.to; wall += step) {
+      times.push(timeOf(wall));
     }
     return { step, times };
   }

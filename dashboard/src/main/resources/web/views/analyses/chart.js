@@ -2,6 +2,7 @@
 import uPlot from '/lib/uplot/uPlot.esm.js';
 import { h, replace, setText } from '../../core/dom.js';
 import { clock, temperature } from '../../core/format.js';
+import { quantityOf } from '../../core/readings.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 
@@ -240,8 +241,9 @@ function deviceAt(times) {
   }
   const line = entity.series.get(name);
   const [reported, values] = [line.of('times'), line.of('values')];
+  const inCelsius = (value) => value === undefined ? value : quantityOf({ ...entity.attributes[name], value }, 'TEMPERATURE');
   const at = (ms) => (ms < reported[0] ? undefined : values[reported.findLastIndex((each) => each <= ms)]);
-  return { id: entity.id, name: entity.name, values: times.map((time) => at(time * 1000)) };
+  return { id: entity.id, name: entity.name, values: times.map((time) => inCelsius(at(time * 1000))) };
 }
 
 /** Columns as uPlot wants them: a null is a gap, undefined is only another field's window. */

@@ -35,7 +35,7 @@ export class PresenceBars {
     this.range = range;
     const byLine = new Map();
     for (const stay of stays) {
-      const key = `${stay.fieldName}\n${stay.name}`;
+      const key = `${stay.fieldName}\n${stay.name}\n${stay.device}`;
       byLine.has(key) || byLine.set(key, []);
       byLine.get(key).push(stay);
     }

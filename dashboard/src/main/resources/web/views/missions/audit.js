@@ -10,7 +10,7 @@ import { t } from '../../texts.js';
 import { redraw } from './redraw.js';
 
 const POLL_MILLIS = 4_000;
-const TARGETS = { 'service.missionmanager': 'mission', 'service.domainmanager': 'domain', 'service.replaymanager': 'replay', 'service.alarmmanager': 'alarm', 'service.fields': 'field', device: 'device', marker: 'marker' };
+const TARGETS = { __proto__: null, 'service.missionmanager': 'mission', 'service.domainmanager': 'domain', 'service.replaymanager': 'replay', 'service.alarmmanager': 'alarm', 'service.fields': 'field', device: 'device', marker: 'marker' };
 
 /** Where nothing wanted is on a page, so many are read for one press of the button. */
 const MOST_PAGES = 5;
@@ -113,7 +113,7 @@ export function auditView({ mission, device }) {
     }, h('option', { value: '' }, t('missions.auditOf.all')), all.map((each) => h('option', { value: each, selected: each === chosen }, words(each)))));
   };
   const element = h('div.stack', null,
-    h('div.row.wrap', null, choice('mission', [...store.missions.keys()].sort(), mission, (each) => each), choice('device', [...store.devices.keys()].sort(), device, shortId)),
+    h('div.row.wrap', null, choice('mission', [...store.missions.keys()].sort(), mission, (each) => each), choice('device', [...new Set([...store.devices.values()].map((each) => each.id))].sort(), device, shortId)),
     table.element);
   return { element, close: table.close };
 }

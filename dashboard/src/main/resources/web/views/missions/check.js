@@ -1,4 +1,5 @@
 /** What is known of the devices of a plan before a mission starts. */
+import { chargeOf } from '../../core/readings.js';
 import { store } from '../../core/store.js';
 
 const LOW_BATTERY = 20;
@@ -13,7 +14,9 @@ const ORDER = ['ok', 'unknown', 'warning', 'problem'];
 
 /** What is known now: what a replay shows says nothing of it. */
 export function farmNow(mission) {
-  return { mission, now: Date.now(), devices: store.devices, missions: store.missions, fields: store.fields, entities: store.isReplay ? new Map() : store.entities };
+  const entities = new Map(store.isReplay ? [] : store.entities);
+  store.isReplay || store.devices.forEach((each, id) => { const entity = store.entityOf(each); entity && entities.set(id, entity); });
+  return { mission, now: Date.now(), devices: store.devices, missions: store.missions, fields: store.fields, entities };
 }
 
 /**
@@ -72,11 +75,7 @@ function reach(known, entity, { outside }, { now }) {
 }
 
 function battery(known, entity) {
-  let share = known?.health?.battery;
-  const reported = entity?.attributes.battery?.value;
-  if (share === undefined && typeof reported === 'number') {
-    share = reported > 1 ? reported / 100 : reported;
-  }
+  const share = known?.health?.battery ?? (entity && chargeOf(entity.attributes));
   if (typeof share !== 'number') {
     return { level: 'unknown', what: 'battery', text: 'noBattery', values: {} };
   }

@@ -3,6 +3,7 @@ import { api } from '../../core/api.js';
 import { dateTime } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
+import { ofLocal } from '../../core/local-time.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { formRow, openDialog } from './dialog.js';
@@ -42,7 +43,7 @@ function end(field, title) {
   const time = h('input', { type: 'datetime-local', step: 1 });
   openDialog({
     title: `${title}?`, submit: t('missions.end'), danger: true, body: [h('p', null, t('missions.endText')), formRow(t('missions.endAt'), time, t('missions.endHint'))],
-    work: () => api.patch(path(field), { validTo: (time.value ? new Date(time.value) : new Date()).toISOString() }),
+    work: () => api.patch(path(field), { validTo: new Date(time.value ? ofLocal(time.value, true) : Date.now()).toISOString() }),
   });
 }
 

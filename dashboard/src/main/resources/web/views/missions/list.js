@@ -5,8 +5,8 @@ import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { redraw } from './redraw.js';
 
-const ORDER = { failed: 0, starting: 1, running: 1, stopping: 1, created: 2, stopped: 3 };
-const KINDS = { running: 'good', starting: 'info', stopping: 'info', failed: 'bad' };
+const ORDER = { __proto__: null, failed: 0, starting: 1, running: 1, stopping: 1, created: 2, stopped: 3 };
+const KINDS = { __proto__: null, running: 'good', starting: 'info', stopping: 'info', failed: 'bad' };
 
 export function statePill(state) {
   return h('span.pill', { class: KINDS[state] ?? '' }, t(`missions.states.${state ?? 'created'}`));

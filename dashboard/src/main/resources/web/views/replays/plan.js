@@ -2,6 +2,7 @@
 import { h, replace, setText } from '../../core/dom.js';
 import { dateTime, duration, zone } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
+import { TimeInput } from '../../core/local-time.js';
 import { navigate } from '../../core/router.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
@@ -13,11 +14,10 @@ const ANALYTICS = ['collision', 'presence', 'temperature'];
 export class Plan {
   constructor() {
     this.missions = [];
-    this.touched = false;
     this.heading = h('h2');
     this.hint = h('p.muted.small');
-    this.from = h('input', { type: 'datetime-local', step: '1', id: 'plan-from', on: { input: () => this.rangeChanged() } });
-    this.to = h('input', { type: 'datetime-local', step: '1', id: 'plan-to', on: { input: () => this.rangeChanged() } });
+    this.from = this.timeInput('plan-from', false);
+    this.to = this.timeInput('plan-to', true);
     this.fromLabel = h('label', { for: 'plan-from' });
     this.toLabel = h('label', { for: 'plan-to' });
     this.length = h('span.small.muted.numbers');
@@ -31,8 +31,8 @@ export class Plan {
     this.failed = h('p.error-note', { role: 'alert', hidden: true });
     this.form = h('form.stack', { on: { submit: (event) => this.submit(event) } },
       h('div.plan-range', null,
-        h('div.field-row', null, this.fromLabel, this.from),
-        h('div.field-row', null, this.toLabel, this.to)),
+        h('div.field-row', null, this.fromLabel, this.from.element),
+        h('div.field-row', null, this.toLabel, this.to.element)),
       this.length,
       h('div.field-row', null, h('label', { for: 'plan-speed' }, t('replays.speed')), this.speed),
       h('div.stack.plan-checks', null,
@@ -60,15 +60,11 @@ export class Plan {
     if (fastest.disabled && this.speed.value === 'max') {
       this.speed.value = '60';
     }
-    if (known.length && (changed || !this.touched)) {
+    if (known.length) {
       this.span = [Math.min(...known.map((each) => each.first)), Math.max(...known.map((each) => each.last))];
-      const first = at !== undefined && at > this.span[0] && at < this.span[1] ? at : this.span[0];
-      this.touched = this.touched && !changed;
-      this.from.value = local(first);
-      this.to.value = local(this.span[1] + 999);
-      this.from.min = this.to.min = local(this.span[0]);
-      this.from.max = this.to.max = local(this.span[1] + 999);
-      this.begun = first;
+      const [first, last] = this.span;
+      (changed || !this.from.isChosen) && this.from.show(at > first && at < last ? at : first);
+      (changed || !this.to.isChosen) && this.to.show(last);
       this.rangeShown();
     }
     this.ready();
@@ -79,26 +75,25 @@ export class Plan {
     replace(this.start, icon('play', 18), t(this.busy ? 'replays.starting' : 'replays.start'));
   }
 
-  rangeChanged() {
-    this.touched = true;
-    this.begun = null;
-    this.rangeShown();
-    this.ready();
+  timeInput(id, last) {
+    return new TimeInput(h('input', { type: 'datetime-local', step: '1', id, on: { input: () => { this.rangeShown(); this.ready(); } } }), last);
   }
 
+  /** One that holds a single event has no length, and can be played. */
   rangeIsRight() {
-    return this.range()[1] > this.range()[0];
+    const [from, to] = this.range();
+    return to > from || (to === from && !this.to.isChosen);
   }
 
   range() {
-    return [this.begun ?? Date.parse(this.from.value), Date.parse(this.to.value)];
+    return [this.from.time, this.to.time];
   }
 
   rangeShown() {
     const [from, to] = this.range();
     setText(this.fromLabel, t('replays.from', { zone: zone(from || Date.now()) }));
     setText(this.toLabel, t('replays.to', { zone: zone(to || Date.now()) }));
-    setText(this.length, to > from ? `${t('replays.length')}: ${duration(to - from)}` : t('replays.wrongRange'));
+    setText(this.length, this.rangeIsRight() ? `${t('replays.length')}: ${duration(to - from)}` : t('replays.wrongRange'));
   }
 
   async submit(event) {
@@ -114,7 +109,7 @@ export class Plan {
         ...(many ? { missions: this.missions } : { mission: this.missions[0] }),
         speed: this.speed.value === 'max' ? 'max' : Number(this.speed.value),
         ...(from > first ? { from: Math.round(from) } : {}),
-        ...(to <= last ? { to: Math.round(to) } : {}),
+        ...(this.to.isChosen && to <= last ? { to: Math.round(to) } : {}),
         ...(this.loop.checked ? { loop: true } : {}),
         ...(this.analytics.checked ? { analytics: ANALYTICS } : {}),
         ...(this.skip.checked && !many ? { maxGap: SHORTENED } : {}),
@@ -128,12 +123,6 @@ export class Plan {
       this.ready();
     }
   }
-}
-
-/** As `datetime-local` has it. */
-function local(ms) {
-  const date = new Date(ms - new Date(ms).getTimezoneOffset() * 60_000);
-  return date.toISOString().slice(0, 19);
 }
 
 /** For people: when a mission was recorded. */

@@ -7,7 +7,7 @@ import { endOf, store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { steer, stop } from '../../timeline/control.js';
 
-const PILLS = { running: 'good', paused: 'info', waiting: 'warn', starting: 'info', failed: 'bad', ended: '', stopped: '', over: '' };
+const PILLS = { __proto__: null, running: 'good', paused: 'info', waiting: 'warn', starting: 'info', failed: 'bad', ended: '', stopped: '', over: '' };
 
 /** Replays of a group are one. @returns {{key: string, group: string|undefined, missions: string[], members: Object[]}[]} */
 export function grouped(replays) {

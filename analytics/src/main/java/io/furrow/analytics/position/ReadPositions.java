@@ -14,6 +14,7 @@ import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.EntityReader;
+import io.furrow.model.ngsi.Quantity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.Position;
 import io.furrow.model.position.PositionReading;
@@ -69,8 +70,8 @@ public final class ReadPositions extends ReadEntities<PositionFix> {
                 carrier.isEmpty() ? "" : scope.identity(carrier),
                 position.latitude(),
                 position.longitude(),
-                within(entity.number("speed"), Double.MAX_VALUE),
-                within(entity.number("heading"), 360),
+                within(entity.number("speed", Quantity.SPEED), Double.MAX_VALUE),
+                within(entity.number("heading", Quantity.HEADING), 360),
                 Epochs.timeOf(record));
     }
 

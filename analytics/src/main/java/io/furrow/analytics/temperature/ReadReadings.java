@@ -21,6 +21,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.EntityReader;
+import io.furrow.model.ngsi.Quantity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.Position;
 import io.furrow.model.position.PositionReading;
@@ -58,7 +59,7 @@ final class ReadReadings extends ReadEntities<Reading> {
         if (!entity.has(attribute)) {
             return false;
         }
-        double value = entity.number(attribute);
+        double value = entity.number(attribute, Quantity.TEMPERATURE);
         PositionReading place = PositionReading.of(record.headers(), entity::position);
         if (!(Math.abs(value) <= MAX) || place instanceof PositionReading.Faulty) {
             faulty.inc();

@@ -52,6 +52,16 @@ class ReadPositionsTest {
                 .satisfies(ReadPositionsTest::movesUnknown);
     }
 
+    /** Metadata says in which unit it is; the page shows the same. */
+    @Test
+    void readsTheSpeedInItsUnit() throws Exception {
+        byte[] robot = """
+                {"id":"r1","type":"Robot","Latitude":{"value":1},"Longitude":{"value":2},
+                 "speed":{"value":36,"metadata":{"unitCode":{"type":"Text","value":"KMH"}}}}""".getBytes(StandardCharsets.UTF_8);
+
+        assertThat(read(robot)).extracting(PositionFix::speed).containsExactly(10.0);
+    }
+
     private static void movesUnknown(PositionFix fix) {
         assertThat(fix.speed()).isNaN();
         assertThat(fix.heading()).isNaN();
@@ -84,10 +94,17 @@ class ReadPositionsTest {
     }
 
     private static List<PositionFix> read(EntityBuilder entity, Map<String, String> others) throws Exception {
+        return read(entity.build().toBytes(), others);
+    }
+
+    private static List<PositionFix> read(byte[] value) throws Exception {
+        return read(value, Map.of());
+    }
+
+    private static List<PositionFix> read(byte[] value, Map<String, String> others) throws Exception {
         AheadLimit ahead = AheadLimit.of(ReportedRun.options());
         var harness = ProcessFunctionTestHarnesses.forProcessFunction(new ReadPositions("collision", ahead));
         byte[] key = "r1".getBytes(StandardCharsets.UTF_8);
-        byte[] value = entity.build().toBytes();
         Map<String, String> headers = new HashMap<>(others);
         headers.putAll(Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/"));
         harness.processElement(new TopicRecord("data.raw", 0, 7, 1000, key, value, headers), 1000);

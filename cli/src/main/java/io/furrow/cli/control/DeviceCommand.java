@@ -57,8 +57,12 @@ public final class DeviceCommand extends CommandGroup {
     @Command(
             name = "show",
             description = "Shows one device: why it is silent, what was heard of it, how it is connected.")
-    int show(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
-        return control.showPage(DEVICES + ControlApi.part(device), shown -> DevicePage.of(shown, Instant.now()));
+    int show(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin DeviceScope scope) {
+        return control.showPage(
+                DEVICES + ControlApi.part(device) + scope.query(), shown -> DevicePage.of(shown, Instant.now()));
     }
 
     @Command(
@@ -71,13 +75,15 @@ public final class DeviceCommand extends CommandGroup {
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "DEVICE", description = ID, arity = "0..1") String device,
             @Option(names = "--mission", paramLabel = "MISSION", description = "All real devices of this mission.")
-                    String mission) {
+                    String mission,
+            @Mixin DeviceScope scope) {
         if ((device == null) == (mission == null)) {
             throw control.refused("Name a device, or a mission with --mission.");
         }
         return control.showCredentials(
-                (device == null ? "/api/missions" + ControlApi.part(mission) : DEVICES + ControlApi.part(device))
-                        + "/credentials");
+                device == null
+                        ? "/api/missions" + ControlApi.part(mission) + "/credentials"
+                        : DEVICES + ControlApi.part(device) + "/credentials" + scope.query());
     }
 
     @Command(
@@ -86,23 +92,35 @@ public final class DeviceCommand extends CommandGroup {
                 "Gives a device a new password and shows its credentials. The old password is refused at once, and a connection that",
                 "was made with it is cut off; other devices are not affected."
             })
-    int rotate(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
-        return control.commandShown("POST", DEVICES + ControlApi.part(device) + "/credentials");
+    int rotate(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin DeviceScope scope) {
+        return control.commandShown("POST", DEVICES + ControlApi.part(device) + "/credentials" + scope.query());
     }
 
     @Command(name = "on", description = "Switches a device on.")
-    int on(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
-        return command(control, device, "on", null, null);
+    int on(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin DeviceScope scope) {
+        return command(control, device, "on", null, null, scope);
     }
 
     @Command(name = "off", description = "Switches a device off.")
-    int off(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
-        return command(control, device, "off", null, null);
+    int off(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin DeviceScope scope) {
+        return command(control, device, "off", null, null, scope);
     }
 
     @Command(name = "restart", description = "Restarts a device.")
-    int restart(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
-        return command(control, device, "restart", null, null);
+    int restart(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin DeviceScope scope) {
+        return command(control, device, "restart", null, null, scope);
     }
 
     @Command(name = "command", description = "Sends a device any command, as Stop to a robot.")
@@ -116,11 +134,13 @@ public final class DeviceCommand extends CommandGroup {
                             names = "--type",
                             paramLabel = "TYPE",
                             description = "Type of its entity; needed of a device that reports by itself, as ROBOT.")
-                    String type) {
+                    String type,
+            @Mixin DeviceScope scope) {
         Map<String, String> body = new LinkedHashMap<>();
         body.put("type", type);
         body.put("command", command);
         body.put("value", value);
-        return control.command("POST", DEVICES + ControlApi.part(device) + "/commands", ControlOptions.object(body));
+        return control.command(
+                "POST", DEVICES + ControlApi.part(device) + "/commands" + scope.query(), ControlOptions.object(body));
     }
 }

@@ -2,6 +2,8 @@ package io.furrow.control.device;
 
 import java.io.IOException;
 
+import io.furrow.model.event.FiwareScope;
+
 /** Sends a command to a device of the farm. */
 @FunctionalInterface
 public interface CommandSender {
@@ -19,4 +21,9 @@ public interface CommandSender {
      * @throws InterruptedException if the thread is interrupted while it waits for the context broker
      */
     void send(String deviceId, String type, String command, String value) throws IOException, InterruptedException;
+
+    /** Sends to devices of another tenant and service path. */
+    default CommandSender in(FiwareScope scope) {
+        return this;
+    }
 }

@@ -35,12 +35,11 @@ public final class DeviceCommands implements CommandSender {
     private static final int MAX_QUOTE_LENGTH = 200;
     private static final int NOT_FOUND = 404;
 
-    private final Semaphore pending = new Semaphore(MAX_PENDING);
+    private final Semaphore pending;
     private final URI contextBroker;
     private final FiwareScope scope;
     private final AccessToken token;
-    private final HttpClient client =
-            HttpClient.newBuilder().connectTimeout(TIMEOUT).build();
+    private final HttpClient client;
 
     /**
      * @param contextBroker for instance {@code http://localhost:1026}
@@ -48,9 +47,26 @@ public final class DeviceCommands implements CommandSender {
      * @param token of each request
      */
     public DeviceCommands(URI contextBroker, FiwareScope scope, AccessToken token) {
+        this(
+                contextBroker,
+                scope,
+                token,
+                HttpClient.newBuilder().connectTimeout(TIMEOUT).build(),
+                new Semaphore(MAX_PENDING));
+    }
+
+    private DeviceCommands(
+            URI contextBroker, FiwareScope scope, AccessToken token, HttpClient client, Semaphore pending) {
         this.contextBroker = contextBroker;
         this.scope = scope;
         this.token = token;
+        this.client = client;
+        this.pending = pending;
+    }
+
+    @Override
+    public DeviceCommands in(FiwareScope other) {
+        return new DeviceCommands(contextBroker, other, token, client, pending);
     }
 
     /**

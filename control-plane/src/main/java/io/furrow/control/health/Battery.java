@@ -1,17 +1,23 @@
 package io.furrow.control.health;
 
+import java.util.List;
+import java.util.Optional;
+
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Quantity;
 
 /**
- * Reads the battery charge of a device, 0 to 1, from the attribute {@code battery}: a number (percent if above 1), or
- * with FIROS a sensor_msgs/BatteryState, whose {@code percentage} is 0 to 1.
+ * Reads the battery charge of a device, 0 to 1, from the attribute {@code battery} or {@code batteryLevel}: a number, or with FIROS a
+ * sensor_msgs/BatteryState, whose {@code percentage} is 0 to 1. Metadata {@code unitCode} says whether a number is in percent; without
+ * it, that of a device that has ever reported more than 1 is. The dashboard's page reads charges by the same rules.
  */
 final class Battery {
     static final String ATTRIBUTE = "battery";
 
+    private static final List<String> ATTRIBUTES = List.of(ATTRIBUTE, "batteryLevel");
     private static final String PERCENTAGE = "percentage";
     private static final String QUOTE = "%27";
     private static final double PERCENT = 100;
@@ -20,14 +26,37 @@ final class Battery {
 
     /** Returns null if the entity has no valid charge. */
     static Double chargeOf(Entity entity) {
-        Double said = entity.number(ATTRIBUTE).orElse(null);
-        if (said == null) {
-            said = entity.text(ATTRIBUTE).map(Battery::ofRobot).orElse(null);
-        }
-        if (said == null || said < 0 || said > PERCENT) {
-            return null;
-        }
-        return said > 1 ? said / PERCENT : said;
+        return chargeOf(entity, false);
+    }
+
+    /** @param percent whether the device reports in percent where it names no unit, see {@link #isPercent} */
+    static Double chargeOf(Entity entity, boolean percent) {
+        String attribute = attributeOf(entity);
+        Optional<Double> number = entity.number(attribute);
+        Optional<Double> charge = number.isEmpty()
+                ? entity.text(attribute).map(Battery::ofRobot).map(said -> share(said, said > 1))
+                : Quantity.unitOf(entity, attribute).isEmpty()
+                        ? number.map(said -> share(said, said > 1 || percent))
+                        : Quantity.SHARE.of(entity, attribute);
+        return charge.filter(share -> share >= 0 && share <= 1).orElse(null);
+    }
+
+    private static double share(double said, boolean percent) {
+        return percent ? said / PERCENT : said;
+    }
+
+    /** Whether the entity shows that its device reports in percent where it names no unit. */
+    static boolean isPercent(Entity entity) {
+        String attribute = attributeOf(entity);
+        return Quantity.unitOf(entity, attribute).isEmpty()
+                && entity.number(attribute).filter(said -> said > 1).isPresent();
+    }
+
+    private static String attributeOf(Entity entity) {
+        return ATTRIBUTES.stream()
+                .filter(name -> entity.value(name).isPresent())
+                .findFirst()
+                .orElse(ATTRIBUTE);
     }
 
     private static Double ofRobot(String text) {

@@ -1,9 +1,6 @@
 package io.furrow.control.health;
 
 import java.time.Duration;
-import java.util.Set;
-import java.util.stream.Collectors;
-import java.util.stream.Stream;
 
 import org.apache.kafka.streams.processor.PunctuationType;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
@@ -14,7 +11,6 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.control.manager.StateJson;
 import io.furrow.control.manager.record.RecordScope;
-import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
@@ -33,10 +29,6 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
     private static final Duration TICK = Duration.ofSeconds(1);
     /** Resolution of the time since which no report has arrived. */
     private static final Duration PULSE = Duration.ofSeconds(5);
-
-    private static final Set<String> ATTRIBUTES = Stream.concat(
-                    EventTimeRule.Source.DEVICE_TIMES.stream(), Stream.of(Battery.ATTRIBUTE, SilenceDetector.STATUS))
-            .collect(Collectors.toUnmodifiableSet());
 
     private final HealthOptions options;
     private SilenceDetector listener;
@@ -64,8 +56,7 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
             return;
         }
         try {
-            Entity entity =
-                    listener.hasHeard(key) ? Entity.parse(record.value(), ATTRIBUTES) : Entity.parse(record.value());
+            Entity entity = Entity.parse(record.value());
             long now = context().currentSystemTimeMs();
             if (listener.hear(key, entity, record.timestamp(), now) && now - pulsed >= PULSE.toMillis()) {
                 pulsed = now;

@@ -6,7 +6,6 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
-import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -19,17 +18,13 @@ import io.furrow.model.ngsi.Entity;
  * one when it has been silent for too long. Ten thousand devices yield some hundred heartbeats a second. Silence is
  * measured by the clock of the control plane, so that neither a device's clock nor a delayed read causes it.
  *
- * <p>A report with the event time of the last one is ignored: the context broker notifies about the unchanged entity
- * when a command is sent to it.
+ * <p>What the context broker notifies about when a command is sent to the device is no report of it, see {@link ReportedState}.
  */
 final class SilenceDetector {
     static final Duration SIGN_EVERY = Duration.ofSeconds(30);
 
     /** Boolean; false if the device is switched off. */
     static final String STATUS = "Status";
-
-    /** Attributes that are assigned to a device, not measured by it: they may be there before its first report. */
-    private static final Pattern ASSIGNED = Pattern.compile("Domain|Mission|TimeInstant|.+_(status|info)");
 
     private static final Duration MAX_TICK = Duration.ofSeconds(2);
     private static final Duration LOOKUP_INTERVAL = Duration.ofSeconds(5);
@@ -52,6 +47,8 @@ final class SilenceDetector {
         /** Null until the device reports. */
         private Heartbeat newest;
 
+        private ReportedState state;
+        private boolean percent;
         private long told;
         /** The newest report was not emitted. */
         private boolean pending;
@@ -107,14 +104,17 @@ final class SilenceDetector {
         if (first && !isMeasured(entity)) {
             return false;
         }
-        if (!first && known.newest.reported() == reported) {
+        ReportedState before = known.state;
+        known.state = ReportedState.of(entity);
+        if (!first && !known.state.isReportAfter(before, known.newest.reported() != reported)) {
             return false;
         }
         Long deviceTime = EventTimeRule.Source.DEVICE
                 .read(entity)
                 .map(Instant::toEpochMilli)
                 .orElse(null);
-        Double battery = Battery.chargeOf(entity);
+        known.percent |= Battery.isPercent(entity);
+        Double battery = Battery.chargeOf(entity, known.percent);
         boolean off = entity.value(STATUS)
                 .filter(status -> status.isBoolean() && !status.booleanValue())
                 .isPresent();
@@ -141,16 +141,11 @@ final class SilenceDetector {
         return attributes.isEmpty()
                 || attributes.stream()
                         .map(Map.Entry::getKey)
-                        .filter(name -> !ASSIGNED.matcher(name).matches() && !Entity.BUILT_INS.contains(name))
+                        .filter(ReportedState::isMeasured)
                         .anyMatch(name -> entity.value(name)
                                 .filter(value ->
                                         !value.isTextual() || !value.textValue().isBlank())
                                 .isPresent());
-    }
-
-    /** Whether the device has reported. */
-    boolean hasHeard(String key) {
-        return devices.get(key).newest != null;
     }
 
     /**

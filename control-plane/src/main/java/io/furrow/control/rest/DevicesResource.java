@@ -3,6 +3,7 @@ package io.furrow.control.rest;
 import java.io.IOException;
 import java.io.InputStream;
 import java.util.List;
+import java.util.Optional;
 import java.util.concurrent.CompletionException;
 import java.util.concurrent.CompletionStage;
 import java.util.concurrent.RejectedExecutionException;
@@ -12,11 +13,11 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.annotation.security.RolesAllowed;
+import jakarta.ws.rs.BeanParam;
 import jakarta.ws.rs.Consumes;
 import jakarta.ws.rs.GET;
 import jakarta.ws.rs.POST;
 import jakarta.ws.rs.Path;
-import jakarta.ws.rs.PathParam;
 import jakarta.ws.rs.Produces;
 import jakarta.ws.rs.QueryParam;
 import jakarta.ws.rs.container.ContainerRequestContext;
@@ -32,6 +33,7 @@ import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.DesiredDevices;
+import io.furrow.control.rest.view.DeviceName;
 import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.device.WantedDevice;
@@ -83,20 +85,19 @@ public final class DevicesResource {
         return wanted == null || wanted.equals(device.path(member).textValue());
     }
 
-    /** @param id of the entity */
     @GET
     @Path("{device}")
-    public Response get(@PathParam(DEVICE) String id) {
-        String key = means.scope().identity(id);
-        return JsonResponses.ok(devices.withConnection(key, withSettings(described(key, find(id)))));
+    public Response get(@BeanParam DeviceName name) {
+        String key = keyOf(name);
+        return JsonResponses.ok(devices.withConnection(key, withSettings(key, described(key, find(name)))));
     }
 
     @GET
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
-    public Response credentials(@Context ContainerRequestContext request, @PathParam(DEVICE) String id) {
-        WantedDevice device = provisioned(id);
-        audit(Caller.user(request), "credentials", about(id), null);
+    public Response credentials(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
+        WantedDevice device = provisioned(name);
+        audit(Caller.user(request), "credentials", about(name), null);
         return secret(means.credentials().of(device));
     }
 
@@ -105,9 +106,9 @@ public final class DevicesResource {
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
     @Produces(CSV)
-    public Response credentialsAsCsv(@Context ContainerRequestContext request, @PathParam(DEVICE) String id) {
-        WantedDevice device = provisioned(id);
-        audit(Caller.user(request), "credentials", about(id), null);
+    public Response credentialsAsCsv(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
+        WantedDevice device = provisioned(name);
+        audit(Caller.user(request), "credentials", about(name), null);
         return csv(List.of(means.credentials().of(device)));
     }
 
@@ -116,9 +117,9 @@ public final class DevicesResource {
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials/qr")
     @Produces("image/svg+xml")
-    public Response qr(@Context ContainerRequestContext request, @PathParam(DEVICE) String id) {
-        WantedDevice device = provisioned(id);
-        audit(Caller.user(request), "credentials", about(id), null);
+    public Response qr(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
+        WantedDevice device = provisioned(name);
+        audit(Caller.user(request), "credentials", about(name), null);
         return Response.ok(means.credentials().qr(device))
                 .header("Cache-Control", "no-store")
                 .build();
@@ -128,10 +129,10 @@ public final class DevicesResource {
     @POST
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
-    public CompletionStage<Response> rotate(@Context ContainerRequestContext request, @PathParam(DEVICE) String id) {
-        WantedDevice device = provisioned(id);
+    public CompletionStage<Response> rotate(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
+        WantedDevice device = provisioned(name);
         return managers.ask(
-                        new CommandClient.CommandRequest(Topics.MISSION_MANAGER, "rotate-credentials", about(id)),
+                        new CommandClient.CommandRequest(Topics.MISSION_MANAGER, "rotate-credentials", about(name)),
                         Caller.of(request))
                 .thenApply(answer -> answer.error().isPresent()
                         ? JsonResponses.of(answer, 0)
@@ -152,21 +153,23 @@ public final class DevicesResource {
                 .build();
     }
 
-    private static ObjectNode about(String id) {
-        return JsonNodeFactory.instance.objectNode().put(DEVICE, id);
+    private static ObjectNode about(DeviceName name) {
+        return JsonNodeFactory.instance.objectNode().put(DEVICE, name.id());
     }
 
     /** A device that has credentials, which can be shown here. */
-    private WantedDevice provisioned(String id) {
-        find(id);
-        WantedDevice device = devices.find(means.scope().identity(id))
-                .filter(DeviceCredentials::has)
+    private WantedDevice provisioned(DeviceName name) {
+        find(name);
+        String key = keyOf(name);
+        WantedDevice device = devices.find(key)
+                .filter(found ->
+                        DeviceCredentials.has(found) && key.equals(means.scope().identity(name.id())))
                 .orElse(null);
         if (device == null) {
             throw new ProblemException(
                     ErrorCode.NO_CREDENTIALS,
                     "device '%s' has a login of its own, which is not known here; list it as an object with a 'type' to give it one"
-                            .formatted(id));
+                            .formatted(name.id()));
         }
         requireSecret(means.credentials());
         return device;
@@ -184,18 +187,19 @@ public final class DevicesResource {
     @POST
     @Path("{device}/commands")
     public CompletionStage<Response> command(
-            @Context ContainerRequestContext request, @PathParam(DEVICE) String id, InputStream body)
-            throws IOException {
+            @Context ContainerRequestContext request, @BeanParam DeviceName name, InputStream body) throws IOException {
         ObjectNode members = Body.read(body);
         // A robot that is on no mission can be stopped too. An operator may put any entity on one.
-        ObjectNode device = members.hasNonNull("type")
-                ? view.find(Topics.DEVICES, means.scope().identity(id)).orElse(members)
-                : find(id);
+        ObjectNode device = members.hasNonNull("type") ? known(name).orElse(members) : find(name);
         String command = members.path("command").asText();
         String value = members.path("value").asText("");
         String type = device.path("type").asText(members.path("type").asText());
         check(members, command, type);
-        ObjectNode about = about(id);
+        ObjectNode about = about(name);
+        FiwareScope scope = FiwareScope.ofIdentity(keyOf(name));
+        if (!scope.equals(means.scope())) {
+            about.put("service", scope.service()).put("servicePath", scope.servicePath());
+        }
         if (!value.isEmpty()) {
             about.put("value", value.substring(0, Math.min(value.length(), MAX_AUDITED_LENGTH)));
         }
@@ -205,8 +209,9 @@ public final class DevicesResource {
         }
         String user = Caller.user(request);
         return means.commands()
-                .send(new DeviceCommands.Order(id, type, command, value))
-                .handle((sent, failure) -> answer(failure, new Commanded(user, id, command, about)));
+                .in(scope)
+                .send(new DeviceCommands.Order(name.id(), type, command, value))
+                .handle((sent, failure) -> answer(failure, new Commanded(user, name.id(), command, about)));
     }
 
     private record Commanded(String user, String device, String command, ObjectNode about) {}
@@ -248,10 +253,19 @@ public final class DevicesResource {
         managers.audit(AuditEntry.ofDevice(System.currentTimeMillis(), user, command, about, failure));
     }
 
-    private ObjectNode find(String id) {
-        return view.find(Topics.DEVICES, means.scope().identity(id))
-                .orElseThrow(
-                        () -> new ProblemException(ErrorCode.UNKNOWN_DEVICE, "there is no device '%s'".formatted(id)));
+    private ObjectNode find(DeviceName name) {
+        return known(name)
+                .orElseThrow(() ->
+                        new ProblemException(ErrorCode.UNKNOWN_DEVICE, "there is no device '%s'".formatted(name.id())));
+    }
+
+    private Optional<ObjectNode> known(DeviceName name) {
+        return view.find(Topics.DEVICES, keyOf(name))
+                .filter(found -> name.isOfType(found.path("type").asText()));
+    }
+
+    private String keyOf(DeviceName name) {
+        return name.key(view.keys(Topics.DEVICES), means.scope());
     }
 
     private ObjectNode described(String key, ObjectNode wanted) {
@@ -269,8 +283,8 @@ public final class DevicesResource {
     }
 
     /** The device with the settings of its group, which may be large: lists of devices leave them out. */
-    private ObjectNode withSettings(ObjectNode device) {
-        devices.find(means.scope().identity(device.path("id").asText()))
+    private ObjectNode withSettings(String key, ObjectNode device) {
+        devices.find(key)
                 .filter(found -> !found.settings().isEmpty())
                 .ifPresent(found -> device.set("settings", found.settings()));
         return device;

@@ -109,6 +109,54 @@ class SilenceDetectorTest {
         assertThat(signs.get(1).silent()).isTrue();
     }
 
+    /** A device without a clock, or a station that gives each of its reports the start of the hour. */
+    @Test
+    void takesANewValueAtTheSameTimeForAReport() {
+        want(PERIOD);
+        for (int i = 0; i < 20; i++) {
+            hear(Entity.builder(ID, "T").number("Time", 5).number("Temperature", i), 5);
+            hear(
+                    Entity.builder(ID, "T")
+                            .number("Time", 5)
+                            .number("Temperature", i)
+                            .text("off_status", "SENT" + i),
+                    5);
+            pass(10_000);
+        }
+        assertThat(signs).isNotEmpty().noneMatch(Heartbeat::silent);
+        assertThat(signs.get(signs.size() - 1).heard()).isGreaterThan(now - 60_000);
+    }
+
+    /** Also where it has another time: a device without a clock is given that of the context broker. */
+    @Test
+    void takesWhatACommandChangesForNoReport() {
+        want(PERIOD);
+        hear(Entity.builder(ID, "T").number("Temperature", 8), 5);
+        pass(20_000);
+        hear(
+                Entity.builder(ID, "T")
+                        .number("Temperature", 8)
+                        .text("cmd", "Stop")
+                        .text("cmd_status", "PENDING"),
+                6);
+        pass(10_000);
+        hear(
+                Entity.builder(ID, "T")
+                        .number("Temperature", 8)
+                        .text("cmd", "Stop")
+                        .text("cmd_status", "EXPIRED"),
+                7);
+        pass(1001);
+        assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, true);
+        hear(
+                Entity.builder(ID, "T")
+                        .number("Temperature", 8)
+                        .text("cmd", "Stop")
+                        .text("cmd_status", "EXPIRED"),
+                8);
+        assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, true, false);
+    }
+
     @Test
     void letsADeviceBeSilentThatSaidItIsOff() {
         want(PERIOD);

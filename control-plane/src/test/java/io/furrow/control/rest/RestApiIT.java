@@ -22,6 +22,8 @@ import io.furrow.kafka.PartStatus;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceConnection.UnreadablePayload;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -134,8 +136,46 @@ class RestApiIT {
                 .isNull();
     }
 
+    /** Two tenants may have one id: a request has to say which is meant, and goes there. */
+    private void sameIdInAnotherTenant(String id) throws Exception {
+        FiwareScope other = new FiwareScope("other", "/north");
+        byte[] device = new DeviceVersion(id, other.service(), other.servicePath(), "", "", 0, null, 1, null).toBytes();
+        running.write(Topics.DEVICES, other.identity(id), device);
+
+        await().atMost(RunningApi.TIMEOUT)
+                .untilAsserted(() -> running.refused("GET", "/api/devices/" + id, null, 409, "ambiguous-device"));
+        running.refused("GET", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
+        running.refused("POST", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
+        running.refused(
+                "POST",
+                "/api/devices/" + id + "/commands",
+                "{\"command\":\"on\",\"type\":\"T\"}",
+                409,
+                "ambiguous-device");
+        String named = "?service=other&servicePath=/north";
+        assertThat(running.get("/api/devices/" + id + named).path("mission").asText())
+                .isEmpty();
+        running.refused("POST", "/api/devices/" + id + "/credentials" + named, null, 404, "no-credentials");
+        client.send("POST", "/api/devices/" + id + "/commands" + named, "{\"command\":\"on\",\"type\":\"Pump\"}");
+        assertThat(running.broker().last()).contains("/attrs?type=Pump");
+        assertThat(running.broker().scope()).isEqualTo("other /north");
+        FiwareScope usual = running.settings().missions().scope();
+        String there = "?service=" + usual.service() + "&servicePath=" + usual.servicePath();
+        assertThat(running.get("/api/devices/" + id + there).path("mission").asText())
+                .isEqualTo("hoeing");
+        running.refused("GET", "/api/devices/" + id + there + "&type=Pump", null, 404, "unknown-device");
+
+        running.write(Topics.DEVICES, other.identity(id), null);
+        await().atMost(RunningApi.TIMEOUT)
+                .untilAsserted(() -> assertThat(running.get("/api/devices/" + id)
+                                .path("mission")
+                                .asText())
+                        .isEqualTo("hoeing"));
+    }
+
     private void devices() throws Exception {
         String id = "urn:ngsi-ld:Thermometer:hoeing-1";
+        sameIdInAnotherTenant(id);
         assertThat(running.get("/api/devices?mission=hoeing&domain=south")).hasSize(4);
         assertThat(running.get("/api/devices/" + id).path("wanted").asText()).isEqualTo("running");
 

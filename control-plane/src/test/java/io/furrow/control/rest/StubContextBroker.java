@@ -15,6 +15,7 @@ import com.sun.net.httpserver.HttpServer;
 final class StubContextBroker implements AutoCloseable {
     private final HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
     private volatile String last = "";
+    private volatile String scope = "";
     private volatile int status = 204;
     private volatile CountDownLatch held = new CountDownLatch(0);
 
@@ -32,6 +33,11 @@ final class StubContextBroker implements AutoCloseable {
         return last;
     }
 
+    /** Tenant and service path of the last request. */
+    String scope() {
+        return scope;
+    }
+
     /** Answers nobody until the latch is open. */
     void hold(CountDownLatch until) {
         held = until;
@@ -44,6 +50,8 @@ final class StubContextBroker implements AutoCloseable {
     private void take(HttpExchange exchange) throws IOException {
         String body = new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8);
         last = exchange.getRequestURI() + " " + body;
+        scope = exchange.getRequestHeaders().getFirst("Fiware-Service") + " "
+                + exchange.getRequestHeaders().getFirst("Fiware-Servicepath");
         try {
             held.await();
         } catch (InterruptedException e) {

@@ -3,14 +3,18 @@ package io.furrow.dashboard.feed;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.util.HashSet;
+import java.util.Objects;
 import java.util.Set;
 
 import com.fasterxml.jackson.core.JsonParser;
+import com.fasterxml.jackson.core.JsonToken;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.Header;
 
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** A record on its way to the streams of a topic; what is made of it is made once for all of them. */
@@ -19,12 +23,15 @@ public final class FeedRecord {
     public static final long NO_SEQUENCE = -1;
 
     private static final int ENVELOPE = 200;
+    private static final char SEPARATOR = '\n';
+    private static final String ENTITY_TYPE = "entity-type";
 
     private final ConsumerRecord<byte[], byte[]> record;
     private final long sequence;
     private final int longest;
     private String text;
     private String envelope;
+    private String type;
 
     /**
      * @param sequence among those of its topic, {@link #NO_SEQUENCE} for the known state
@@ -36,11 +43,62 @@ public final class FeedRecord {
         this.longest = longest;
     }
 
-    /** By which newer ones take the place of older ones; of a record without a key its own place. */
+    /** By which newer ones take the place of older ones: that of {@link #ofAllTypes}, and the type of the entity. */
     public String key() {
+        return type().isEmpty() ? ofAllTypes() : ofAllTypes() + SEPARATOR + type();
+    }
+
+    /** Tenant, service path and key; of a record without a key its own place. */
+    public String ofAllTypes() {
         return record.key() == null
                 ? record.partition() + "/" + record.offset()
-                : new String(record.key(), StandardCharsets.UTF_8);
+                : FiwareScope.of(header(HeaderNames.SERVICE), header(HeaderNames.SERVICE_PATH))
+                        .identity(recordKey());
+    }
+
+    /** Whether it deletes what another one reports; a deletion that names no tenant and path, or no type, is one of all of them. */
+    boolean deletes(FeedRecord other) {
+        boolean namesScope = header(HeaderNames.SERVICE) != null || header(HeaderNames.SERVICE_PATH) != null;
+        boolean isOfIt =
+                namesScope ? ofAllTypes().equals(other.ofAllTypes()) : Objects.equals(recordKey(), other.recordKey());
+        return record.value() == null && isOfIt && (type().isEmpty() || type().equals(other.type()));
+    }
+
+    private String recordKey() {
+        return record.key() == null ? null : new String(record.key(), StandardCharsets.UTF_8);
+    }
+
+    /** Of an entity: two of one id may differ in nothing else. Empty for any other record. */
+    private synchronized String type() {
+        if (type == null) {
+            type = record.value() == null
+                    ? Objects.requireNonNullElse(header(ENTITY_TYPE), "")
+                    : typeOf(record.value());
+        }
+        return type;
+    }
+
+    private static String typeOf(byte[] value) {
+        String type = "";
+        boolean hasId = false;
+        try (JsonParser parser = NgsiJson.mapper().createParser(value)) {
+            boolean isObject = parser.nextToken() == JsonToken.START_OBJECT;
+            while (isObject && (!hasId || type.isEmpty()) && parser.nextToken() == JsonToken.FIELD_NAME) {
+                String name = parser.currentName();
+                boolean isText = parser.nextToken() == JsonToken.VALUE_STRING;
+                hasId |= isText && name.equals("id");
+                type = isText && name.equals("type") ? parser.getText() : type;
+                parser.skipChildren();
+            }
+        } catch (IOException e) {
+            return ""; // it is shown as a text
+        }
+        return hasId ? type : "";
+    }
+
+    private String header(String name) {
+        Header header = record.headers().lastHeader(name);
+        return header == null || header.value() == null ? null : new String(header.value(), StandardCharsets.UTF_8);
     }
 
     /** About what it takes in memory until it is sent. */
@@ -71,7 +129,7 @@ public final class FeedRecord {
                 .put("partition", record.partition())
                 .put("offset", record.offset())
                 .put("kind", sequence == NO_SEQUENCE ? "prime" : "event")
-                .put("key", record.key() == null ? null : key())
+                .put("key", recordKey())
                 .put("time", record.timestamp());
         if (sequence != NO_SEQUENCE) {
             json.put("sequence", sequence);

@@ -84,7 +84,9 @@ public final class KnownState {
             Predicate<ConsumerRecord<byte[], byte[]>> wanted) {
         FeedRecord next = new FeedRecord(record, FeedRecord.NO_SEQUENCE, limits.valueBytes());
         newest.remove(next.key());
-        if (record.value() != null && wanted.test(record)) {
+        if (record.value() == null) {
+            newest.values().removeIf(next::deletes);
+        } else if (wanted.test(record)) {
             newest.put(next.key(), next);
         }
     }

@@ -41,7 +41,11 @@ final class Outbox {
         if (request.mode() == StreamRequest.Mode.ALL) {
             all.add(record);
         } else {
-            FeedRecord before = latest.put(record.key(), record);
+            String key = record.key();
+            // what comes after a deletion stays behind it
+            FeedRecord before = latest.containsKey(record.ofAllTypes()) ? latest.remove(key) : null;
+            FeedRecord replaced = latest.put(key, record);
+            before = before == null ? replaced : before;
             if (before != null) {
                 bytes -= before.bytes();
                 merged++;

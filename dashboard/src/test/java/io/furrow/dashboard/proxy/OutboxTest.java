@@ -12,6 +12,8 @@ import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class OutboxTest {
+    private static final String VALVE = "{\"id\":\"pb-13\",\"type\":\"Valve\"}";
+    private static final String PUMP = "{\"id\":\"pb-13\",\"type\":\"Pump\"}";
     private static final ProxyLimits FEW =
             new ProxyLimits(1, 1, 1, Duration.ofSeconds(1), 3, 10_000, 1_000, 1_000, 1, 1_000);
 
@@ -93,5 +95,36 @@ class OutboxTest {
         assertThat(outbox.take()).contains("\"kind\":\"prime\"", "\"value\":1").doesNotContain("sequence");
         assertThat(outbox.take()).isEqualTo("{\"primed\":true}");
         assertThat(outbox.take()).contains("\"kind\":\"event\"", "\"sequence\":7", "\"value\":2");
+    }
+
+    /** One id in two tenants, and with two types in one of them. */
+    @Test
+    void mergesTheReportsOfAnEntityAlone() {
+        Outbox outbox = outbox(StreamRequest.Mode.LATEST, false, StreamRequest.Format.VALUE);
+        outbox.offer(in("farm", VALVE));
+        outbox.offer(in("farm", PUMP));
+        outbox.offer(in("other", VALVE));
+        outbox.offer(in("farm", VALVE));
+
+        assertThat(List.of(outbox.take(), outbox.take(), outbox.take())).containsExactly(VALVE, PUMP, VALVE);
+        assertThat(outbox.take()).isNull();
+    }
+
+    @Test
+    void sendsWhatCameAfterADeletionBehindIt() {
+        Outbox outbox = outbox(StreamRequest.Mode.LATEST, false, StreamRequest.Format.VALUE);
+        outbox.offer(in("farm", VALVE));
+        outbox.offer(in("farm", null));
+        outbox.offer(in("farm", VALVE));
+
+        assertThat(List.of(outbox.take(), outbox.take())).containsExactly("null", VALVE);
+        assertThat(outbox.take()).isNull();
+    }
+
+    private static FeedRecord in(String tenant, String value) {
+        ConsumerRecord<byte[], byte[]> record = new ConsumerRecord<>(
+                "data.raw", 0, 0, "pb-13".getBytes(UTF_8), value == null ? null : value.getBytes(UTF_8));
+        record.headers().add("fiware-service", tenant.getBytes(UTF_8));
+        return new FeedRecord(record, 0, 1_000);
     }
 }

@@ -32,6 +32,8 @@ public enum ErrorCode {
     /** Another mission that runs has the device. */
     DEVICE_TAKEN,
     UNKNOWN_DEVICE,
+    /** Several tenants or service paths have a device of this id, and the request names none of them. */
+    AMBIGUOUS_DEVICE,
     /** The device is not provisioned: it reports by itself. */
     NO_CREDENTIALS,
     UNKNOWN_FIELD,

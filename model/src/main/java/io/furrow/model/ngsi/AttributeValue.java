@@ -18,9 +18,13 @@ public class AttributeValue {
     private Kind kind = Kind.ABSENT;
     private String text = "";
     private double number;
+    private String unitCode = "";
+    private String unit = "";
 
     public void clear() {
         kind = Kind.ABSENT;
+        unitCode = "";
+        unit = "";
     }
 
     /** Takes the value that the parser stands at; false if it is wrong or rare. */
@@ -46,6 +50,55 @@ public class AttributeValue {
             }
         }
         return true;
+    }
+
+    /** Takes the unit from the metadata that the parser stands at; false if they are wrong or rare. */
+    boolean takeMetadata(StrictTokens tokens, JsonParser parser) throws IOException {
+        if (parser.currentToken() != JsonToken.START_OBJECT) {
+            return tokens.skipWithinLimits();
+        }
+        while (tokens.next() == JsonToken.FIELD_NAME) {
+            boolean isCode = tokens.isText("unitCode");
+            boolean isUnit = isCode || tokens.isText("unit");
+            boolean taken = tokens.isPlainText()
+                    && (isUnit && tokens.next() == JsonToken.START_OBJECT
+                            ? takeUnit(isCode, tokens, parser)
+                            : skipValue(tokens, parser));
+            if (!taken) {
+                return false;
+            }
+        }
+        return parser.currentToken() == JsonToken.END_OBJECT;
+    }
+
+    private static boolean skipValue(StrictTokens tokens, JsonParser parser) throws IOException {
+        if (parser.currentToken() == JsonToken.FIELD_NAME) {
+            tokens.next();
+        }
+        return tokens.skipWithinLimits();
+    }
+
+    private boolean takeUnit(boolean isCode, StrictTokens tokens, JsonParser parser) throws IOException {
+        while (tokens.next() == JsonToken.FIELD_NAME) {
+            boolean isValue = tokens.isText("value");
+            if (!tokens.isPlainText()) {
+                return false;
+            }
+            if (tokens.next() == JsonToken.VALUE_STRING && isValue && isCode) {
+                unitCode = tokens.isText(unitCode) ? unitCode : parser.getText();
+            } else if (isValue && !isCode && parser.currentToken().isScalarValue()) {
+                unit = parser.currentToken() == JsonToken.VALUE_NULL ? "" : parser.getText();
+            }
+            if (!tokens.skipWithinLimits()) {
+                return false;
+            }
+        }
+        return parser.currentToken() == JsonToken.END_OBJECT;
+    }
+
+    /** Metadata {@code unitCode}, else {@code unit}; empty if there is none. */
+    String unit() {
+        return unitCode.isEmpty() ? unit : unitCode;
     }
 
     public boolean takeOther(StrictTokens tokens, JsonParser parser) throws IOException {

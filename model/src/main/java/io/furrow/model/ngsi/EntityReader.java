@@ -114,9 +114,14 @@ public final class EntityReader {
         boolean valued = false;
         while (tokens.next() == JsonToken.FIELD_NAME) {
             boolean value = parser.currentName().equals("value");
+            boolean metadata = !value && parser.currentName().equals("metadata");
             valued |= value;
             tokens.next();
-            boolean taken = value && attribute != null ? attribute.take(tokens, parser) : tokens.skipWithinLimits();
+            boolean taken = attribute != null && value
+                    ? attribute.take(tokens, parser)
+                    : attribute != null && metadata
+                            ? attribute.takeMetadata(tokens, parser)
+                            : tokens.skipWithinLimits();
             if (!taken) {
                 return false;
             }
@@ -137,13 +142,15 @@ public final class EntityReader {
         if (tree != null) {
             return PositionReading.of(tree);
         }
-        if (location.isPresent()) {
+        if (location.isPresent() && !location.isBlank()) {
             return location.position();
         }
-        AttributeValue latitude = values.get("Latitude");
-        AttributeValue longitude = values.get("Longitude");
-        if (latitude.isPresent() || longitude.isPresent()) {
-            return PositionRules.of(latitude.finite(), longitude.finite());
+        for (PositionRules.Pair names : PositionRules.PAIRS) {
+            AttributeValue latitude = values.get(names.latitude());
+            AttributeValue longitude = values.get(names.longitude());
+            if (latitude.isPresent() || longitude.isPresent()) {
+                return PositionRules.of(latitude.finite(), longitude.finite());
+            }
         }
         String message = text("gnss").or(() -> text("pose")).orElse(null);
         return message == null ? new PositionReading.Absent() : firos.read(message);
@@ -166,6 +173,13 @@ public final class EntityReader {
     /** The value of a wanted attribute as a finite number, also where a device sent it as text; else NaN. */
     public double number(String attribute) {
         return tree == null ? value(attribute).finite() : tree.number(attribute).orElse(Double.NaN);
+    }
+
+    /** The value of a wanted attribute as a quantity, in its unit; NaN if it is no number, or in an unknown unit. */
+    public double number(String attribute, Quantity quantity) {
+        return tree == null
+                ? quantity.read(value(attribute).finite(), value(attribute).unit())
+                : quantity.of(tree, attribute).orElse(Double.NaN);
     }
 
     /** The value of a wanted attribute as an instant; empty if it names none. */

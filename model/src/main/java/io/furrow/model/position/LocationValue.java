@@ -64,6 +64,12 @@ public final class LocationValue extends AttributeValue {
         return tokens.skipWithinLimits();
     }
 
+    /** Whether it is a text without a sign, which says nothing. */
+    public boolean isBlank() {
+        String text = textOrNull();
+        return text != null && text.isBlank();
+    }
+
     public PositionReading position() {
         String text = textOrNull();
         if (text != null) {

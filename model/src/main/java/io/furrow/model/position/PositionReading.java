@@ -13,12 +13,13 @@ import io.furrow.model.ngsi.Entity;
 
 /**
  * The position of an entity: {@code location} (geo:json Point in lon/lat order, or geo:point text "lat, lon"), else
- * {@code Latitude} and {@code Longitude}, else FIROS' {@code gnss} or {@code pose} text (JSON with quotes escaped as
- * {@code %27}). The first of these that is present decides. Out of range, not a number, or exactly 0,0 is no position.
+ * {@code Latitude} and {@code Longitude}, else {@code latitude} and {@code longitude}, else FIROS' {@code gnss} or {@code pose} text
+ * (JSON with quotes escaped as {@code %27}). The first of these that is present, and no blank text, decides. The dashboard's page reads
+ * positions by the same rules, and its tests the same table of cases. Out of range, not a number, or exactly 0,0 is no position.
  */
 public sealed interface PositionReading {
     /** The attributes that can hold a position. */
-    Set<String> ATTRIBUTES = Set.of("location", "Latitude", "Longitude", "gnss", "pose");
+    Set<String> ATTRIBUTES = Set.of("location", "Latitude", "Longitude", "latitude", "longitude", "gnss", "pose");
 
     /** A position that can be used. */
     record Located(Position position) implements PositionReading {}
@@ -37,14 +38,18 @@ public sealed interface PositionReading {
     }
 
     static PositionReading of(Entity entity) {
-        Optional<JsonNode> location = entity.value("location");
+        Optional<JsonNode> location = entity.value("location")
+                .filter(value -> !value.isTextual() || !value.textValue().isBlank());
         if (location.isPresent()) {
             return PositionRules.ofLocation(location.get());
         }
-        if (entity.value("Latitude").isPresent() || entity.value("Longitude").isPresent()) {
-            return PositionRules.of(
-                    entity.number("Latitude").orElse(Double.NaN),
-                    entity.number("Longitude").orElse(Double.NaN));
+        for (PositionRules.Pair names : PositionRules.PAIRS) {
+            if (entity.value(names.latitude()).isPresent()
+                    || entity.value(names.longitude()).isPresent()) {
+                return PositionRules.of(
+                        entity.number(names.latitude()).orElse(Double.NaN),
+                        entity.number(names.longitude()).orElse(Double.NaN));
+            }
         }
         Optional<String> firos = entity.text("gnss").or(() -> entity.text("pose"));
         return firos.map(PositionRules::ofFiros).orElseGet(Absent::new);

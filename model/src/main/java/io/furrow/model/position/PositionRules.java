@@ -1,6 +1,7 @@
 package io.furrow.model.position;
 
 import java.nio.charset.StandardCharsets;
+import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -10,7 +11,14 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /** The result of each form of a position, for {@link PositionReading}. */
 public final class PositionRules {
+    /** Attributes that together are a position, in the order in which they are looked for. */
+    public static final List<Pair> PAIRS =
+            List.of(new Pair("Latitude", "Longitude"), new Pair("latitude", "longitude"));
+
     static final PositionReading NO_POINT = new PositionReading.Faulty("location is no GeoJSON Point");
+
+    /** Names of two attributes. */
+    public record Pair(String latitude, String longitude) {}
 
     private PositionRules() {}
 

@@ -175,7 +175,8 @@ class EntityReaderTest {
                 reader.has(name),
                 reader.text(name),
                 Double.isNaN(number) ? Optional.empty() : Optional.of(number),
-                reader.instant(name));
+                reader.instant(name),
+                reader.number(name, Quantity.SPEED));
     }
 
     private static Answer ofTree(byte[] bytes) {
@@ -196,7 +197,13 @@ class EntityReaderTest {
 
     private static List<Object> ofTree(Entity entity, String name) {
         Optional<Instant> instant = entity.value(name).flatMap(Instants::of);
-        return List.of(name, entity.value(name).isPresent(), entity.text(name), entity.number(name), instant);
+        return List.of(
+                name,
+                entity.value(name).isPresent(),
+                entity.text(name),
+                entity.number(name),
+                instant,
+                Quantity.SPEED.of(entity, name).orElse(Double.NaN));
     }
 
     private static byte[] within(String before, String document, String after) {

@@ -1,9 +1,11 @@
 package io.furrow.suite.page;
 
+import java.util.ArrayList;
 import java.util.List;
 import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.Route;
 import com.microsoft.playwright.options.AriaRole;
 import com.microsoft.playwright.options.BoundingBox;
 import org.junit.jupiter.api.Tag;
@@ -104,6 +106,45 @@ class ReplaysIT {
         assertThat(farm.find(".mode")).containsText(Pattern.compile("weeding \\+ scouting|scouting \\+ weeding"));
         assertThat(farm.card(ROBOT)).isAttached();
         assertThat(farm.card("urn:ngsi-ld:Camera:1")).isAttached();
+    }
+
+    /** The hour at the end of summer time comes twice: the last event is written 02:40, or even before the first one. */
+    @Test
+    void plansAWholeMissionAcrossTheEndOfSummerTime(PageSuite suite) {
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        farm.page()
+                .route(
+                        "**/api/recordings",
+                        route -> route.fulfill(new Route.FulfillOptions()
+                                .setContentType("application/json")
+                                .setBody("""
+                [{"mission": "long", "first": 1792887000000, "last": 1792892400000},
+                 {"mission": "short", "first": 1792889400000, "last": 1792890600000}]""")));
+        List<String> plans = new ArrayList<>();
+        farm.page().route("**/api/replays", route -> {
+            plans.add(route.request().postData());
+            route.abort();
+        });
+        farm.expectingError("ERR_FAILED").open("#/replays?mission=long");
+
+        assertThat(farm.find(".plan")).containsText("Length: 90 min");
+        farm.button("Start replay").click();
+        farm.page().waitForCondition(() -> plans.size() == 1);
+
+        farm.page().getByLabel("Choose long").uncheck();
+        farm.page().getByLabel("Choose short").check();
+        assertThat(farm.find(".plan")).containsText("Length: 20 min");
+        farm.button("Start replay").click();
+        farm.page().waitForCondition(() -> plans.size() == 2);
+        org.assertj.core.api.Assertions.assertThat(plans)
+                .noneMatch(plan -> plan.contains("\"from\"") || plan.contains("\"to\""));
+
+        farm.find("#plan-to").fill("2026-10-25T02:05");
+        farm.button("Start replay").click();
+        farm.page().waitForCondition(() -> plans.size() == 3);
+        org.assertj.core.api.Assertions.assertThat(plans.get(2))
+                .contains("\"to\":1792890300000")
+                .doesNotContain("\"from\"");
     }
 
     /** Its status goes some time after it. */

@@ -122,7 +122,7 @@ public final class StopRobots {
     private void stop(Encounter encounter, Encounter.Member robot, String type, long time) {
         String failure = "no attempt was made";
         try {
-            failure = tryToStop(robot, type, time);
+            failure = tryToStop(settings.sender().in(encounter.scope()), robot, type, time);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
             failure = "the control plane was stopped meanwhile";
@@ -136,7 +136,8 @@ public final class StopRobots {
     }
 
     /** Returns why it failed; null if the context broker accepted the command. */
-    private String tryToStop(Encounter.Member robot, String type, long time) throws InterruptedException {
+    private String tryToStop(CommandSender sender, Encounter.Member robot, String type, long time)
+            throws InterruptedException {
         String failure = null;
         for (int attempt = 1; attempt <= ATTEMPTS; attempt++) {
             if (attempt > 1) {
@@ -146,7 +147,7 @@ public final class StopRobots {
                 return failure == null ? stale() : stale() + " after this: " + failure;
             }
             try {
-                settings.sender().send(robot.id(), type, STOP, "");
+                sender.send(robot.id(), type, STOP, "");
                 return null;
             } catch (IOException e) {
                 failure = e.getMessage();

@@ -132,6 +132,11 @@ public final class ServiceView {
         return read(topic).values().stream().map(ServiceView::parse);
     }
 
+    /** In their order. @throws ProblemException as {@link #find} */
+    public Stream<String> keys(String topic) {
+        return read(topic).keySet().stream();
+    }
+
     /** With their keys, in their order. @throws ProblemException as {@link #find} */
     public Stream<Entry> entries(String topic) {
         return read(topic).entrySet().stream().map(each -> new Entry(each.getKey(), parse(each.getValue())));

@@ -15,6 +15,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.control.alarm.watch.Encounter;
 import io.furrow.control.audit.AuditEntry;
+import io.furrow.control.device.CommandSender;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -145,6 +146,33 @@ class StopRobotsTest {
         assertThat(audited)
                 .singleElement()
                 .satisfies(entry -> assertThat(entry.reason()).contains("invalid URI"));
+    }
+
+    /** Another tenant may have a robot of this id. */
+    @Test
+    void sendsItToTheTenantOfTheEncounter() {
+        List<FiwareScope> tenants = new ArrayList<>();
+        CommandSender sender = new CommandSender() {
+            @Override
+            public void send(String device, String type, String command, String value) {
+                sent.add(device);
+            }
+
+            @Override
+            public CommandSender in(FiwareScope scope) {
+                tenants.add(scope);
+                return this;
+            }
+        };
+        robots = new StopRobots(
+                StopRobots.Settings.of(sender),
+                types::get,
+                audited::add,
+                executor,
+                Clock.fixed(Instant.ofEpochMilli(NOW), ZoneOffset.UTC));
+        robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
+        assertThat(sent).containsExactly("r1");
+        assertThat(tenants).containsExactly(new FiwareScope("farm", "/"));
     }
 
     private StopRobots robots() {

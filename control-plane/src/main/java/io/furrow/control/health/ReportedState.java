@@ -1,0 +1,80 @@
+package io.furrow.control.health;
+
+import java.util.Arrays;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.function.Predicate;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.Entity;
+
+/**
+ * Tells a report of a device from what the context broker notifies about by itself, when a command is sent to the device, answered or
+ * has expired. Holds hashes of the values only.
+ */
+final class ReportedState {
+    /** Attributes that are assigned to a device, not measured by it: they may be there before its first report. */
+    private static final Pattern ASSIGNED = Pattern.compile("Domain|Mission|TimeInstant");
+
+    private static final Pattern COMMAND = Pattern.compile("(.+)_(?:status|info)");
+    private static final Pattern COMMAND_TYPES = Pattern.compile("command(Status|Result)?");
+
+    private final int[] measured;
+    private final int[] commands;
+
+    private ReportedState(int[] measured, int[] commands) {
+        this.measured = measured;
+        this.commands = commands;
+    }
+
+    static ReportedState of(Entity entity) {
+        List<Map.Entry<String, JsonNode>> attributes = entity.attributes();
+        Set<String> sent = attributes.stream()
+                .map(each -> COMMAND.matcher(each.getKey()))
+                .filter(Matcher::matches)
+                .map(name -> name.group(1))
+                .collect(Collectors.toSet());
+        Predicate<Map.Entry<String, JsonNode>> isCommand = each -> sent.contains(each.getKey())
+                || COMMAND.matcher(each.getKey()).matches()
+                || COMMAND_TYPES.matcher(each.getValue().path("type").asText()).matches();
+        return new ReportedState(
+                hashes(attributes, isCommand.negate().and(each -> isMeasured(each.getKey()))),
+                hashes(attributes, isCommand));
+    }
+
+    private static int[] hashes(
+            List<Map.Entry<String, JsonNode>> attributes, Predicate<Map.Entry<String, JsonNode>> which) {
+        return attributes.stream()
+                .filter(which)
+                .mapToInt(each -> 31 * each.getKey().hashCode()
+                        + each.getValue().path("value").hashCode())
+                .sorted()
+                .toArray();
+    }
+
+    /** Whether the attribute may come from the device itself. */
+    static boolean isMeasured(String name) {
+        return !ASSIGNED.matcher(name).matches()
+                && !COMMAND.matcher(name).matches()
+                && !Entity.BUILT_INS.contains(name);
+    }
+
+    /**
+     * Whether the device reported this after that: it measured something else, or the same at another time. A device without a clock
+     * gives all of its reports one time.
+     *
+     * @param atAnotherTime whether the two have different event times
+     */
+    boolean isReportAfter(ReportedState before, boolean atAnotherTime) {
+        return isChanged(before.measured, measured) || atAnotherTime && !isChanged(before.commands, commands);
+    }
+
+    private static boolean isChanged(int[] before, int[] now) {
+        return Arrays.stream(now).anyMatch(each -> Arrays.binarySearch(before, each) < 0);
+    }
+}

@@ -1,0 +1,139 @@
+/**
+ * Positions, numbers and their units as the jobs read them: `PositionReading`, `Numbers` and `Quantity` of the model, `Battery` of the
+ * control plane. The tables of cases that these are held to, in the tests of the model, hold for this file too.
+ */
+
+const DECIMAL = /^[+-]?(\d{1,40}(\.\d{0,40})?|\.\d{1,40})([eE][+-]?\d{1,3})?$/;
+const SPACE = 0x20;
+const PAIRS = [['Latitude', 'Longitude'], ['latitude', 'longitude']];
+const BATTERIES = ['battery', 'batteryLevel'];
+const QUOTE = '%27';
+
+/** From a unit to that in which a quantity is read; a unit that is not listed is none of it, but for temperatures. */
+const QUANTITIES = {
+  SPEED: { __proto__: null, MTS: (value) => value, KMH: (value) => value / 3.6, HM: (value) => value * 0.44704, KNT: (value) => (value * 1852) / 3600 },
+  HEADING: { __proto__: null, DD: (value) => value, C81: (value) => (value * 180) / Math.PI },
+  TEMPERATURE: { __proto__: null, FAH: (value) => (value - 32) / 1.8, KEL: (value) => value - 273.15 },
+  SHARE: { __proto__: null, C62: (value) => value, P1: (value) => value / 100 },
+};
+
+/** A finite number, also as a text; null for everything else. */
+export function finite(value) {
+  const text = typeof value === 'string' ? trimmed(value) : '';
+  const number = DECIMAL.test(text) ? Number(text) : value;
+  return typeof number === 'number' && Number.isFinite(number) ? number : null;
+}
+
+/** As Java has it: without what is no sign, up to the space, at both ends. */
+function trimmed(text) {
+  let [from, to] = [0, text.length];
+  while (from < to && text.charCodeAt(from) <= SPACE) {
+    from++;
+  }
+  while (from < to && text.charCodeAt(to - 1) <= SPACE) {
+    to--;
+  }
+  return text.slice(from, to);
+}
+
+/** Metadata `unitCode`, a code of UN/CEFACT Recommendation 20, else `unit`; empty if there is none. */
+export function unitOf(attribute) {
+  const { unitCode, unit } = attribute?.metadata ?? {};
+  const named = unit?.value ?? '';
+  return typeof unitCode?.value === 'string' && unitCode.value ? unitCode.value : typeof named === 'object' ? '' : String(named);
+}
+
+/**
+ * @param {{value: *, metadata: Object=}|undefined} attribute
+ * @param {'SPEED'|'HEADING'|'TEMPERATURE'|'SHARE'} quantity m/s, degrees, °C, 0 to 1
+ * @returns {number|null} null for what is no number, or in another unit
+ */
+export function quantityOf(attribute, quantity) {
+  const number = finite(attribute?.value);
+  const unit = unitOf(attribute);
+  if (number === null || unit === '') {
+    return number;
+  }
+  const read = QUANTITIES[quantity][unit];
+  return read ? read(number) : quantity === 'TEMPERATURE' ? number : null;
+}
+
+/** Whether an attribute that is a share shows that its device reports in percent, though it names no unit. */
+export function isPercent(attribute) {
+  return unitOf(attribute) === '' && finite(attribute.value) > 1;
+}
+
+/** The charge of a battery, 0 to 1. @param {Object<string, Object>} attributes as `core/entity.js` has them @returns {number|null} */
+export function chargeOf(attributes) {
+  const attribute = attributes[BATTERIES.find((name) => isPresent(attributes[name]?.value))];
+  const number = finite(attribute?.value);
+  const said = number ?? finite(messageOf(attribute?.value)?.percentage);
+  const isNamed = number !== null && unitOf(attribute) !== '';
+  const share = isNamed ? quantityOf(attribute, 'SHARE') : said > 1 || (number !== null && attribute?.percent) ? said / 100 : said;
+  return said !== null && share !== null && share >= 0 && share <= 1 ? share : null;
+}
+
+/**
+ * Where a report says that its entity is.
+ *
+ * @param {Object<string, {value: *}>} reported attributes of one record
+ * @returns {{position: [number, number]}|{fault: 'no-number'|'no-point'|'out-of-range'|'no-fix'}|{}} degrees, longitude first; nothing if it does not say
+ */
+export function positionOf(reported) {
+  const value = (name) => (Object.hasOwn(reported, name) ? reported[name]?.value ?? undefined : undefined);
+  const location = value('location');
+  if (isPresent(location) && !isBlank(location)) {
+    return ofLocation(location);
+  }
+  for (const [latitude, longitude] of PAIRS) {
+    if (isPresent(value(latitude)) || isPresent(value(longitude))) {
+      return checked(value(longitude), value(latitude));
+    }
+  }
+  const text = [value('gnss'), value('pose')].find((each) => typeof each === 'string' && !isBlank(each));
+  if (text === undefined) {
+    return {};
+  }
+  const message = messageOf(text);
+  return checked(message?.longitude, message?.latitude);
+}
+
+function ofLocation(location) {
+  if (typeof location === 'string') {
+    const parts = location.split(',');
+    return parts.length === 2 ? checked(parts[1], parts[0]) : { fault: 'no-point' };
+  }
+  const { type, coordinates } = location;
+  return type === 'Point' && Array.isArray(coordinates) && coordinates.length >= 2 ? checked(coordinates[0], coordinates[1]) : { fault: 'no-point' };
+}
+
+function checked(longitude, latitude) {
+  const [lon, lat] = [finite(longitude), finite(latitude)];
+  if (lon === null || lat === null) {
+    return { fault: 'no-number' };
+  }
+  if (Math.abs(lat) > 90 || Math.abs(lon) > 180) {
+    return { fault: 'out-of-range' };
+  }
+  return lat === 0 && lon === 0 ? { fault: 'no-fix' } : { position: [lon, lat] };
+}
+
+/** A message of ROS, which FIROS writes as text whose quotes are `%27`. */
+function messageOf(value) {
+  if (typeof value !== 'string') {
+    return value;
+  }
+  try {
+    return JSON.parse(value.replaceAll(QUOTE, '"'));
+  } catch {
+    return null;
+  }
+}
+
+function isPresent(value) {
+  return value !== undefined && value !== null;
+}
+
+function isBlank(value) {
+  return typeof value === 'string' && value.trim() === '';
+}

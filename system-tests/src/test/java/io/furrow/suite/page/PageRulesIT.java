@@ -1,0 +1,202 @@
+package io.furrow.suite.page;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+
+import com.microsoft.playwright.Browser;
+import com.microsoft.playwright.Page;
+import com.microsoft.playwright.Route;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.dashboard.Dashboard;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** What the page makes of records, in a browser without a suite: held to the tables of cases that hold for the jobs. */
+class PageRulesIT {
+    private static final Path TABLES = Path.of("../model/src/test/resources/io/furrow/model");
+    private static final String FARM = "http://page.test/";
+
+    /** Reports of one entity, in one tenant. */
+    private static final String TAKE = """
+            const { store } = await import('/core/store.js');
+            const { parse } = await import('/core/json.js');
+            let time = 1e12;
+            const take = (id, type, tenant, attributes) => store.takeEntity({
+              key: id, kind: 'event', time: time += 1000, headers: { 'fiware-service': tenant, 'fiware-servicepath': '/' },
+              value: attributes && { id, type, ...attributes } });
+            """;
+
+    private static Chromium chromium;
+    private static Page page;
+
+    @BeforeAll
+    static void open() {
+        chromium = Chromium.start();
+        page = chromium.browser()
+                .newContext(new Browser.NewContextOptions()
+                        .setTimezoneId("Europe/Madrid")
+                        .setLocale("en-GB"))
+                .newPage();
+        page.route("**/*", PageRulesIT::answer);
+        page.navigate(FARM);
+    }
+
+    @AfterAll
+    static void close() {
+        chromium.close();
+    }
+
+    @Test
+    void readsPositionsAsTheJobsDo() throws IOException {
+        assertThat(differences("position/positions.csv", """
+                const { positionOf } = await import('/core/readings.js');
+                const { parse } = await import('/core/json.js');
+                return rows.filter(([attributes, latitude, longitude]) => {
+                  const found = positionOf(Object.fromEntries(Object.entries(parse(`{${attributes}}`)).map(([name, value]) => [name, { value }])));
+                  return String(found.position ?? (found.fault ? 'fault' : 'absent')) !== String(isNaN(latitude) ? latitude : [+longitude, +latitude]);
+                });""")).isEmpty();
+    }
+
+    @Test
+    void readsNumbersAndUnitsAsTheJobsDo() throws IOException {
+        assertThat(differences("ngsi/quantities.csv", """
+                const { quantityOf } = await import('/core/readings.js');
+                const { parse } = await import('/core/json.js');
+                return rows.filter(([quantity, attribute, expected]) => {
+                  const read = quantityOf(parse(attribute), quantity);
+                  return expected === 'none' ? read !== null : !(Math.abs(read - expected) < 1e-9);
+                });""")).isEmpty();
+    }
+
+    @Test
+    void readsBatteriesAsTheControlPlaneDoes() throws IOException {
+        assertThat(differences("ngsi/batteries.csv", TAKE + """
+                const { chargeOf } = await import('/core/readings.js');
+                return rows.filter(([reports, expected], index) => {
+                  parse(reports).forEach((each) => take(`battery ${index}`, 'Battery', '', each));
+                  const read = chargeOf(store.entities.get(`battery ${index}`).attributes);
+                  return expected === 'none' ? read !== null : !(Math.abs(read - expected) < 1e-9);
+                });""")).isEmpty();
+    }
+
+    @Test
+    void showsNumbersWholeAndInTheirUnits() {
+        assertThat(run(TAKE + """
+                const { allAttributes, telling } = await import('/cards/attributes.js');
+                const { quantityOf } = await import('/core/readings.js');
+                take('a', 'Device', '', parse(`{"code": {"value": 840380235174088834}, "least": {"value": -9007199254740993}, "far": {"value": 1E400},
+                  "zeros": {"value": "0042"}, "battery": {"value": 1, "metadata": {"unitCode": {"value": "P1"}}}, "batteryLevel": {"value": 0.07},
+                  "speed": {"value": "36", "metadata": {"unitCode": {"value": "KMH"}}}, "serial": {"value": 12345678901}}`));
+                const entity = store.entities.get('a');
+                return [...allAttributes(entity).map(({ name, value }) => `${name}=${value}`),
+                  ...telling(entity, 9).map(({ label, value, unit }) => `${label}: ${value} ${unit}`.trim()), `${entity.speed} m/s`];"""))
+                .contains(
+                        "code=840380235174088834",
+                        "least=-9007199254740993",
+                        "far=1E400",
+                        "zeros=0042",
+                        "Code: 840380235174088834",
+                        "Serial: 12 345 678 901",
+                        "Battery: 1 %",
+                        "Battery level: 7 %",
+                        "Speed: 36 km/h",
+                        "10 m/s");
+    }
+
+    /** An attribute may have the name of what every object of JavaScript has. */
+    @Test
+    void takesNamesOfJavaScriptForNames() {
+        assertThat(run(TAKE + """
+                const { allAttributes, telling } = await import('/cards/attributes.js');
+                const { t } = await import('/texts.js');
+                take('b', 'Device', '', parse(`{"constructor": {"value": 5}, "__proto__": {"value": 7},
+                  "toString": {"value": 8, "metadata": {"unitCode": {"value": "valueOf"}}}}`));
+                const entity = store.entities.get('b');
+                return [...allAttributes(entity).map(({ name, value }) => `${name}=${value}`),
+                  ...telling(entity, 9).map(({ value, unit }) => `${value} ${unit}`.trim()), t('states.constructor')];"""))
+                .containsExactlyInAnyOrder(
+                        "__proto__=7", "constructor=5", "toString=8", "5", "7", "8 valueOf", "states.constructor");
+    }
+
+    /** Neither tenant nor type is part of the id. */
+    @Test
+    void tellsEntitiesOfOneIdApart() {
+        assertThat(run(TAKE + """
+                const at = (longitude) => ({ Latitude: { value: 10 }, Longitude: { value: longitude } });
+                for (let i = 0; i < 4; i++) {
+                  take('pb-14', 'Robot', 'pbfarm', at(10.002));
+                  take('pb-14', 'Robot', 'pbother', at(10.004));
+                }
+                take('pb-13', 'Valve', 'pbfarm', at(10));
+                take('pb-13', 'Pump', 'pbfarm', at(11));
+                const told = () => [...store.entities.values()].filter(({ identity }) => identity.id.startsWith('pb-'))
+                  .map(({ name, position, trail }) => `${name} at ${position[0]}, ${trail.length} places`);
+                const both = told();
+                store.takeEncounter({ time, headers: { 'fiware-service': 'pbother' }, value: { type: 'Analytics:Collision',
+                  Device1_ID: { value: 'pb-14' }, Device2_ID: { value: 'x' }, phase: { value: 'started' } } });
+                const [encounter] = store.encounters.values();
+                const close = store.entities.get(encounter.a).name;
+                take('pb-14', 'Robot', 'pbother', null);
+                return [...both, `close: ${close}`, ...told().slice(0, 1)];"""))
+                .containsExactly(
+                        "pb-14 (pbfarm) at 10.002, 0 places",
+                        "pb-14 (pbother) at 10.004, 0 places",
+                        "pb-13 (Valve) at 10, 0 places",
+                        "pb-13 (Pump) at 11, 0 places",
+                        "close: pb-14 (pbother)",
+                        "pb-14 at 10.002, 0 places");
+    }
+
+    /** At the end of summer time the hour from two to three comes twice. */
+    @Test
+    void writesTimesOnTheAxisAcrossTheEndOfSummerTime() {
+        assertThat(run("""
+                const { Scale } = await import('/timeline/scale.js');
+                const { clock } = await import('/core/format.js');
+                const ticks = (from, to, width) => {
+                  const scale = new Scale();
+                  scale.width = width;
+                  scale.setExtent(Date.parse(from), Date.parse(to));
+                  scale.showAll();
+                  return scale.ticks().times.map((time) => clock(time).slice(0, 5)).join(' ');
+                };
+                return [ticks('2026-10-24T22:00Z', '2026-10-25T05:00Z', 700), ticks('2026-10-24T16:00Z', '2026-10-25T17:00Z', 500)];"""))
+                .containsExactly("00:00 01:00 02:00 02:00 03:00 04:00 05:00 06:00", "18:00 00:00 06:00 12:00 18:00");
+    }
+
+    /** Rows of a table for which a function answers otherwise than the table. */
+    private static List<?> differences(String table, String body) throws IOException {
+        List<List<String>> rows = Files.readAllLines(TABLES.resolve(table)).stream()
+                .filter(line -> !line.startsWith("#"))
+                .map(line -> List.of(line.split(" \\|(?: |$)")))
+                .toList();
+        assertThat(rows).hasSizeGreaterThan(20);
+        return (List<?>) page.evaluate("async (rows) => {" + body + "}", rows);
+    }
+
+    @SuppressWarnings("unchecked")
+    private static List<String> run(String body) {
+        return (List<String>) page.evaluate("async () => {" + body + "}");
+    }
+
+    private static void answer(Route route) {
+        String path = URI.create(route.request().url()).getPath();
+        Route.FulfillOptions answer = new Route.FulfillOptions();
+        try (InputStream file = Dashboard.class.getResourceAsStream("/web" + path)) {
+            boolean isScript = file != null && path.endsWith(".js");
+            route.fulfill(
+                    isScript
+                            ? answer.setContentType("text/javascript").setBodyBytes(file.readAllBytes())
+                            : answer.setContentType("text/html").setBody("<!doctype html>"));
+        } catch (IOException e) {
+            route.abort();
+        }
+    }
+}
