@@ -169,11 +169,19 @@ final class DeviceAssignments {
         forget(mission, Set.of());
     }
 
-    /** Forgets the devices of a mission as it was, but not those that it has as it is now. */
+    /**
+     * Forgets the devices of a mission as it was, but not those that it has as it is now; of these it stops the ones that a stop has not
+     * reached yet.
+     */
     void forgetAllBut(List<DeviceState> before, Mission now) {
         Set<String> kept = new HashSet<>();
         roster(now, 0).forEach(device -> kept.add(device.version().key()));
         forget(before, kept);
+        Rollout rollout = records.rollouts().get(now.mission());
+        if (rollout != null && rollout.kind() == Rollout.Kind.STOP) {
+            kept.forEach(key -> stop(now, key, rollout.time()));
+            records.rollouts().put(now.mission(), null);
+        }
     }
 
     private void forget(Mission mission, Set<String> kept) {
