@@ -118,9 +118,10 @@ public record PositionFix(
         return reporter.name();
     }
 
-    /** Whether both are parts of one aggregate: one carries the other, or a third carries both. */
+    /** Whether both are parts of one aggregate: they have one id, one carries the other, or a third carries both. */
     public boolean sharesAggregateWith(PositionFix other) {
-        return !carrier().isEmpty()
+        return name().equals(other.name())
+                || !carrier().isEmpty()
                         && (carrier().equals(other.name()) || carrier().equals(other.carrier()))
                 || !other.carrier().isEmpty() && other.carrier().equals(name());
     }

@@ -63,6 +63,19 @@ class AssignCarriersTest {
                 .isFalse();
     }
 
+    /** Also what an older build knew of the device, without its type. */
+    @Test
+    void takesEntitiesOfOneIdForOneThing() {
+        PositionFix tractor = Fixes.of("farm|/|Tractor|e-12", "e-12", "m", 0, 10, 1500);
+
+        assertThat(tractor.sharesAggregateWith(Fixes.of("farm|/|Thermometer|e-12", "e-12", "m", 0, 10, 1500)))
+                .isTrue();
+        assertThat(tractor.sharesAggregateWith(Fixes.of("farm|/|e-12", "e-12", "m", 0, 10, 1500)))
+                .isTrue();
+        assertThat(tractor.sharesAggregateWith(Fixes.of("other|/|Tractor|e-12", "e-12", "m", 0, 10, 1500)))
+                .isFalse();
+    }
+
     @Test
     void leavesTheCarrierThatTheEntityNames() throws Exception {
         PositionFix named = Fixes.carriedBy("drone", Fixes.east("camera", 0, 1500));
