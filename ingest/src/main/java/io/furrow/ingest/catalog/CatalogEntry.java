@@ -8,6 +8,7 @@ import java.util.TreeMap;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.ingest.route.EventEntity;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -50,7 +51,7 @@ public record CatalogEntry(
 
     /** One event. */
     static CatalogEntry of(ReportedEvent event) throws UnreadableException {
-        Entity entity = Entity.parse(event.record().value());
+        Entity entity = EventEntity.of(event.record()).entity();
         Map<String, AttributeProfile> attributes = new HashMap<>();
         long images = 0;
         long imageBytes = 0;

@@ -6,10 +6,8 @@ import java.util.SortedMap;
 import java.util.TreeMap;
 
 import com.fasterxml.jackson.core.io.JsonStringEncoder;
-import com.fasterxml.jackson.databind.JsonNode;
 
-import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.SlicedEntity;
 
 /**
  * The newest that is known of an entity. An attribute changes by events that are not older than what is known of it; of two
@@ -25,19 +23,16 @@ public record KnownEntity(
     static final KnownEntity NEVER_SEEN = new KnownEntity(Long.MIN_VALUE, false, "", Map.of(), Long.MIN_VALUE);
 
     /** After a change: the same object where the event brings nothing that is not known newer. */
-    KnownEntity with(Entity reported, long eventTime, long eventReceived) {
+    KnownEntity with(SlicedEntity reported, long eventTime, long eventReceived) {
         if (deleted && eventTime <= time) {
             return this;
         }
         Map<String, KnownAttribute> merged = new TreeMap<>(deleted ? Map.of() : attributes);
         boolean news = eventTime >= time;
-        for (Map.Entry<String, JsonNode> attribute : reported.attributes()) {
+        for (Map.Entry<String, String> attribute : reported.attributes().entrySet()) {
             KnownAttribute known = merged.get(attribute.getKey());
             if (known == null || known.time() <= eventTime) {
-                merged.put(
-                        attribute.getKey(),
-                        new KnownAttribute(
-                                eventTime, new String(NgsiJson.write(attribute.getValue()), StandardCharsets.UTF_8)));
+                merged.put(attribute.getKey(), new KnownAttribute(eventTime, attribute.getValue()));
                 news = true;
             }
         }
@@ -45,7 +40,7 @@ public record KnownEntity(
                 ? new KnownEntity(
                         Math.max(time, eventTime),
                         false,
-                        eventTime >= time ? reported.type() : type,
+                        eventTime >= time ? reported.entity().type() : type,
                         merged,
                         Math.max(received, eventReceived))
                 : this;

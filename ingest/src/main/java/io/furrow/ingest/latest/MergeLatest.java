@@ -13,9 +13,10 @@ import org.apache.flink.util.Collector;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ByType;
+import io.furrow.ingest.route.EventEntity;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.HeaderNames;
-import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.SlicedEntity;
 import io.furrow.model.topic.Topics;
 
 import static io.furrow.ingest.latest.KnownEntity.NEVER_SEEN;
@@ -72,7 +73,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
         }
         KnownEntity known = latest.value() == null
                 ? NEVER_SEEN.withoutAnything(time).ofType(before == null ? other : before.type())
-                : NEVER_SEEN.with(Entity.parse(latest.value()), time, time);
+                : NEVER_SEEN.with(SlicedEntity.parse(latest.value()), time, time);
         entities.put(other.isEmpty(), known);
         await(known, timers);
     }
@@ -93,7 +94,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
         } else {
             KnownEntity known = entities.get(event.type());
             KnownEntity before = known == null ? NEVER_SEEN : known;
-            Entity reported = Entity.parse(event.record().value());
+            SlicedEntity reported = EventEntity.of(event.record());
             KnownEntity merged = before.with(reported, event.time(), event.received());
             take(event, before, merged, context.timerService(), out);
         }

@@ -9,6 +9,7 @@ import org.apache.flink.util.Collector;
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.ingest.route.EventEntity;
 import io.furrow.mission.StoredEvent;
 import io.furrow.mission.mongo.EventDocumentCodec;
 import io.furrow.mission.mongo.MissionCollections;
@@ -55,7 +56,8 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
         if (id == null) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has no event id");
         }
-        Entity entity = record.value() == null ? null : Entity.parse(record.value());
+        Entity entity =
+                record.value() == null ? null : EventEntity.of(record).entity();
         byte[] bson = EventDocumentCodec.write(new StoredEvent(
                 id,
                 record.timestamp(),

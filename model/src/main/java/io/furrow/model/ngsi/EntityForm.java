@@ -77,7 +77,7 @@ enum EntityForm {
         return new Entity(normalized);
     }
 
-    private static boolean isNormal(ObjectNode attribute) {
+    static boolean isNormal(ObjectNode attribute) {
         return attribute.size() == 3
                 && attribute.path("type").isTextual()
                 && attribute.path("metadata").isObject();
