@@ -25,6 +25,7 @@ import io.furrow.bench.ingest.Peer;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.flink.job.Delivery;
 import io.furrow.launcher.LogFile;
 import io.furrow.launcher.Progress;
@@ -121,6 +122,12 @@ final class IngestBench implements Callable<Integer> {
             description = "COPY_ONCE, COPY_TWICE, ROUTES, INGEST. Default: all.")
     private List<Peer> jobs;
 
+    @Option(
+            names = "--mongo",
+            description =
+                    "The job ingest also keeps the missions, in a server of the suite that speaks MongoDB's protocol.")
+    private boolean mongo;
+
     @Option(names = "--output", paramLabel = "FILE", description = "Also write every figure here, as JSON.")
     private Path output;
 
@@ -147,12 +154,19 @@ final class IngestBench implements Callable<Integer> {
                         "Kafka", progress.step("Kafka", () -> EmbeddedKafka.start(directory.resolve("kafka"))));
                 EmbeddedFlink flink =
                         parts.add("Flink", progress.step("Flink", () -> EmbeddedFlink.start(parallelism, 0)));
+                String missionStore = mongo
+                        ? parts.add("MongoDB", EmbeddedMongo.start(directory.resolve("mongo")))
+                                .uri()
+                        : null;
                 Properties client = new Properties();
                 client.setProperty("bootstrap.servers", kafka.bootstrapServers());
                 IngestMeasurement measurement = new IngestMeasurement(
                         plan,
                         new IngestMeasurement.Cluster(
-                                client, (name, job) -> start(flink, name, job), directory.resolve("checkpoints")),
+                                client,
+                                (name, job) -> start(flink, name, job),
+                                directory.resolve("checkpoints"),
+                                missionStore),
                         line -> {
                             out.println("  " + line);
                             out.flush();

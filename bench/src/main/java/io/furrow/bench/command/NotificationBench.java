@@ -9,6 +9,7 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
+import java.util.Locale;
 import java.util.Map;
 import java.util.concurrent.Callable;
 import java.util.concurrent.ExecutionException;
@@ -23,10 +24,13 @@ import io.furrow.bench.http.HttpLoadPlan;
 import io.furrow.bench.notifications.NotificationMeasurement;
 import io.furrow.bench.notifications.NotificationReport;
 import io.furrow.bench.notifications.NotificationRun;
+import io.furrow.bench.notifications.SuiteLoad;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.embedded.FreePort;
 import io.furrow.launcher.Progress;
 import io.furrow.launcher.suite.RunDirectory;
+import io.furrow.launcher.suite.Suite;
+import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
@@ -44,6 +48,10 @@ import io.furrow.model.topic.Topics;
             "Exit code 0 means that no acknowledged notification is missing."
         })
 final class NotificationBench implements Callable<Integer> {
+    private static final int FIRST_RATE = 1_000;
+    private static final String SUITE_HEAD = "%8s %9s %8s %8s %8s %8s %8s %8s  %s%n";
+    private static final String SUITE_LINE = "%8d %9d %8d %8d %8d %8.0f %8.0f %8.0f  %s%n";
+
     @Spec
     private CommandSpec spec;
 
@@ -113,6 +121,15 @@ final class NotificationBench implements Callable<Integer> {
                     "Seconds for each of bare server, bare bridge and bare producer, each run. Default: ${DEFAULT-VALUE}.")
     private int calibration;
 
+    @Option(
+            names = "--whole",
+            description = {
+                "Press a whole suite: entities of one mission, read at the mission's topic. Held is a rate of which all"
+                        + " arrives once, 99 of 100 within a second of their receipt.",
+                "Without --rate from 1000 a second on a quarter more each time, until one is not held."
+            })
+    private boolean whole;
+
     @Option(names = "--exactly-once", description = "Let Connect write in transactions.")
     private boolean exactlyOnce;
 
@@ -138,6 +155,9 @@ final class NotificationBench implements Callable<Integer> {
     @Override
     public Integer call() throws Exception {
         PrintWriter out = spec.commandLine().getOut();
+        if (whole) {
+            return pressSuite(out);
+        }
         Map<String, String> worker = exactlyOnce ? Map.of("exactly.once.source.support", "enabled") : Map.of();
         try (RunDirectory directory = RunDirectory.open(data);
                 BenchCluster cluster = BenchCluster.start(directory, worker, new Progress(out))) {
@@ -150,6 +170,40 @@ final class NotificationBench implements Callable<Integer> {
             }
             return report.missing() == 0 ? 0 : 1;
         }
+    }
+
+    private int pressSuite(PrintWriter out) throws Exception {
+        try (RunDirectory directory = RunDirectory.open(data);
+                Suite suite = Suite.start(SuiteSettings.onFreePorts("10s"), directory, new Progress(out))) {
+            SuiteLoad load = new SuiteLoad(suite, entities);
+            out.printf(
+                    SUITE_HEAD, "rate", "answered", "missing", "repeats", "refused", "p50 ms", "p99 ms", "max ms", "");
+            load.run(at(FIRST_RATE).lasting(Duration.ofSeconds(warmup)));
+            SuiteLoad.Run run;
+            int next = rate > 0 ? rate : FIRST_RATE;
+            do {
+                run = load.run(at(next));
+                out.printf(
+                        Locale.ROOT,
+                        SUITE_LINE,
+                        next,
+                        run.load().answered(),
+                        run.missing(),
+                        run.repeats(),
+                        run.load().refused() + run.load().broken(),
+                        run.millis(50),
+                        run.millis(99),
+                        run.millis(100),
+                        run.isHeld() ? "held" : "not held");
+                out.flush();
+                next += next / 4;
+            } while (rate == 0 && run.isHeld());
+            return run.missing() == 0 ? 0 : 1;
+        }
+    }
+
+    private HttpLoadPlan at(int perSecond) {
+        return new HttpLoadPlan(connections, newConnections, perSecond, payload, entities, Duration.ofSeconds(seconds));
     }
 
     private List<NotificationRun> measure(BenchCluster cluster, Path journal, PrintWriter out)
@@ -178,7 +232,7 @@ final class NotificationBench implements Callable<Integer> {
     }
 
     private HttpLoadPlan plan() {
-        return new HttpLoadPlan(connections, newConnections, rate, payload, entities, Duration.ofSeconds(seconds));
+        return at(rate);
     }
 
     private Map<String, String> settings(InetSocketAddress source, Path journal) {

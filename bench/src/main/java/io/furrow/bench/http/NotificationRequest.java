@@ -89,6 +89,11 @@ public final class NotificationRequest {
         return new NotificationRequest(head, body, entities);
     }
 
+    /** Id of the entity with this number, less than how many there are. */
+    public static String id(int number) {
+        return ID_PREFIX + String.format(Locale.ROOT, "%0" + ID_DIGITS + "d", number);
+    }
+
     /** The request with this number, to be written before the next call. */
     public ByteBuffer with(long number, long epochMillis) {
         digits(idAt, ID_DIGITS, number % entities);

@@ -34,6 +34,7 @@ public final class IngestMeasurement {
     private final IngestPlan plan;
     private final Properties kafka;
     private final Path checkpoints;
+    private final String mongo;
     private final Jobs flink;
     private final Consumer<String> progress;
 
@@ -48,8 +49,16 @@ public final class IngestMeasurement {
         void cancel() throws Exception;
     }
 
-    /** Where it is measured. */
-    public record Cluster(Properties kafka, Jobs flink, Path checkpoints) {}
+    /**
+     * Where it is measured.
+     *
+     * @param mongo URI of the server in which the job ingest keeps missions; null for none
+     */
+    public record Cluster(Properties kafka, Jobs flink, Path checkpoints, String mongo) {
+        public Cluster(Properties kafka, Jobs flink, Path checkpoints) {
+            this(kafka, flink, checkpoints, null);
+        }
+    }
 
     /** @param progress is reported after each job's turn */
     public IngestMeasurement(IngestPlan plan, Cluster cluster, Consumer<String> progress) {
@@ -57,6 +66,7 @@ public final class IngestMeasurement {
         this.kafka = cluster.kafka();
         this.flink = cluster.flink();
         this.checkpoints = cluster.checkpoints();
+        this.mongo = cluster.mongo();
         this.progress = progress;
     }
 
@@ -143,6 +153,9 @@ public final class IngestMeasurement {
         args.addAll(List.of("--checkpoint-interval", plan.checkpointInterval().toMillis() + "ms"));
         args.addAll(
                 List.of("--checkpoint-dir", checkpoints.resolve(name).toUri().toString()));
+        if (peer == Peer.INGEST && mongo != null) {
+            args.addAll(List.of("--mongo", mongo));
+        }
         IngestOptions options = new IngestOptions();
         JobCommandLine.of(options).setCommandName(name).parseArgs(args.toArray(String[]::new));
         return switch (peer) {

@@ -56,8 +56,7 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
         if (id == null) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has no event id");
         }
-        Entity entity =
-                record.value() == null ? null : EventEntity.of(record).entity();
+        Entity entity = record.value() == null ? null : EventEntity.of(record).entity();
         byte[] bson = EventDocumentCodec.write(new StoredEvent(
                 id,
                 record.timestamp(),

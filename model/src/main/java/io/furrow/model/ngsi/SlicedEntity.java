@@ -25,8 +25,8 @@ public record SlicedEntity(Entity entity, Map<String, String> attributes) {
      */
     public static SlicedEntity parse(byte[] normalized) throws UnreadableException {
         Map<String, String> slices = new HashMap<>();
-        Entity entity = EntityExcerpt.read(
-                normalized, ANY, (name, parser) -> readAndSlice(name, parser, normalized, slices));
+        Entity entity =
+                EntityExcerpt.read(normalized, ANY, (name, parser) -> readAndSlice(name, parser, normalized, slices));
         for (Map.Entry<String, JsonNode> attribute : entity.attributes()) {
             slices.computeIfAbsent(attribute.getKey(), any -> text(NgsiJson.write(attribute.getValue())));
         }

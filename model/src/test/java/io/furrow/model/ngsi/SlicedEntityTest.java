@@ -26,8 +26,7 @@ class SlicedEntityTest {
                 .containsEntry(
                         "Wind",
                         "{\"type\":\"Number\",\"value\":1.50e1,\"metadata\":{\"unitCode\":{\"type\":\"Text\",\"value\":\"KMH\"}}}")
-                .containsEntry(
-                        "Note", "{\"type\":\"Text\",\"value\":\"caf\\u00e9 😀 \\\"}]\",\"metadata\":{}}");
+                .containsEntry("Note", "{\"type\":\"Text\",\"value\":\"caf\\u00e9 😀 \\\"}]\",\"metadata\":{}}");
     }
 
     @Test
@@ -65,7 +64,9 @@ class SlicedEntityTest {
                             .as(round)
                             .isEqualTo(attribute.getValue());
                 }
-                assertThat(sliced.attributes()).as(round).hasSize(whole.attributes().size());
+                assertThat(sliced.attributes())
+                        .as(round)
+                        .hasSize(whole.attributes().size());
                 read++;
             }
         }

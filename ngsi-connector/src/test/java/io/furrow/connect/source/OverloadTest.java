@@ -118,7 +118,8 @@ class OverloadTest {
                 return !accepts(port);
             });
 
-            assertThat(isAnswered(kept, "\r\nContent-Length: 10\r\n\r\n{\"id\":\"a\"}")).isFalse();
+            assertThat(isAnswered(kept, "\r\nContent-Length: 10\r\n\r\n{\"id\":\"a\"}"))
+                    .isFalse();
             assertThat(rig.intake.taken).hasSize(1);
             assertThat(stopped).succeedsWithin(ReceptionRig.TIMEOUT);
             assertThat(pending).failsWithin(ReceptionRig.TIMEOUT);

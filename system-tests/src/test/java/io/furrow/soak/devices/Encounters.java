@@ -11,14 +11,14 @@ import java.util.TreeSet;
 import io.furrow.model.ngsi.Entity;
 
 /** The encounters of devices that move, by their definition: while the newest positions of two are within five meters. */
-final class Encounters {
+public final class Encounters {
     private static final double THRESHOLD_METERS = 5;
     private static final double EARTH_RADIUS_METERS = 6_371_000;
 
     private Encounters() {}
 
     /** @param sent positions in the order of their times @return those that begin and end within this time */
-    static Set<String> expected(List<ProgramEvent> sent, long from, long to) {
+    public static Set<String> expected(List<ProgramEvent> sent, long from, long to) {
         Map<String, ProgramEvent> last = new HashMap<>();
         Map<String, Long> began = new HashMap<>();
         Set<String> encounters = new TreeSet<>();
@@ -43,7 +43,7 @@ final class Encounters {
     }
 
     /** @return those that began and ended within this time */
-    static Set<String> found(List<Entity> results, long from, long to) {
+    public static Set<String> found(List<Entity> results, long from, long to) {
         Set<String> encounters = new TreeSet<>();
         for (Entity each : results) {
             long start = number(each, "startTime");

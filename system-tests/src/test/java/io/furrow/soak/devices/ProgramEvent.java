@@ -9,7 +9,7 @@ import com.fasterxml.jackson.databind.JsonNode;
  * @param kind {@code connected}, {@code refused}, {@code cut}, {@code asked} or {@code sent}
  * @param json the rest: the user; of {@code sent} the time, value and position that it told
  */
-record ProgramEvent(long at, String device, String kind, JsonNode json) {
+public record ProgramEvent(long at, String device, String kind, JsonNode json) {
     static ProgramEvent read(String line) {
         JsonNode json = Json.read(line);
         return new ProgramEvent(
@@ -24,19 +24,19 @@ record ProgramEvent(long at, String device, String kind, JsonNode json) {
     }
 
     /** The time that a measure bears, epoch ms. */
-    long time() {
+    public long time() {
         return json.path("time").asLong();
     }
 
-    double value() {
+    public double value() {
         return json.path("value").asDouble();
     }
 
-    double latitude() {
+    public double latitude() {
         return json.at("/position/0").asDouble();
     }
 
-    double longitude() {
+    public double longitude() {
         return json.at("/position/1").asDouble();
     }
 }

@@ -15,7 +15,7 @@ import io.furrow.soak.control.Mosquitto;
 import io.furrow.soak.control.Until;
 
 /** The stand-ins of context broker and IoT Agent in a process of their own, which keeps entities and devices in a file as those do in MongoDB. */
-final class StandInProcess implements AutoCloseable {
+public final class StandInProcess implements AutoCloseable {
     private static final Duration START_TIMEOUT = Duration.ofSeconds(60);
 
     private final int contextBroker = FreePort.orFree(0);
@@ -23,7 +23,7 @@ final class StandInProcess implements AutoCloseable {
     private final JavaProcess process;
     private final Path started;
 
-    StandInProcess(Path folder, URI mqtt) {
+    public StandInProcess(Path folder, URI mqtt) {
         started = folder.resolve("fiware.started");
         process = new JavaProcess(
                 folder.resolve("fiware.out"),
@@ -50,7 +50,7 @@ final class StandInProcess implements AutoCloseable {
         Thread.currentThread().join();
     }
 
-    URI contextBroker() {
+    public URI contextBroker() {
         return URI.create("http://127.0.0.1:" + contextBroker);
     }
 
@@ -59,7 +59,7 @@ final class StandInProcess implements AutoCloseable {
     }
 
     /** Returns when it answers and hears the devices. */
-    void start() throws IOException {
+    public void start() throws IOException {
         Files.deleteIfExists(started);
         process.start();
         Until.isTrue("the stand-in has started", START_TIMEOUT, () -> Files.exists(started));

@@ -18,7 +18,7 @@ import io.furrow.soak.control.Http;
 import io.furrow.soak.control.Until;
 
 /** {@code ./furrow up} in a process of its own, on the same ports and directory whenever it is started, and commands to it. */
-final class UpProcess implements AutoCloseable {
+public final class UpProcess implements AutoCloseable {
     private static final Duration START_TIMEOUT = Duration.ofSeconds(180);
     private static final long COMMAND_SECONDS = 90;
     private static final long STOP_SECONDS = 60;
@@ -42,7 +42,7 @@ final class UpProcess implements AutoCloseable {
     private Process process;
 
     /** @param home of the checkout @param folder for its data and what it prints */
-    UpProcess(Path home, Path folder, List<String> options) throws IOException {
+    public UpProcess(Path home, Path folder, List<String> options) throws IOException {
         this.furrow = home.resolve("furrow");
         this.folder = Files.createDirectories(folder);
         command.addAll(List.of(furrow.toString(), "up", "--no-simulated-devices"));
@@ -54,16 +54,30 @@ final class UpProcess implements AutoCloseable {
         command.addAll(options);
     }
 
-    URI api(String path) {
+    public URI api(String path) {
         return URI.create("http://127.0.0.1:" + ports.get("control") + path);
     }
 
-    String kafka() {
+    /** A further option, before the first start. */
+    public void with(String option, String value) {
+        command.addAll(List.of(option, value));
+    }
+
+    public int port(String name) {
+        return ports.get(name);
+    }
+
+    /** The Java process of the suite, which the script has become. */
+    public ProcessHandle javaProcess() {
+        return process.toHandle();
+    }
+
+    public String kafka() {
         return "127.0.0.1:" + ports.get("kafka");
     }
 
     /** Returns when it is ready. */
-    void start() throws IOException {
+    public void start() throws IOException {
         process = new ProcessBuilder(command)
                 .redirectErrorStream(true)
                 .redirectOutput(ProcessBuilder.Redirect.appendTo(
@@ -81,17 +95,17 @@ final class UpProcess implements AutoCloseable {
     }
 
     /** Ends it as {@code kill -9} does. */
-    void kill() throws InterruptedException {
+    public void kill() throws InterruptedException {
         process.destroyForcibly().waitFor();
     }
 
     /** What a path of the REST API has. */
-    JsonNode get(String path) {
+    public JsonNode get(String path) {
         return Http.get(api(path)).body();
     }
 
     /** Runs a command of {@code ./furrow} to its end. @return what it printed */
-    String run(String... words) throws IOException, InterruptedException {
+    public String run(String... words) throws IOException, InterruptedException {
         List<String> all = new ArrayList<>(List.of(furrow.toString()));
         all.addAll(List.of(words));
         all.addAll(List.of("--api", api("").toString()));

@@ -4,7 +4,7 @@ import java.util.ArrayList;
 import java.util.List;
 
 /** What was checked and whether it holds: a line each, said at once and in a table at the end. */
-final class Verdicts {
+public final class Verdicts {
     private static final int SHOWN = 8;
 
     private final List<String> lines = new ArrayList<>();
@@ -17,7 +17,7 @@ final class Verdicts {
      * @param figures what was counted or measured
      * @param differences empty where it holds
      */
-    void add(String what, String figures, List<String> differences) {
+    public void add(String what, String figures, List<String> differences) {
         holds &= differences.isEmpty();
         String line = "%-6s %-58s %s".formatted(differences.isEmpty() ? "holds" : "DIFFERS", what, figures);
         lines.add(line);
@@ -28,11 +28,11 @@ final class Verdicts {
         }
     }
 
-    boolean hold() {
+    public boolean hold() {
         return holds;
     }
 
-    List<String> lines() {
+    public List<String> lines() {
         return lines;
     }
 }

@@ -1,0 +1,124 @@
+package io.furrow.bench.notifications;
+
+import java.net.InetSocketAddress;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.locks.LockSupport;
+
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.HdrHistogram.Histogram;
+import org.HdrHistogram.SynchronizedHistogram;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.ConsumerRecords;
+
+import io.furrow.bench.arrival.TopicReader;
+import io.furrow.bench.http.HttpLoad;
+import io.furrow.bench.http.HttpLoadPlan;
+import io.furrow.bench.http.HttpLoadResult;
+import io.furrow.bench.http.NotificationRequest;
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.launcher.suite.Suite;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.topic.Topics;
+
+/**
+ * The way from the notification to the mission's topic, with all that a suite does beside it: notifications come to its listener at
+ * a fixed rate, of entities of one mission, and are read at the topic of that mission.
+ */
+public final class SuiteLoad {
+    private static final String DOMAIN = "bench";
+    private static final String MISSION = "notified";
+    private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
+    private static final long NUMBERS_PER_RUN = 1_000_000_000L;
+    private static final long MAX_MILLIS = 600_000;
+    private static final int DIGITS = 3;
+    private static final Duration QUIET = Duration.ofSeconds(20);
+    private static final Duration POLL_INTERVAL = Duration.ofMillis(100);
+    private static final double HELD_MILLIS = 1_000;
+    private static final double P99 = 99;
+
+    private final Suite suite;
+    private long firstNumber = NUMBERS_PER_RUN;
+
+    /** @param entities of the mission, which is started */
+    public SuiteLoad(Suite suite, int entities) throws InterruptedException, ExecutionException {
+        this.suite = suite;
+        suite.kafka()
+                .admin()
+                .createTopics(
+                        List.of(new NewTopic(Topics.realtime(DOMAIN, MISSION), Optional.empty(), Optional.empty())))
+                .all()
+                .get();
+        ControlApi api = new ControlApi(suite.control(), null);
+        api.send("POST", "/api/domains", NODES.objectNode().put("domain", DOMAIN));
+        ObjectNode plan = NODES.objectNode().put("domain", DOMAIN);
+        ArrayNode devices = plan.putArray("devices");
+        for (int number = 0; number < entities; number++) {
+            devices.add(NotificationRequest.id(number));
+        }
+        api.send("POST", "/api/missions/" + MISSION + "/start", plan);
+    }
+
+    /**
+     * What became of one rate.
+     *
+     * @param load what the senders saw
+     * @param missing acknowledged notifications that are not on the mission's topic
+     * @param repeats records there of one that was there already
+     * @param delay milliseconds from the receipt by the source to the reader
+     */
+    public record Run(HttpLoadResult load, long missing, long repeats, Histogram delay) {
+        /** Whether all was taken and came once, and 99 of 100 within a second. */
+        public boolean isHeld() {
+            return load.refused() + load.broken() + missing + repeats == 0 && millis(P99) <= HELD_MILLIS;
+        }
+
+        public double millis(double percentile) {
+            return delay.getValueAtPercentile(percentile);
+        }
+    }
+
+    public Run run(HttpLoadPlan plan) {
+        firstNumber += NUMBERS_PER_RUN;
+        ArrivalCheck check = new ArrivalCheck(firstNumber);
+        Histogram delay = new SynchronizedHistogram(MAX_MILLIS, DIGITS);
+        try (TopicReader reader = new TopicReader(
+                suite.kafka().clientProperties(), Topics.realtime(DOMAIN, MISSION), Map.of(), records -> {
+                    check.add(records);
+                    add(records, delay);
+                })) {
+            reader.start();
+            InetSocketAddress listener = new InetSocketAddress(
+                    suite.listener().getHost(), suite.listener().getPort());
+            HttpLoadResult load = new HttpLoad(listener, plan, firstNumber).run();
+            long seen = -1;
+            long moved = System.nanoTime();
+            while (check.missing(load.acknowledged()) > 0 && System.nanoTime() - moved < QUIET.toNanos()) {
+                if (check.distinct() != seen) {
+                    seen = check.distinct();
+                    moved = System.nanoTime();
+                }
+                LockSupport.parkNanos(POLL_INTERVAL.toNanos());
+            }
+            LockSupport.parkNanos(TimeUnit.SECONDS.toNanos(1)); // repeats that are still on their way
+            return new Run(load, check.missing(load.acknowledged()), check.repeats(), delay);
+        }
+    }
+
+    private static void add(ConsumerRecords<byte[], byte[]> records, Histogram delay) {
+        long now = System.currentTimeMillis();
+        for (ConsumerRecord<byte[], byte[]> record : records) {
+            byte[] source = record.headers().lastHeader(HeaderNames.TS_SOURCE).value();
+            long millis = now - Long.parseLong(new String(source, StandardCharsets.UTF_8));
+            delay.recordValue(Math.max(0, Math.min(MAX_MILLIS, millis)));
+        }
+    }
+}

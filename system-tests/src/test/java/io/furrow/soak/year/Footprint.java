@@ -1,0 +1,78 @@
+package io.furrow.soak.year;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.stream.Stream;
+
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.MongoClients;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.TopicDescription;
+
+/** What a suite holds: topics, partitions, collections, files, threads, heap after collection in MB, and how long its start took. */
+final class Footprint {
+    private static final long COMMAND_SECONDS = 60;
+
+    private Footprint() {}
+
+    static Map<String, Double> of(YearFarm farm, double startSeconds)
+            throws IOException, InterruptedException, ExecutionException {
+        Map<String, Double> all = new LinkedHashMap<>();
+        try (Admin admin = Admin.create(Map.of("bootstrap.servers", farm.up().kafka()))) {
+            Map<String, TopicDescription> topics = admin.describeTopics(
+                            admin.listTopics().names().get())
+                    .allTopicNames()
+                    .get();
+            all.put("topics", (double) topics.size());
+            all.put("partitions", (double) topics.values().stream()
+                    .mapToInt(topic -> topic.partitions().size())
+                    .sum());
+        }
+        try (MongoClient mongo =
+                MongoClients.create("mongodb://127.0.0.1:" + farm.up().port("mongo"))) {
+            double collections = 0;
+            for (String database : mongo.listDatabaseNames()) {
+                for (String ignored : mongo.getDatabase(database).listCollectionNames()) {
+                    collections++;
+                }
+            }
+            all.put("collections", collections);
+        }
+        try (Stream<Path> files = Files.walk(farm.data())) {
+            all.put("files", (double) files.count());
+        }
+        long pid = farm.up().javaProcess().pid();
+        all.put("threads", (double)
+                Files.list(Path.of("/proc", Long.toString(pid), "task")).count());
+        all.put("heap MB", heapMegabytes(pid));
+        all.put("start s", startSeconds);
+        return all;
+    }
+
+    /** Of all live objects; counting them collects the rest. */
+    private static double heapMegabytes(long pid) throws IOException, InterruptedException {
+        List<String> lines = output("jcmd", Long.toString(pid), "GC.class_histogram");
+        String[] total = lines.get(lines.size() - 1).trim().split("\\s+");
+        return Math.round(Double.parseDouble(total[2]) / 1e5) / 10.0;
+    }
+
+    private static List<String> output(String... command) throws IOException, InterruptedException {
+        Path output = Files.createTempFile("year", ".out");
+        Process process = new ProcessBuilder(command)
+                .redirectErrorStream(true)
+                .redirectOutput(output.toFile())
+                .start();
+        if (!process.waitFor(COMMAND_SECONDS, TimeUnit.SECONDS)) {
+            process.destroyForcibly();
+        }
+        List<String> lines = Files.readAllLines(output);
+        Files.delete(output);
+        return lines.stream().filter(line -> !line.isBlank()).toList();
+    }
+}

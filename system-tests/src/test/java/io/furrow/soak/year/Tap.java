@@ -1,0 +1,83 @@
+package io.furrow.soak.year;
+
+import java.io.IOException;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.util.Map;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.Executors;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.sun.net.httpserver.HttpExchange;
+import com.sun.net.httpserver.HttpServer;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.soak.control.Http;
+
+/** Stands between the context broker and the listener for notifications, and remembers which reports were answered 2xx, and when. */
+final class Tap implements AutoCloseable {
+    private final HttpServer server;
+    private final Map<Report, Long> acknowledged = new ConcurrentHashMap<>();
+
+    /** One report: an entity and the time that it bears, epoch ms. */
+    record Report(String entity, long time) {
+        static Report of(JsonNode entity) {
+            return new Report(
+                    entity.path("id").asText(), entity.at("/Time/value").asLong());
+        }
+    }
+
+    /** @param listener port of the suite's */
+    Tap(int listener) throws IOException {
+        server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+        server.createContext("/", exchange -> pass(exchange, listener));
+        server.setExecutor(Executors.newCachedThreadPool(work -> {
+            Thread thread = new Thread(work, "tap");
+            thread.setDaemon(true);
+            return thread;
+        }));
+        server.start();
+    }
+
+    String publicUrl() {
+        return "http://127.0.0.1:" + server.getAddress().getPort() + "/v2/notify";
+    }
+
+    private void pass(HttpExchange exchange, int listener) throws IOException {
+        try (exchange) {
+            byte[] body = exchange.getRequestBody().readAllBytes();
+            URI to = URI.create("http://127.0.0.1:" + listener + exchange.getRequestURI());
+            int status = Http.send("POST", to, body, headers(exchange)).join().status();
+            if (status / 100 == 2) {
+                long now = System.currentTimeMillis();
+                NgsiJson.mapper()
+                        .readTree(body)
+                        .path("data")
+                        .forEach(entity -> acknowledged.putIfAbsent(Report.of(entity), now));
+            }
+            if (status > 0) { // else it gets no answer either
+                exchange.sendResponseHeaders(status, -1);
+            }
+        }
+    }
+
+    private static String[] headers(HttpExchange exchange) {
+        return exchange.getRequestHeaders().entrySet().stream()
+                .filter(header ->
+                        header.getKey().toLowerCase(java.util.Locale.ROOT).matches("fiware-.*|ngsiv2-.*"))
+                .flatMap(header -> java.util.stream.Stream.of(
+                        header.getKey(), header.getValue().get(0)))
+                .toArray(String[]::new);
+    }
+
+    /** When each report was acknowledged, epoch ms. */
+    Map<Report, Long> acknowledged() {
+        return acknowledged;
+    }
+
+    @Override
+    public void close() {
+        server.stop(0);
+    }
+}
