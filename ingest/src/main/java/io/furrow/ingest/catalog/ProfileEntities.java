@@ -54,16 +54,20 @@ public final class ProfileEntities extends KeyedProcessFunction<String, Reported
         }
         CatalogEntry entry = entry(event);
         String key = entry.key();
+        CatalogEntry before = pending.get(key);
+        if (before != null) {
+            pending.put(key, before.plus(entry)); // so it is counted, and its timer is set
+            return;
+        }
         if (!counted.contains(key)) {
             counted.put(key, entry.onlyEntities(0));
             entry = entry.andEntities(1);
         }
-        CatalogEntry before = pending.get(key);
         if (pending.isEmpty()) {
             long from = Math.max(context.timestamp(), context.timerService().currentWatermark());
             context.timerService().registerEventTimeTimer(nextInterval(from, intervalMillis));
         }
-        pending.put(key, before == null ? entry : before.plus(entry));
+        pending.put(key, entry);
     }
 
     private static CatalogEntry entry(ReportedEvent event) {

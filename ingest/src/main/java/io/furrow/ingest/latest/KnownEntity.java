@@ -22,12 +22,16 @@ public record KnownEntity(
         long time, boolean deleted, String type, Map<String, KnownAttribute> attributes, long received) {
     static final KnownEntity NEVER_SEEN = new KnownEntity(Long.MIN_VALUE, false, "", Map.of(), Long.MIN_VALUE);
 
-    /** After a change: the same object where the event brings nothing that is not known newer. */
+    /**
+     * After a change: the same object where the event brings nothing that is not known newer. Else this one is of no more use, as
+     * the other takes over its attributes.
+     */
     KnownEntity with(SlicedEntity reported, long eventTime, long eventReceived) {
         if (deleted && eventTime <= time) {
             return this;
         }
-        Map<String, KnownAttribute> merged = new TreeMap<>(deleted ? Map.of() : attributes);
+        Map<String, KnownAttribute> merged =
+                deleted ? new TreeMap<>() : attributes instanceof TreeMap ? attributes : new TreeMap<>(attributes);
         boolean news = eventTime >= time;
         for (Map.Entry<String, String> attribute : reported.attributes().entrySet()) {
             KnownAttribute known = merged.get(attribute.getKey());

@@ -40,7 +40,11 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
             return;
         }
         try {
-            out.collect(compose(event));
+            out.collect(compose(
+                    event,
+                    event.record().value() == null
+                            ? null
+                            : EventEntity.of(event.record()).entity()));
         } catch (UnreadableException e) {
             dead.count(e.reason(), event.domain(), event.mission());
             context.output(DeadLetters.TAG, DeadLetters.of(event.record(), e, STAGE));
@@ -51,12 +55,16 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
      * @throws UnreadableException for what is no event, or what no document can hold
      */
     public static MissionDocument compose(MissionEvent event) throws UnreadableException {
+        byte[] value = event.record().value();
+        return compose(event, value == null ? null : Entity.parse(value));
+    }
+
+    private static MissionDocument compose(MissionEvent event, Entity entity) throws UnreadableException {
         TopicRecord record = event.record();
         String id = record.headers().get(HeaderNames.CE_ID);
         if (id == null) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has no event id");
         }
-        Entity entity = record.value() == null ? null : EventEntity.of(record).entity();
         byte[] bson = EventDocumentCodec.write(new StoredEvent(
                 id,
                 record.timestamp(),

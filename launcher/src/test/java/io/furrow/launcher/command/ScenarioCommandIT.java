@@ -56,7 +56,7 @@ class ScenarioCommandIT {
                 .as("%s", err)
                 .isZero();
 
-        assertThat(out.toString()).contains("3 devices run", " 0 open, 0 dropped");
+        assertThat(out.toString()).contains("Runs 3 devices", " 0 open, 0 dropped");
         URI entities = URI.create(fiware.contextBroker() + "/v2/entities?type=Thermometer");
         assertThat(new RestClient()
                         .get(entities, Map.of("fiware-service", "farm"))

@@ -3,6 +3,7 @@ package io.furrow.mission.mongo;
 import java.util.Map;
 import java.util.TreeMap;
 import java.util.function.UnaryOperator;
+import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
@@ -34,6 +35,7 @@ public final class EventDocumentCodec {
     private static final String HEADERS = "_headers";
     private static final String DELETED = "_deleted";
     private static final String STAMP = "ts-";
+    private static final Pattern STAMPED = Pattern.compile("[1-9]\\d{0,17}");
     /** What the server takes, less what the command around the document may need. */
     private static final int MAX_BYTES = 16 * 1024 * 1024 - 16 * 1024;
 
@@ -83,7 +85,7 @@ public final class EventDocumentCodec {
 
     /** A number only where it gives back the same text. */
     private static boolean isStamp(String name, String text) {
-        return name.startsWith(STAMP) && text.matches("[1-9]\\d{0,17}");
+        return name.startsWith(STAMP) && STAMPED.matcher(text).matches();
     }
 
     private static void writeMembers(BsonWriter out, JsonNode object, UnaryOperator<String> fieldOf)

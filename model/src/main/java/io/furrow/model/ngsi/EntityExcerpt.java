@@ -2,7 +2,6 @@ package io.furrow.model.ngsi;
 
 import java.io.IOException;
 import java.util.Set;
-import java.util.function.Predicate;
 
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
@@ -18,26 +17,17 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  */
 final class EntityExcerpt {
     /** Reads a value where it stands: what follows it belongs to the entity. */
-    static final ObjectReader VALUES =
+    private static final ObjectReader VALUES =
             NgsiJson.mapper().reader().without(DeserializationFeature.FAIL_ON_TRAILING_TOKENS);
 
     private EntityExcerpt() {}
 
-    /** Reads the value of a wanted member, where the parser stands. */
-    interface MemberReader {
-        JsonNode read(String name, JsonParser parser) throws IOException;
-    }
-
     static Entity read(byte[] normalized, Set<String> wanted) throws UnreadableException {
-        return read(normalized, wanted::contains, (name, parser) -> VALUES.readTree(parser));
-    }
-
-    static Entity read(byte[] normalized, Predicate<String> wanted, MemberReader reader) throws UnreadableException {
         NgsiJson.checkUtf8(normalized);
         boolean textsMatter = normalized.length > NgsiJson.MAX_STRING || holdsEscapedSign(normalized);
         JsonNode excerpt = NgsiJson.understand(() -> {
             try (JsonParser parser = NgsiJson.mapper().createParser(normalized)) {
-                return excerpt(parser, wanted, reader, textsMatter);
+                return excerpt(parser, wanted, textsMatter);
             }
         });
         return EntityForm.NORMALIZED.read(excerpt);
@@ -53,8 +43,7 @@ final class EntityExcerpt {
         return false;
     }
 
-    private static ObjectNode excerpt(
-            JsonParser parser, Predicate<String> wanted, MemberReader reader, boolean textsMatter)
+    private static ObjectNode excerpt(JsonParser parser, Set<String> wanted, boolean textsMatter)
             throws IOException, UnreadableException {
         JsonToken first = parser.nextToken();
         if (first != JsonToken.START_OBJECT) {
@@ -66,8 +55,8 @@ final class EntityExcerpt {
         while (parser.nextToken() == JsonToken.FIELD_NAME) {
             String name = parser.currentName();
             JsonToken value = parser.nextToken();
-            if (name.equals("id") || name.equals("type") || wanted.test(name)) {
-                excerpt.set(name, reader.read(name, parser));
+            if (name.equals("id") || name.equals("type") || wanted.contains(name)) {
+                excerpt.set(name, VALUES.readTree(parser));
             } else if (value != JsonToken.START_OBJECT || !passOver(parser, textsMatter)) {
                 throw EntityForm.noAttribute(name);
             } else if (textsMatter) {

@@ -77,7 +77,7 @@ enum EntityForm {
         return new Entity(normalized);
     }
 
-    static boolean isNormal(ObjectNode attribute) {
+    private static boolean isNormal(ObjectNode attribute) {
         return attribute.size() == 3
                 && attribute.path("type").isTextual()
                 && attribute.path("metadata").isObject();

@@ -1,13 +1,16 @@
 package io.furrow.model.ngsi;
 
-import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.util.HashMap;
 import java.util.Map;
-import java.util.function.Predicate;
 
 import com.fasterxml.jackson.core.JsonParser;
+import com.fasterxml.jackson.core.JsonToken;
+import com.fasterxml.jackson.core.StreamReadFeature;
+import com.fasterxml.jackson.databind.DeserializationFeature;
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.ObjectReader;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
@@ -16,7 +19,11 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  * @param attributes JSON by name; composed where the reported one is not normalized
  */
 public record SlicedEntity(Entity entity, Map<String, String> attributes) {
-    private static final Predicate<String> ANY = name -> true;
+    /** Reads a value where it stands: what follows it belongs to the entity. */
+    private static final ObjectReader CHECKED = NgsiJson.mapper()
+            .reader()
+            .without(DeserializationFeature.FAIL_ON_TRAILING_TOKENS)
+            .without(StreamReadFeature.STRICT_DUPLICATE_DETECTION);
 
     /**
      * Reads the UTF-8 JSON of a normalized entity.
@@ -24,27 +31,45 @@ public record SlicedEntity(Entity entity, Map<String, String> attributes) {
      * @throws UnreadableException as {@link Entity#parse(byte[])}
      */
     public static SlicedEntity parse(byte[] normalized) throws UnreadableException {
-        Map<String, String> slices = new HashMap<>();
-        Entity entity =
-                EntityExcerpt.read(normalized, ANY, (name, parser) -> readAndSlice(name, parser, normalized, slices));
-        for (Map.Entry<String, JsonNode> attribute : entity.attributes()) {
-            slices.computeIfAbsent(attribute.getKey(), any -> text(NgsiJson.write(attribute.getValue())));
-        }
-        return new SlicedEntity(entity, slices);
+        Entity.parse(normalized);
+        return ofChecked(normalized);
     }
 
-    private static JsonNode readAndSlice(String name, JsonParser parser, byte[] bytes, Map<String, String> slices)
-            throws IOException {
-        int from = (int) parser.currentTokenLocation().getByteOffset();
-        JsonNode value = EntityExcerpt.VALUES.readTree(parser);
-        int to = (int) parser.currentLocation().getByteOffset();
-        if (value instanceof ObjectNode attribute && EntityForm.isNormal(attribute)) {
-            slices.put(name, new String(bytes, from, to - from, StandardCharsets.UTF_8));
-        }
-        return value;
-    }
-
-    private static String text(byte[] json) {
-        return new String(json, StandardCharsets.UTF_8);
+    /**
+     * Reads what was read as an entity before: quicker, since it does not look for repeated names and wrong bytes again.
+     *
+     * @param normalized which {@link Entity#parse} takes, with whichever attributes
+     * @throws UnreadableException as that, but for those
+     */
+    public static SlicedEntity ofChecked(byte[] normalized) throws UnreadableException {
+        return NgsiJson.understand(() -> {
+            ObjectNode entity = JsonNodeFactory.instance.objectNode();
+            Map<String, String> slices = new HashMap<>();
+            try (JsonParser parser = CHECKED.createParser(normalized)) {
+                if (parser.nextToken() != JsonToken.START_OBJECT) {
+                    throw new UnreadableException(Reason.NOT_AN_ENTITY, "an entity is a JSON object");
+                }
+                while (parser.nextToken() == JsonToken.FIELD_NAME) {
+                    String name = parser.currentName();
+                    parser.nextToken();
+                    int from = (int) parser.currentTokenLocation().getByteOffset();
+                    JsonNode reported = CHECKED.readTree(parser);
+                    int to = (int) parser.currentLocation().getByteOffset();
+                    if (reported.isTextual()) { // id or type
+                        entity.set(name, reported);
+                    } else {
+                        ObjectNode attribute = EntityForm.NORMALIZED.attribute(name, reported);
+                        entity.set(name, attribute);
+                        slices.put(
+                                name,
+                                attribute == reported
+                                        ? new String(normalized, from, to - from, StandardCharsets.UTF_8)
+                                        : new String(NgsiJson.write(attribute), StandardCharsets.UTF_8));
+                    }
+                }
+            }
+            EntityLimits.check(entity);
+            return new SlicedEntity(new Entity(entity), slices);
+        });
     }
 }
