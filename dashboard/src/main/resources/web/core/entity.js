@@ -33,6 +33,7 @@ const LOOK_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'em
  * @property {number} time of its newest report, event time, epoch ms
  * @property {[number, number]|null} position degrees, longitude first
  * @property {string|null} positionFault why there is none
+ * @property {number} positionTime of the report that said either, epoch ms
  * @property {number|null} heading degrees clockwise from north
  * @property {number|null} speed m/s
  * @property {number|null} period ms between reports, as seen
@@ -52,7 +53,7 @@ const NO_TRAIL = new Line(['lon', 'lat', 'time'], 0);
 /** @returns {Entity} */
 export function newEntity(identity) {
   return {
-    id: identity.key, identity, difference: '', type: '', kind: 'other', name: shortId(identity.id), attributes: Object.create(null), time: 0, position: null, positionFault: null, heading: null, speed: null,
+    id: identity.key, identity, difference: '', type: '', kind: 'other', name: shortId(identity.id), attributes: Object.create(null), time: 0, position: null, positionFault: null, positionTime: 0, heading: null, speed: null,
     period: null, place: null, trail: NO_TRAIL, series: new Map(), domain: null, mission: null, word: null, state: 'ok', suspect: false, omitted: 0,
   };
 }
@@ -88,7 +89,7 @@ export function takeReport(entity, record) {
     }
     entity.time = record.time;
   }
-  describe(entity, reported);
+  describe(entity, reported, record.time);
   if (newer) {
     remember(entity, reported, record.time);
   }
@@ -134,7 +135,7 @@ function cut(value) {
   return value;
 }
 
-function describe(entity, reported) {
+function describe(entity, reported, time) {
   const attributes = entity.attributes;
   entity.name = named(entity);
   entity.kind = kindOf(entity);
@@ -144,9 +145,10 @@ function describe(entity, reported) {
   entity.heading = quantityOf(attributes.heading ?? attributes.Heading, 'HEADING');
   entity.word = wordOf(attributes);
   const found = positionOf(reported);
-  if (found.position || found.fault) {
+  if ((found.position || found.fault) && time >= entity.positionTime) {
     entity.position = found.position ?? entity.position;
     entity.positionFault = found.fault ?? null;
+    entity.positionTime = time;
   }
 }
 

@@ -111,7 +111,7 @@ class MapIT {
                                                 .evaluate(
                                                         "Math.max(0, ...document.querySelector('furrow-map').devices.clusters.map((each) => each.count))"))
                                 .intValue()
-                        >= 200);
+                        == 200); // more while the map is still on its way there
         double[] spot = farm.spot("urn:ngsi-ld:Tractor:7");
         farm.page().mouse().click(spot[0], spot[1]);
 
@@ -302,7 +302,7 @@ class MapIT {
                         async () => {
                           const { store } = await import('/core/store.js');
                           const { map, devices } = document.querySelector('furrow-map');
-                          devices.fieldLabels.drawn.forEach(({ box: [left, top] }, number) => {
+                          devices.fieldLabels.drawn.filter(({ line }) => line.includes('°C')).forEach(({ box: [left, top] }, number) => {
                             const [longitude, latitude] = ol.proj.toLonLat(map.getCoordinateFromPixel([left + 20, top + 9]));
                             const id = `urn:ngsi-ld:Robot:on-${number}`;
                             store.takeEntity({ key: id, kind: 'event', time: Date.now(), headers: {},

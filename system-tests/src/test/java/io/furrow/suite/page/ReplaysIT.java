@@ -125,7 +125,8 @@ class ReplaysIT {
             plans.add(route.request().postData());
             route.abort();
         });
-        farm.expectingError("ERR_FAILED").open("#/replays?mission=long");
+        // no such missions were recorded
+        farm.expectingError("ERR_FAILED").expectingError("/timeline\\?").open("#/replays?mission=long");
 
         assertThat(farm.find(".plan")).containsText("Length: 90 min");
         farm.button("Start replay").click();
