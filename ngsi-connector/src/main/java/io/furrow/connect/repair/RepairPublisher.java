@@ -117,7 +117,7 @@ public final class RepairPublisher {
                     "entity {} of {} became a dead letter: {}",
                     LogText.oneLine(dead.entityId()),
                     dead.state().scope(),
-                    LogText.oneLine(dead.problem()));
+                    LogText.oneLine(dead.problem().getMessage()));
         }
     }
 }
