@@ -2,6 +2,7 @@ package io.furrow.model.ngsi;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
+import java.util.Arrays;
 
 import com.fasterxml.jackson.core.JsonFactory;
 import com.fasterxml.jackson.core.JsonGenerator;
@@ -26,6 +27,7 @@ public final class NgsiJson {
     public static final int MAX_NESTING = 64;
     public static final int MAX_STRING = 8 * 1024 * 1024;
 
+    private static final byte[] BYTE_ORDER_MARK = {(byte) 0xef, (byte) 0xbb, (byte) 0xbf};
     private static final int TYPICAL_ENTITY = 2048;
     private static final SerializableString TYPE = new SerializedString("type");
     private static final SerializableString VALUE = new SerializedString("value");
@@ -60,6 +62,7 @@ public final class NgsiJson {
      */
     public static JsonNode read(byte[] bytes) throws UnreadableException {
         checkUtf8(bytes);
+        checkMark(bytes);
         return understand(() -> {
             JsonNode node = MAPPER.readTree(bytes);
             if (node == null || node.isMissingNode()) {
@@ -67,6 +70,15 @@ public final class NgsiJson {
             }
             return node;
         });
+    }
+
+    /** Editors of Windows begin a file with it, and programs send what is in files. */
+    private static void checkMark(byte[] bytes) throws UnreadableException {
+        int length = BYTE_ORDER_MARK.length;
+        if (bytes.length >= length && Arrays.equals(bytes, 0, length, BYTE_ORDER_MARK, 0, length)) {
+            throw new UnreadableException(
+                    Reason.NOT_JSON, "the text begins with a byte order mark (EF BB BF); send it without");
+        }
     }
 
     /** Jackson's own decoder is too lenient, and looks only at what it is asked for. */
