@@ -72,10 +72,18 @@ public final class NgsiJson {
         });
     }
 
-    /** Editors of Windows begin a file with it, and programs send what is in files. */
-    private static void checkMark(byte[] bytes) throws UnreadableException {
+    /** The same of a file, which may begin with a byte order mark, as editors on Windows write it. */
+    public static JsonNode readFile(byte[] bytes) throws UnreadableException {
+        return read(hasMark(bytes) ? Arrays.copyOfRange(bytes, BYTE_ORDER_MARK.length, bytes.length) : bytes);
+    }
+
+    private static boolean hasMark(byte[] bytes) {
         int length = BYTE_ORDER_MARK.length;
-        if (bytes.length >= length && Arrays.equals(bytes, 0, length, BYTE_ORDER_MARK, 0, length)) {
+        return bytes.length >= length && Arrays.equals(bytes, 0, length, BYTE_ORDER_MARK, 0, length);
+    }
+
+    private static void checkMark(byte[] bytes) throws UnreadableException {
+        if (hasMark(bytes)) {
             throw new UnreadableException(
                     Reason.NOT_JSON, "the text begins with a byte order mark (EF BB BF); send it without");
         }

@@ -9,6 +9,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.device.DeviceConnection;
 
+import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class JsonProblemTest {
@@ -48,9 +49,10 @@ class JsonProblemTest {
     }
 
     @Test
-    void namesAByteOrderMark() {
+    void takesAByteOrderMarkInFilesOnly() throws Exception {
         assertThatThrownBy(() -> NgsiJson.read(bytes("\ufeff{'a':1}")))
                 .hasMessage("the text begins with a byte order mark (EF BB BF); send it without");
+        assertThat(NgsiJson.readFile(bytes("\ufeff{'a':1}"))).hasToString("{\"a\":1}");
     }
 
     @Test
