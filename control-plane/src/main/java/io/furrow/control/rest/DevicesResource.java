@@ -51,6 +51,7 @@ public final class DevicesResource {
     static final String CSV = CredentialCsv.TYPE + ";qs=0.5";
 
     private static final String DEVICE = "device";
+    private static final JsonNode NO_VALUE = TextNode.valueOf("");
     private static final String GENERATION = "generation";
     private static final int MAX_AUDITED_LENGTH = 200;
     private static final Pattern COMMAND = Pattern.compile("[A-Za-z][A-Za-z0-9_-]{0,63}");
@@ -194,7 +195,7 @@ public final class DevicesResource {
         // A robot that is on no mission can be stopped too. An operator may put any entity on one.
         ObjectNode device = members.hasNonNull("type") ? known(name).orElse(members) : find(name);
         String command = members.path("command").asText();
-        JsonNode value = members.has("value") ? members.get("value") : TextNode.valueOf("");
+        JsonNode value = members.has("value") ? members.get("value") : NO_VALUE;
         String type = device.path("type").asText(members.path("type").asText());
         check(members, command, type);
         ObjectNode about = about(name);
@@ -253,7 +254,8 @@ public final class DevicesResource {
         if (members.hasNonNull("type") && !members.get("type").isTextual()) {
             throw new ProblemException(ErrorCode.WRONG_MEMBER, "'type' must be a text");
         }
-        if (DeviceCommands.isRobot(type) && !members.path("value").asText().isEmpty()) {
+        boolean hasValue = members.hasNonNull("value") && !members.get("value").equals(NO_VALUE);
+        if (hasValue && DeviceCommands.isRobot(type)) {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER,
                     "a robot is told by its attribute 'cmd', which has no room for a 'value'; leave it out");

@@ -212,6 +212,16 @@ public class FieldFileTest {
     }
 
     @Test
+    void saysWhatToDoWithAFeaturePerLine() throws Exception {
+        Path file = Files.writeString(folder.resolve("x.geojsonl"), "{\"type\":\"Feature\"}\n{\"type\":\"Feature\"}\n");
+
+        assertThatThrownBy(() -> FieldFile.read(file, PLAIN))
+                .isInstanceOf(UnusableFileException.class)
+                .hasMessageEndingWith(
+                        "is not JSON (more than one JSON document at line 2, column 1); put the features into one FeatureCollection");
+    }
+
+    @Test
     void saysWhatToWriteIntoACpgFileThatNamesNoCodePage() throws Exception {
         Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("coded.shp"));
         Files.copy(resource("shapefile-25830.dbf"), folder.resolve("coded.dbf"));
