@@ -258,7 +258,7 @@ public final class DevicesResource {
         if (hasValue && DeviceCommands.isRobot(type)) {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER,
-                    "a robot is told by its attribute 'cmd', which has no room for a 'value'; leave it out");
+                    "a robot gets commands in its attribute 'cmd', which has no room for a 'value'; leave it out");
         }
         if (type.isEmpty()) {
             throw new ProblemException(

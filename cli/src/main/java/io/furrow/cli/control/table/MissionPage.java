@@ -36,7 +36,7 @@ public final class MissionPage {
         page.add("State", status.path("state").asText("not known") + since + PageLines.reason(status.path("reason")));
         page.add(
                 "Devices",
-                "%d of %d are as wanted"
+                "%d of %d are up"
                         .formatted(
                                 status.path("confirmed").asInt(),
                                 status.path("devices").asInt()));

@@ -24,7 +24,7 @@ class MissionPageTest {
                         "Mission:        m of domain d",
                         "Template:       t@2",
                         "State:          starting since 2026-11-26T10:00:00Z (2h ago): 2 devices are not up",
-                        "Devices:        3 of 5 are as wanted",
+                        "Devices:        3 of 5 are up",
                         "Missing:        urn:r:1: it never logged in",
                         "Missing:        urn:t:2 ",
                         "Start:          2026-11-26T10:00:00Z (2h ago)",
