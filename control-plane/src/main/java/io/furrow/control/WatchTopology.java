@@ -9,6 +9,7 @@ import org.apache.kafka.streams.kstream.KStream;
 
 import io.furrow.control.alarm.AlarmManager;
 import io.furrow.control.alarm.watch.AnalyticsAlarms;
+import io.furrow.control.alarm.watch.WatchEncounters;
 import io.furrow.control.context.ContextWatch;
 import io.furrow.control.health.HealthWatch;
 import io.furrow.control.manager.ManagerInput;
@@ -35,7 +36,8 @@ final class WatchTopology {
 
         AnalyticsAlarms.Types types = new AnalyticsAlarms.Types(HealthWatch::typeOf, HealthWatch.stores());
         KStream<String, byte[]> collisions = observed(builder, Topics.COLLISION, "collisions");
-        AnalyticsAlarms.addEncounters(collisions, types, options.predictionHolds());
+        AnalyticsAlarms.addEncounters(
+                collisions, types, new WatchEncounters.Holds(options.predictionHolds(), options.collisionHolds()));
 
         KStream<String, byte[]> temperatures = observed(builder, Topics.TEMPERATURE, "temperatures");
         AnalyticsAlarms.addSensors(builder, temperatures, types);

@@ -73,6 +73,7 @@ class FarmWatchIT {
         hook.start();
         URI url = URI.create("http://127.0.0.1:" + hook.getAddress().getPort());
         options = WatchOptions.DEFAULT
+                .withCollisionHolds(Duration.ofSeconds(1))
                 .with(Webhook.Settings.of(url).withGroupWait(Duration.ZERO))
                 .with(StopRobots.Settings.of((device, type, command, value) -> sent.add(device + " " + command)));
     }

@@ -92,7 +92,35 @@ class WatchTopologyTest {
         assertThat(both.get(1).path("severity").asText()).isEqualTo("critical");
         farm.encounter("ongoing", 3.2);
         farm.encounter("ended", 3.2);
-        assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
+        farm.pass(Duration.ofSeconds(29));
+        assertThat(farm.read(Topics.ALARMS)).isEmpty();
+        farm.pass(Duration.ofSeconds(1));
+        JsonNode closed = farm.newest(Topics.ALARMS);
+        assertThat(closed.path("state").asText()).isEqualTo("closed");
+        assertThat(closed.path("reason").asText()).isEqualTo("the encounter has ended");
+    }
+
+    /** Devices at the border of what is close: whoever is notified of alarms hears of one. */
+    @Test
+    void raisesOneAlarmOfAPairThatComesCloseAgainAndAgain() throws Exception {
+        for (int i = 0; i < 12; i++) {
+            farm.encounter("predicted", 4.8);
+            farm.encounter("started", 4.8);
+            farm.encounter("ended", 5.2);
+            farm.pass(Duration.ofSeconds(29));
+        }
+        List<JsonNode> open = farm.all(Topics.ALARMS).stream()
+                .filter(alarm -> alarm.path("kind").asText().equals("collision"))
+                .toList();
+        assertThat(open).extracting(alarm -> alarm.path("sequence").asLong()).containsOnly(3L);
+        assertThat(open.get(open.size() - 1).path("count").asInt()).isEqualTo(12);
+        farm.pass(Duration.ofSeconds(1));
+        assertThat(farm.all(Topics.ALARMS)).singleElement().satisfies(closed -> {
+            assertThat(closed.path("state").asText()).isEqualTo("closed");
+            assertThat(closed.path("count").asInt()).isEqualTo(12);
+        });
+        farm.encounter("predicted", 4.8);
+        assertThat(farm.newest(Topics.ALARMS).path("kind").asText()).isEqualTo("predicted-encounter");
     }
 
     @Test

@@ -44,6 +44,7 @@ import io.furrow.dashboard.status.Surroundings;
 import io.furrow.http.AccessRule;
 import io.furrow.http.OptionNames;
 import io.furrow.http.jetty.AccessHandler;
+import io.furrow.model.text.FailureText;
 
 /**
  * One origin for a page: topics as sockets and events, and the REST API of the control plane, to which requests go with the token of
@@ -148,7 +149,7 @@ public final class Dashboard implements AutoCloseable {
         } catch (Exception e) { // Jetty declares no narrower type
             throw new IOException(
                     "The dashboard cannot listen on %s:%d (%s). Choose another port."
-                            .formatted(settings.host(), settings.port(), e.getMessage()),
+                            .formatted(settings.host(), settings.port(), FailureText.of(e)),
                     e);
         }
     }

@@ -4,9 +4,11 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.List;
 
 import de.bwaldvogel.mongo.MongoBackend;
 import de.bwaldvogel.mongo.MongoServer;
+import de.bwaldvogel.mongo.MongoVersion;
 import de.bwaldvogel.mongo.ServerVersion;
 import de.bwaldvogel.mongo.backend.memory.MemoryBackend;
 
@@ -16,6 +18,19 @@ import de.bwaldvogel.mongo.backend.memory.MemoryBackend;
  * removes nothing by itself.
  */
 public final class EmbeddedMongo implements AutoCloseable {
+    /** Of the protocol of 5.0. The library's own constant claims that of 4.2, which current drivers refuse. */
+    static final MongoVersion VERSION = new MongoVersion() {
+        @Override
+        public List<Integer> getVersionArray() {
+            return ServerVersion.MONGO_5_0.getVersionArray();
+        }
+
+        @Override
+        public int getWireVersion() {
+            return 13;
+        }
+    };
+
     private static final String HOST = "127.0.0.1";
 
     private final MongoServer server;
@@ -28,7 +43,7 @@ public final class EmbeddedMongo implements AutoCloseable {
 
     /** A server on a free port that keeps its documents on the heap, several times their size, and forgets them. */
     public static EmbeddedMongo inMemory() {
-        return serve(new MemoryBackend().version(ServerVersion.MONGO_5_0), FreePort.orFree(0));
+        return serve(new MemoryBackend().version(VERSION), FreePort.orFree(0));
     }
 
     /** A server on a free port. */

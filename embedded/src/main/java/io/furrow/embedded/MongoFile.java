@@ -11,7 +11,6 @@ import java.util.function.Supplier;
 
 import de.bwaldvogel.mongo.MongoCollection;
 import de.bwaldvogel.mongo.MongoDatabase;
-import de.bwaldvogel.mongo.ServerVersion;
 import de.bwaldvogel.mongo.backend.CollectionOptions;
 import de.bwaldvogel.mongo.backend.Index;
 import de.bwaldvogel.mongo.backend.IndexKey;
@@ -20,6 +19,7 @@ import de.bwaldvogel.mongo.backend.h2.H2Backend;
 import de.bwaldvogel.mongo.backend.h2.H2Database;
 import de.bwaldvogel.mongo.bson.Document;
 import de.bwaldvogel.mongo.wire.message.MongoMessage;
+import io.netty.channel.Channel;
 import org.h2.mvstore.MVMap;
 import org.h2.mvstore.MVStore;
 
@@ -39,7 +39,7 @@ final class MongoFile extends H2Backend {
 
     private MongoFile(MVStore store) {
         super(store);
-        version(ServerVersion.MONGO_5_0);
+        version(EmbeddedMongo.VERSION);
     }
 
     /** Goes on with a file that an earlier release left. */
@@ -72,6 +72,14 @@ final class MongoFile extends H2Backend {
     @Override
     protected MongoDatabase openOrCreateDatabase(String name) {
         return new Database(name);
+    }
+
+    /** The library knows the greeting of current drivers and shells by its former name only. */
+    @Override
+    public Document handleCommand(Channel channel, String database, String command, Document query) {
+        return command.equals("hello")
+                ? super.handleCommand(channel, database, "isMaster", query).append("isWritablePrimary", true)
+                : super.handleCommand(channel, database, command, query);
     }
 
     @Override

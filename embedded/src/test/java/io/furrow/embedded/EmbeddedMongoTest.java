@@ -25,6 +25,8 @@ import org.h2.mvstore.MVStore;
 import org.h2.mvstore.Page;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -56,6 +58,18 @@ class EmbeddedMongoTest {
             assertThat(farm.find()).containsExactlyInAnyOrderElementsOf(documents);
             ids.forEach(id -> assertThat(farm.find(Filters.eq(id)).first()).isEqualTo(ofEachKind(id)));
         });
+    }
+
+    /** PyMongo 4.20 wants 9 at least, drivers in a year will want more. */
+    @ParameterizedTest
+    @ValueSource(strings = {"isMaster", "hello"})
+    void greetsDriversWithTheProtocolOfTheVersionThatItSaysItIs(String greeting) {
+        try (EmbeddedMongo mongo = EmbeddedMongo.start(directory);
+                MongoClient client = MongoClients.create(mongo.uri())) {
+            Document answer = client.getDatabase("admin").runCommand(new Document(greeting, 1));
+
+            assertThat(answer.getInteger("maxWireVersion")).isEqualTo(13);
+        }
     }
 
     @Test

@@ -191,6 +191,27 @@ class StateTest {
     }
 
     @Test
+    void leavesOutAttributesWithNamesThatTheEntityNeeds() throws IOException {
+        String attribute =
+                "{'type':'Text','value':'x','metadata':{},'created':'2026-11-21T01:00:00.000Z','modified':'2026-11-21T01:00:00.000Z'}";
+        Files.createDirectories(file().getParent());
+        Files.write(
+                file(),
+                gzip(("{'fiwareState':1}\n{'entity':{'service':'agri','servicePath':'/plot1','id':'t1','type':'Probe',"
+                                + "'created':'2026-11-21T01:00:00.000Z','modified':'2026-11-21T01:00:00.000Z',"
+                                + "'attributes':{'id':%s,'note':%s}}}\n{'end':1}")
+                        .formatted(attribute, attribute)
+                        .replace('\'', '"')));
+
+        try (FiwareStandIn standIn = start()) {
+            assertThat(Client.of(standIn.contextBroker())
+                            .get("/v2/entities/t1?options=keyValues")
+                            .body())
+                    .isEqualTo("{\"id\":\"t1\",\"type\":\"Probe\",\"note\":\"x\"}");
+        }
+    }
+
+    @Test
     void savesWhileItRuns() {
         try (FiwareStandIn standIn = start()) {
             Client.of(standIn.contextBroker()).post("/v2/entities", T1);

@@ -25,6 +25,7 @@ import io.furrow.kafka.CommittedReader;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -182,11 +183,11 @@ final class ProvisioningLoop implements AutoCloseable {
                 LOG.warn("what is no longer wanted stays at the IoT Agent; it is tried again: {}", outcome.stuck());
             }
         } catch (IOException e) {
-            failure = e.getMessage();
+            failure = FailureText.of(e);
             if (pace.failed()) {
                 LOG.warn("devices wait to be provisioned: {}", e.getMessage(), e);
             }
-            failures.away(e.getMessage());
+            failures.away(FailureText.of(e));
         }
     }
 

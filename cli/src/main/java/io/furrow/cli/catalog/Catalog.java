@@ -14,6 +14,7 @@ import org.apache.kafka.common.KafkaException;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /** The topic {@code data.catalog}, read to its end. */
@@ -44,7 +45,7 @@ public final class Catalog {
         } catch (KafkaException e) {
             throw new IOException(
                     "Kafka at %s cannot be read (%s). Check the address given with --kafka."
-                            .formatted(bootstrapServers, e.getMessage()),
+                            .formatted(bootstrapServers, FailureText.of(e)),
                     e);
         }
         List<JsonNode> entries = new ArrayList<>();

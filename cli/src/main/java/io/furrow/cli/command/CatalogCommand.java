@@ -25,6 +25,7 @@ import io.furrow.cli.catalog.StoredTable;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.FailureText;
 
 /** {@code ./furrow catalog}. */
 @Command(
@@ -94,7 +95,7 @@ public final class CatalogCommand implements Callable<Integer> {
             show();
             return 0;
         } catch (IOException e) {
-            throw new CommandException(e.getMessage(), e);
+            throw new CommandException(FailureText.of(e), e);
         }
     }
 

@@ -19,6 +19,7 @@ import io.furrow.cli.KafkaClient;
 import io.furrow.cli.dead.Redrive;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.model.text.Counts;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /** {@code ./furrow dead-letters}. */
@@ -96,7 +97,7 @@ public final class DeadLettersCommand {
             print(wish, new Redrive(KafkaClient.settings(kafka, kafkaProperties), wish).run());
             return 0;
         } catch (IOException | org.apache.kafka.common.KafkaException e) {
-            throw new CommandException("Dead letters of %s at %s: %s".formatted(topic, kafka, e.getMessage()), e);
+            throw new CommandException("Dead letters of %s at %s: %s".formatted(topic, kafka, FailureText.of(e)), e);
         }
     }
 

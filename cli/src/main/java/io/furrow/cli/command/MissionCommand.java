@@ -181,9 +181,9 @@ public final class MissionCommand extends MissionControl {
             return failed("MongoDB at %s: %s. Check that it runs, and --mongo."
                     .formatted(new MongoAccess(kept.mongo, null), FailureText.of(e)));
         } catch (UncheckedIOException e) {
-            return failed(e.getCause().getMessage());
+            return failed(FailureText.of(e.getCause()));
         } catch (IOException e) {
-            return failed(e.getMessage());
+            return failed(FailureText.of(e));
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
             return failed("interrupted");

@@ -22,6 +22,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
@@ -59,7 +60,7 @@ final class ResultReader implements AutoCloseable {
     private static UnreadableResultsException away(String servers, KafkaException cause) {
         return new UnreadableResultsException(
                 "Kafka at %s cannot be read (%s). Check the address given with --kafka."
-                        .formatted(servers, cause.getMessage()),
+                        .formatted(servers, FailureText.of(cause)),
                 cause);
     }
 
@@ -92,7 +93,7 @@ final class ResultReader implements AutoCloseable {
             return new FoundResults(side.name(), epoch.orElse(collector.epoch()), spans, missing);
         } catch (KafkaException e) {
             throw new UnreadableResultsException(
-                    "The results of %s cannot be read: %s".formatted(side.name(), e.getMessage()), e);
+                    "The results of %s cannot be read: %s".formatted(side.name(), FailureText.of(e)), e);
         }
     }
 

@@ -1,10 +1,13 @@
 package io.furrow.cli.control;
 
+import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.stream.Collectors;
 
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.TextNode;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
@@ -15,6 +18,8 @@ import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.DevicePage;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
 
 /** {@code ./furrow device}. */
 @Command(
@@ -23,6 +28,8 @@ import io.furrow.cli.control.table.DevicePage;
         synopsisSubcommandLabel = "COMMAND")
 public final class DeviceCommand extends CommandGroup {
     private static final String DEVICES = "/api/devices";
+    private static final String VALUE =
+            "What it says beside: a number, true, false, null, an object or a list as JSON, all else as text; \"3\" in quotation marks is a text.";
     private static final String ID = "Id of the device's entity, as in urn:ngsi-ld:Thermometer:weeding-1.";
 
     @Command(name = "list", description = "Lists devices: status, when last heard of, battery, whether silent.")
@@ -128,19 +135,27 @@ public final class DeviceCommand extends CommandGroup {
             @Mixin ControlOptions control,
             @Parameters(index = "0", paramLabel = "DEVICE", description = ID) String device,
             @Parameters(index = "1", paramLabel = "COMMAND", description = "The command.") String command,
-            @Parameters(index = "2", paramLabel = "VALUE", arity = "0..1", description = "What it says beside.")
-                    String value,
+            @Parameters(index = "2", paramLabel = "VALUE", arity = "0..1", description = VALUE) String value,
             @Option(
                             names = "--type",
                             paramLabel = "TYPE",
                             description = "Type of its entity; needed of a device that reports by itself, as ROBOT.")
                     String type,
             @Mixin DeviceScope scope) {
-        Map<String, String> body = new LinkedHashMap<>();
+        Map<String, Object> body = new LinkedHashMap<>();
         body.put("type", type);
         body.put("command", command);
-        body.put("value", value);
+        body.put("value", value == null ? null : valueOf(value));
         return control.command(
                 "POST", DEVICES + ControlApi.part(device) + "/commands" + scope.query(), ControlOptions.object(body));
+    }
+
+    /** JSON as what it is, all else as text. */
+    static JsonNode valueOf(String value) {
+        try {
+            return NgsiJson.read(value.getBytes(StandardCharsets.UTF_8));
+        } catch (UnreadableException e) {
+            return TextNode.valueOf(value);
+        }
     }
 }

@@ -2,6 +2,7 @@ package io.furrow.cli.control;
 
 import java.io.IOException;
 import java.nio.file.Path;
+import java.time.Instant;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -17,6 +18,7 @@ import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.DeviceListParts;
 import io.furrow.cli.control.table.JsonFile;
+import io.furrow.cli.control.table.MissionPage;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The commands of {@code ./furrow mission} that speak with the control plane. */
@@ -71,9 +73,9 @@ public class MissionControl extends CommandGroup {
                         .text("REASON", "/status/reason"));
     }
 
-    @Command(name = "show", description = "Shows one mission.")
+    @Command(name = "show", description = "Shows one mission: its state, the devices that it misses and why.")
     int show(@Mixin ControlOptions control, @Parameters(paramLabel = "MISSION", description = NAME) String mission) {
-        return control.showOne(MISSIONS + ControlApi.part(mission));
+        return control.showPage(MISSIONS + ControlApi.part(mission), shown -> MissionPage.of(shown, Instant.now()));
     }
 
     @Command(name = "create", description = "Creates a mission, which does not run yet.")

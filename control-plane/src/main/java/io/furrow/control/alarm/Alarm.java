@@ -155,6 +155,13 @@ public record Alarm(
         return draft.build();
     }
 
+    /** Whoever was notified of it need not know that it will end. */
+    Alarm ending(long newUntil) {
+        AlarmDraft draft = new AlarmDraft(this);
+        draft.until = newUntil;
+        return draft.build();
+    }
+
     /** Copies text, devices and extent from the cause. */
     Alarm updated(Cause cause, long now) {
         AlarmDraft draft = new AlarmDraft(this);

@@ -45,9 +45,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         this.limit = new AlarmLimit(records.groups(), records.counted());
     }
 
-    /**
-     * Raises an alarm, or refreshes the existing one. If its group has reached the limit, the cause is only counted.
-     */
+    /** Raises an alarm, or refreshes the existing one. If its group has reached the limit, the cause is only counted. */
     public void raise(Cause cause, long now) {
         Alarm known = current(cause.kind(), cause.subject());
         if (known != null) {
@@ -64,6 +62,25 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
             change(known, new AlarmEvent.Ended(reason), now);
         } else {
             limit.end(kind, subject);
+        }
+    }
+
+    /** The same of a cause that began anew: the count of its alarm is published. */
+    public void raiseAnew(Cause cause, long now) {
+        boolean isKnown = current(cause.kind(), cause.subject()) != null;
+        raise(cause, now);
+        if (isKnown) {
+            keep(current(cause.kind(), cause.subject()));
+        }
+    }
+
+    /** Lets the alarm of a kind and subject, if there is one, end at a time, unless it is raised again until then. */
+    public void endAt(AlarmKind kind, String subject, long until) {
+        Alarm known = current(kind, subject);
+        if (known != null) {
+            records.alarms().put(known.alarm(), known.ending(until));
+        } else {
+            limit.endAt(kind, subject, until);
         }
     }
 

@@ -3,6 +3,7 @@ package io.furrow.control.alarm;
 import java.time.Duration;
 import java.util.Objects;
 
+import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 
@@ -75,7 +76,10 @@ final class AlarmLife {
             return alarm;
         }
         if (alarm.until() != null && alarm.until() <= now) {
-            return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), "its cause was no longer observed", now);
+            String reason = alarm.kind() == AlarmKind.COLLISION
+                    ? "the encounter has ended"
+                    : "its cause was no longer observed";
+            return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), reason, now);
         }
         return alarm.mutedUntil() != null && alarm.mutedUntil() <= now ? alarm.muted(null, now) : alarm;
     }

@@ -131,6 +131,15 @@ final class AlarmLimit {
         }
     }
 
+    /** Lets the counted cause of a kind and subject, if there is one, end at a time. */
+    void endAt(AlarmKind kind, String subject, long until) {
+        Counted known = counted.get(Cause.key(kind, subject));
+        if (known != null) {
+            counted.put(
+                    known.key(), new Counted(known.key(), kind, known.group(), known.devices(), until, known.seen()));
+        }
+    }
+
     /** Updates the number of alarms after one was opened or closed. */
     void changed(Alarm alarm, int by) {
         if (alarm.group() != null && !alarm.isOfGroup()) {

@@ -8,18 +8,23 @@ import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
+import java.util.Optional;
+import java.util.Set;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionException;
 import java.util.concurrent.RejectedExecutionException;
 import java.util.concurrent.Semaphore;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.databind.node.TextNode;
 
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.file.AccessToken;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 /**
  * Sends commands as updates of the command's attribute at the context broker, which forwards them to the IoT Agent. A
@@ -34,6 +39,8 @@ public final class DeviceCommands implements CommandSender {
     private static final String ROBOT = "Robot";
     private static final int MAX_QUOTE_LENGTH = 200;
     private static final int NOT_FOUND = 404;
+    /** Answers that asking again cannot change. Others that begin with 4 are about the control plane, as those of a proxy. */
+    private static final Set<Integer> REFUSALS = Set.of(400, NOT_FOUND, 409, 422);
 
     private final Semaphore pending;
     private final URI contextBroker;
@@ -72,15 +79,15 @@ public final class DeviceCommands implements CommandSender {
     /**
      * A command to a device, with the arguments of {@link CommandSender#send}.
      *
-     * @param value empty for none
+     * @param value of any kind, an empty text for none; a robot takes none
      */
-    public record Order(String deviceId, String type, String command, String value) {}
+    public record Order(String deviceId, String type, String command, JsonNode value) {}
 
     @Override
     public void send(String deviceId, String type, String command, String value)
             throws IOException, InterruptedException {
         HttpResponse<byte[]> answer;
-        Order order = new Order(deviceId, type, command, value);
+        Order order = new Order(deviceId, type, command, TextNode.valueOf(value));
         try {
             answer = client.send(request(order), HttpResponse.BodyHandlers.ofByteArray());
         } catch (IOException e) {
@@ -119,43 +126,49 @@ public final class DeviceCommands implements CommandSender {
     private IOException away(Throwable failure) {
         return new IOException(
                 "The context broker at %s does not respond (%s). Check that it runs, and whether the device obeyed."
-                        .formatted(contextBroker, failure),
+                        .formatted(contextBroker, FailureText.of(failure)),
                 failure);
     }
 
     private void check(Order order, HttpResponse<byte[]> answer) throws IOException {
-        if (answer.statusCode() == NOT_FOUND) {
-            throw new IOException(
-                    "The context broker at %s has no entity %s of type %s, so '%s' cannot be sent; a device accepts commands once it has reported. Check that it reports."
-                            .formatted(contextBroker, order.deviceId(), order.type(), order.command()));
+        if (answer.statusCode() / 100 == 2) {
+            return;
         }
-        if (answer.statusCode() / 100 != 2) {
-            throw new IOException("The context broker at %s rejected '%s' for %s with %d: %s"
-                    .formatted(
-                            contextBroker,
-                            order.command(),
-                            order.deviceId(),
-                            answer.statusCode(),
-                            said(answer.body())));
+        Optional<String> said = said(answer.body());
+        String rejected = "The context broker at %s rejected '%s' for %s with %d: %s"
+                .formatted(
+                        contextBroker,
+                        order.command(),
+                        order.deviceId(),
+                        answer.statusCode(),
+                        said.orElseGet(() -> quoted(new String(answer.body(), StandardCharsets.UTF_8))));
+        if (said.isEmpty() || !REFUSALS.contains(answer.statusCode())) {
+            throw new IOException(rejected);
         }
+        throw answer.statusCode() != NOT_FOUND
+                ? new RefusedCommandException(answer.statusCode(), rejected)
+                : new RefusedCommandException(
+                        NOT_FOUND,
+                        "The context broker at %s has no entity %s of type %s, so '%s' cannot be sent; a device accepts commands once it has reported. Check that it reports."
+                                .formatted(contextBroker, order.deviceId(), order.type(), order.command()));
     }
 
     /**
      * The desired type of a robot is {@code Robot}, while its entity has the type that it reports, {@code ROBOT} with
      * FIROS.
      */
-    private static boolean isRobot(String type) {
+    public static boolean isRobot(String type) {
         return ROBOT.equalsIgnoreCase(type);
     }
 
-    private static ObjectNode body(String type, String command, String value) {
+    private static ObjectNode body(String type, String command, JsonNode value) {
         ObjectNode body = JsonNodeFactory.instance.objectNode();
         if (isRobot(type)) {
             body.putObject("cmd").put("type", "String").put("value", command);
             // The result of an earlier command does not stand for that of this one.
             body.putObject("cmd_status").put("type", "commandStatus").put("value", "PENDING");
         } else {
-            body.putObject(command).put("type", "command").put("value", value);
+            body.putObject(command).put("type", "command").set("value", value);
         }
         return body;
     }
@@ -179,14 +192,19 @@ public final class DeviceCommands implements CommandSender {
         return request.build();
     }
 
-    /** Returns the {@code description} of an NGSI error, or else the start of the body. */
-    private static String said(byte[] body) {
-        String text;
-        try {
-            text = NgsiJson.read(body).path("description").asText("");
-        } catch (UnreadableException e) { // the body is quoted verbatim then
-            text = new String(body, StandardCharsets.UTF_8);
+    /** The {@code description} of an NGSI error; empty of an answer that is none, as the page of a proxy. */
+    private static Optional<String> said(byte[] body) {
+        if (body.length == 0) {
+            return Optional.of("it does not say why");
         }
+        try {
+            return Optional.of(quoted(NgsiJson.read(body).path("description").asText("")));
+        } catch (UnreadableException e) {
+            return Optional.empty();
+        }
+    }
+
+    private static String quoted(String text) {
         return text.substring(0, Math.min(text.length(), MAX_QUOTE_LENGTH));
     }
 

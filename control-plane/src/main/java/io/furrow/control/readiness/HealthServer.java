@@ -25,6 +25,7 @@ import io.furrow.http.AllowedNames;
 import io.furrow.http.OptionNames;
 import io.furrow.http.jetty.AccessHandler;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.FailureText;
 
 /**
  * {@code GET /health}, {@code /ready} and {@code /metrics} on a port and threads of their own, so that nothing else can keep a probe
@@ -74,7 +75,7 @@ public final class HealthServer implements AutoCloseable {
         } catch (IOException e) {
             throw new IOException(
                     "The health page cannot listen on %s:%d (%s). Choose another port."
-                            .formatted(host, port, e.getMessage()),
+                            .formatted(host, port, FailureText.of(e)),
                     e);
         }
         LifeCycle.start(health.server);

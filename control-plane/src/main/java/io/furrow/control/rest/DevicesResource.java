@@ -12,6 +12,7 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.databind.node.TextNode;
 import jakarta.annotation.security.RolesAllowed;
 import jakarta.ws.rs.BeanParam;
 import jakarta.ws.rs.Consumes;
@@ -29,6 +30,7 @@ import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CredentialCsv;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
+import io.furrow.control.device.RefusedCommandException;
 import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
@@ -49,6 +51,7 @@ public final class DevicesResource {
     static final String CSV = CredentialCsv.TYPE + ";qs=0.5";
 
     private static final String DEVICE = "device";
+    private static final JsonNode NO_VALUE = TextNode.valueOf("");
     private static final String GENERATION = "generation";
     private static final int MAX_AUDITED_LENGTH = 200;
     private static final Pattern COMMAND = Pattern.compile("[A-Za-z][A-Za-z0-9_-]{0,63}");
@@ -192,7 +195,7 @@ public final class DevicesResource {
         // A robot that is on no mission can be stopped too. An operator may put any entity on one.
         ObjectNode device = members.hasNonNull("type") ? known(name).orElse(members) : find(name);
         String command = members.path("command").asText();
-        String value = members.path("value").asText("");
+        JsonNode value = members.has("value") ? members.get("value") : NO_VALUE;
         String type = device.path("type").asText(members.path("type").asText());
         check(members, command, type);
         ObjectNode about = about(name);
@@ -200,8 +203,8 @@ public final class DevicesResource {
         if (!scope.equals(means.scope())) {
             about.put("service", scope.service()).put("servicePath", scope.servicePath());
         }
-        if (!value.isEmpty()) {
-            about.put("value", value.substring(0, Math.min(value.length(), MAX_AUDITED_LENGTH)));
+        if (members.has("value")) {
+            about.set("value", audited(value));
         }
         if (means.commands() == null) {
             throw new ProblemException(
@@ -226,21 +229,36 @@ public final class DevicesResource {
         }
         Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;
         audit(commanded.user(), commanded.command(), commanded.about(), cause.getMessage());
-        throw cause instanceof RejectedExecutionException
-                ? ProblemException.overloaded()
-                : new ProblemException(502, "context-broker", cause.getMessage());
+        if (cause instanceof RejectedExecutionException) {
+            throw ProblemException.overloaded();
+        }
+        int status = cause instanceof RefusedCommandException refused ? refused.status() : 502;
+        throw new ProblemException(status, "context-broker", cause.getMessage());
+    }
+
+    /** A value of any kind, shortened. */
+    private static JsonNode audited(JsonNode value) {
+        String text = value.isTextual() ? value.textValue() : value.toString();
+        boolean isWhole = text.length() <= MAX_AUDITED_LENGTH && value.isValueNode() && !value.isNull();
+        return isWhole ? value : TextNode.valueOf(text.substring(0, Math.min(text.length(), MAX_AUDITED_LENGTH)));
     }
 
     private static void check(ObjectNode members, String command, String type) {
         if (!members.has("command")) {
             throw new ProblemException(ErrorCode.MISSING_MEMBER, "the request needs a member 'command'");
         }
-        if (!COMMAND.matcher(command).matches()) {
+        if (!members.get("command").isTextual() || !COMMAND.matcher(command).matches()) {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER, "'command' must be 1 to 64 of A-Z a-z 0-9 _ - that begin with a letter");
         }
-        if (members.path("value").isContainerNode()) {
-            throw new ProblemException(ErrorCode.WRONG_MEMBER, "'value' must be a text, a number or a flag");
+        if (members.hasNonNull("type") && !members.get("type").isTextual()) {
+            throw new ProblemException(ErrorCode.WRONG_MEMBER, "'type' must be a text");
+        }
+        boolean hasValue = members.hasNonNull("value") && !members.get("value").equals(NO_VALUE);
+        if (hasValue && DeviceCommands.isRobot(type)) {
+            throw new ProblemException(
+                    ErrorCode.WRONG_MEMBER,
+                    "a robot gets commands in its attribute 'cmd', which has no room for a 'value'; leave it out");
         }
         if (type.isEmpty()) {
             throw new ProblemException(

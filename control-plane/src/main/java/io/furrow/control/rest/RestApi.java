@@ -46,6 +46,7 @@ import io.furrow.control.rest.view.ReplayFeeds;
 import io.furrow.control.rest.view.ReplayView;
 import io.furrow.control.rest.view.ServiceReader;
 import io.furrow.control.rest.view.ServiceView;
+import io.furrow.model.text.FailureText;
 
 /**
  * The REST API of the control plane. It shares nothing with the managers but their topics, so any number of instances, beside
@@ -193,7 +194,7 @@ public final class RestApi implements AutoCloseable {
         } catch (Exception e) { // Jetty declares no narrower type
             throw new IOException(
                     "The REST API cannot listen on %s:%d (%s). Choose another port."
-                            .formatted(rest.host(), rest.port(), e.getMessage()),
+                            .formatted(rest.host(), rest.port(), FailureText.of(e)),
                     e);
         }
         if (tls != null) {

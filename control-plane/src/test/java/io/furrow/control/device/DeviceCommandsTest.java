@@ -10,18 +10,24 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpExchange;
 import com.sun.net.httpserver.HttpServer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.file.AccessToken;
+import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.assertj.core.api.Assertions.catchThrowable;
 
 class DeviceCommandsTest {
     private final List<String> heard = new ArrayList<>();
@@ -50,6 +56,46 @@ class DeviceCommandsTest {
                 .containsExactly(
                         "PATCH /v2/entities/urn%3Angsi-ld%3AThermometer%3Am-1/attrs?type=Thermometer farm /north"
                                 + " {\"restart\":{\"type\":\"command\",\"value\":\"now\"}}");
+    }
+
+    @ParameterizedTest
+    @ValueSource(
+            strings = {"3", "2.50", "840380235174088834", "true", "false", "null", "\"007\"", "{\"l\":[1,2.5]}", "[]"})
+    void sendsAValueAsWhatItIs(String value) throws Exception {
+        JsonNode json = NgsiJson.read(value.getBytes(StandardCharsets.UTF_8));
+
+        commands()
+                .send(new DeviceCommands.Order("t1", "Thermometer", "on", json))
+                .join();
+
+        assertThat(heard)
+                .singleElement()
+                .asString()
+                .endsWith("{\"on\":{\"type\":\"command\",\"value\":" + value + "}}");
+    }
+
+    /** Asking again helps where the context broker, or a proxy in front of it, is not there. */
+    @ParameterizedTest
+    @CsvSource(
+            quoteCharacter = '`',
+            value = {
+                "400,{\"error\":\"BadRequest\"},400",
+                "404,,404",
+                "409,{\"error\":\"TooManyResults\"},409",
+                "422,{\"error\":\"Unprocessable\"},422",
+                "401,{\"error\":\"invalid_token\"},",
+                "404,<html>nginx</html>,",
+                "503,{\"error\":\"busy\"},"
+            })
+    void tellsARefusalFromAnOutage(int answered, String body, Integer refused) {
+        status = answered;
+        answer = body == null ? "" : body;
+
+        Throwable failure = catchThrowable(() -> commands().send("t1", "Thermometer", "on", "a=b"));
+
+        assertThat(failure).isInstanceOf(IOException.class);
+        assertThat(failure instanceof RefusedCommandException known ? known.status() : null)
+                .isEqualTo(refused);
     }
 
     @Test
@@ -103,7 +149,7 @@ class DeviceCommandsTest {
 
         assertThatThrownBy(() -> commands.send("urn:x", "Thermometer", "on", ""))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("does not respond");
+                .hasMessageContaining("does not respond (connection refused)");
     }
 
     private DeviceCommands commands() {

@@ -223,7 +223,7 @@ class RestApiIT {
                 .isEqualTo(202);
         assertThat(running.broker().last())
                 .contains("Thermometer%3Ahoeing-1")
-                .endsWith("{\"restart\":{\"type\":\"command\",\"value\":\"7\"}}");
+                .endsWith("{\"restart\":{\"type\":\"command\",\"value\":7}}");
         client.send("POST", "/api/devices/robot-1/commands", "{\"command\":\"Stop\"}");
         assertThat(running.broker().last())
                 .contains("robot-1/attrs?options=forcedUpdate {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"}");
@@ -241,9 +241,15 @@ class RestApiIT {
                     .contains(own.replace(":", "%3A")
                             + "/attrs?options=forcedUpdate {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"}");
         }
-        running.broker().refuse(404);
-        running.refused("POST", "/api/devices/" + id + "/commands", "{\"command\":\"on\"}", 502, "context-broker");
+        for (int[] status : new int[][] {{400, 400}, {404, 404}, {409, 409}, {422, 422}, {403, 502}, {500, 502}}) {
+            running.broker().refuse(status[0]);
+            running.refused(
+                    "POST", "/api/devices/" + id + "/commands", "{\"command\":\"on\"}", status[1], "context-broker");
+        }
         running.broker().refuse(204);
+        running.refused(
+                "POST", "/api/devices/robot-1/commands", "{\"command\":\"Stop\",\"value\":1}", 400, "wrong-member");
+        running.refused("POST", "/api/devices/" + id + "/commands", "{\"command\":true}", 400, "wrong-member");
         running.refused("POST", "/api/devices/" + id + "/commands", "{\"value\":1}", 400, "missing-member");
         running.refused("POST", "/api/devices/" + id + "/commands", "{\"command\":\"a b\"}", 400, "wrong-member");
         running.refused("POST", "/api/devices/urn:own:1/commands", "{\"command\":\"on\"}", 400, "missing-member");

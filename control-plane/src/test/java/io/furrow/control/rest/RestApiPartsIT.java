@@ -81,7 +81,8 @@ class RestApiPartsIT {
 
     @Test
     void takesAnAlarmFromItsBeginningToItsEnd() throws Exception {
-        try (FarmWatch watch = FarmWatch.start(settings(), WatchOptions.DEFAULT);
+        try (FarmWatch watch =
+                        FarmWatch.start(settings(), WatchOptions.DEFAULT.withCollisionHolds(Duration.ofSeconds(1)));
                 KafkaProducer<String, byte[]> producer =
                         new KafkaProducer<>(settings().client(), new StringSerializer(), new ByteArraySerializer())) {
             await().atMost(TIMEOUT).until(watch::isHealthy);

@@ -52,8 +52,12 @@ public final class FeedRecord {
     public String ofAllTypes() {
         return record.key() == null
                 ? record.partition() + "/" + record.offset()
-                : FiwareScope.of(header(HeaderNames.SERVICE), header(HeaderNames.SERVICE_PATH))
-                        .identity(recordKey());
+                : scopeOf(record).identity(recordKey());
+    }
+
+    /** Tenant and service path of the headers of a record. */
+    static FiwareScope scopeOf(ConsumerRecord<byte[], byte[]> record) {
+        return FiwareScope.of(header(record, HeaderNames.SERVICE), header(record, HeaderNames.SERVICE_PATH));
     }
 
     /** Whether it deletes what another one reports; a deletion that names no tenant and path, or no type, is one of all of them. */
@@ -97,6 +101,10 @@ public final class FeedRecord {
     }
 
     private String header(String name) {
+        return header(record, name);
+    }
+
+    private static String header(ConsumerRecord<byte[], byte[]> record, String name) {
         Header header = record.headers().lastHeader(name);
         return header == null || header.value() == null ? null : new String(header.value(), StandardCharsets.UTF_8);
     }

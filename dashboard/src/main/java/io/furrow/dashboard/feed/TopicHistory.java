@@ -49,7 +49,7 @@ public final class TopicHistory {
      *
      * @param from epoch ms
      * @param to epoch ms, exclusive
-     * @param newest an attribute, or a member that is no attribute: of records with the same value of it only the last comes; null for all records
+     * @param newest an attribute, or a member that is no attribute: of records of a tenant and service path with the same value of it only the last comes; null for all records
      * @param limit how many records at most
      */
     public record Range(String topic, long from, long to, String newest, int limit) {}
@@ -196,7 +196,9 @@ public final class TopicHistory {
             try {
                 JsonNode member = NgsiJson.read(record.value()).path(range.newest());
                 JsonNode value = member.isObject() ? member.path("value") : member;
-                return value.isValueNode() && !value.asText().isEmpty() ? "=" + value.asText() : own;
+                return value.isValueNode() && !value.asText().isEmpty()
+                        ? "=" + FeedRecord.scopeOf(record).identity(value.asText())
+                        : own;
             } catch (UnreadableException e) {
                 return own;
             }

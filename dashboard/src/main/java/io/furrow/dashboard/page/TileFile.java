@@ -23,6 +23,7 @@ import org.eclipse.jetty.util.resource.Resource;
 import org.eclipse.jetty.util.resource.ResourceFactory;
 
 import io.furrow.dashboard.Problem;
+import io.furrow.model.file.FileProblem;
 
 /**
  * One file of map tiles in PMTiles, version 3, at {@value #PATH}: the page reads it in parts, with requests of ranges. The format:
@@ -72,7 +73,7 @@ public final class TileFile {
         } catch (NoSuchFileException e) {
             throw new IOException("There is no file of tiles %s. Check --tiles.".formatted(file), e);
         } catch (IOException e) {
-            throw new IOException("The file of tiles %s cannot be read (%s).".formatted(file, e.getMessage()), e);
+            throw new IOException("The file of tiles %s cannot be read (%s).".formatted(file, FileProblem.of(e)), e);
         }
         boolean known = header.length == HEADER
                 && ByteBuffer.wrap(header, 0, MAGIC.length).equals(ByteBuffer.wrap(MAGIC))

@@ -124,10 +124,14 @@ class TopicHistoryIT {
         send("data.newest", 0, 6, "{\"n\":6,\"encounter\":\"plain\"}");
         send("data.newest", 0, 7, "{\"n\":7,\"encounter\":\"plain\"}");
         send("data.newest", 0, 8, null);
+        ProducerRecord<String, byte[]> ofAnother = new ProducerRecord<>(
+                "data.newest", 0, TIME + 9, "k", encounter("a", 9).getBytes(UTF_8));
+        ofAnother.headers().add("fiware-service", "other".getBytes(UTF_8));
+        producer.send(ofAnother).get();
 
         TopicHistory.Answer answer = read(
                 new TopicHistory.Range("data.newest", TIME, TIME + 10, "encounter", ALL), TopicHistory.Limits.DEFAULT);
-        assertThat(numbers(answer)).containsExactly(2, 3, 4, 5, 0, 7);
+        assertThat(numbers(answer)).containsExactly(2, 3, 4, 5, 0, 7, 9);
     }
 
     @Test

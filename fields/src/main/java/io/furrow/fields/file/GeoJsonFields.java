@@ -56,12 +56,13 @@ final class GeoJsonFields {
 
     private static JsonNode json(Path file) throws UnusableFileException {
         try {
-            byte[] all = Files.readAllBytes(file);
-            return NgsiJson.read(Arrays.copyOfRange(all, begin(all), all.length));
+            return NgsiJson.readFile(Files.readAllBytes(file));
         } catch (IOException e) {
             throw new UnusableFileException(file, e);
         } catch (UnreadableException e) {
-            throw new UnusableFileException(file + " is not JSON (" + e.getMessage() + ")", e);
+            String remedy =
+                    e.getMessage().startsWith("more than one") ? "; put the features into one FeatureCollection" : "";
+            throw new UnusableFileException(file + " is not JSON (" + e.getMessage() + ")" + remedy, e);
         }
     }
 

@@ -14,6 +14,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.fields.RefusedFeatureException;
+import io.furrow.model.text.FailureText;
 
 /**
  * Reads a feature layer of a GeoPackage (OGC 12-128), an SQLite database. The order is x, y in every coordinate system.
@@ -43,7 +44,9 @@ final class GeoPackageFields {
         try (Connection database = DriverManager.getConnection(url)) {
             return new GeoPackageFields(file, database).layer(name);
         } catch (SQLException e) {
-            throw new UnusableFileException(file + " is not a readable GeoPackage (" + e.getMessage() + ")", e);
+            throw new UnusableFileException(
+                    file + " is not a readable GeoPackage (" + FailureText.of(e).replaceFirst("^\\[\\w+] *", "") + ")",
+                    e);
         }
     }
 

@@ -21,6 +21,7 @@ import org.locationtech.jts.geom.Coordinate;
 
 import io.furrow.fields.RefusedFeatureException;
 import io.furrow.fields.Words;
+import io.furrow.model.text.FailureText;
 
 /**
  * Transforms coordinates to longitude and latitude in WGS 84. The input order is x, y: easting or longitude first,
@@ -60,7 +61,7 @@ public record Georeference(String name, MathTransform transform, boolean northFi
         } catch (FactoryException | TransformException | NumberFormatException e) {
             throw new UnusableFileException(
                     "'%s' is not a known coordinate system (%s); specify it with --crs, for instance --crs EPSG:25830"
-                            .formatted(Words.shortened(text), e.getMessage()),
+                            .formatted(Words.shortened(text), FailureText.of(e)),
                     e);
         }
     }

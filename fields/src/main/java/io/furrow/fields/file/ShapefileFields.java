@@ -1,8 +1,7 @@
 package io.furrow.fields.file;
 
-import java.io.BufferedInputStream;
+import java.io.ByteArrayInputStream;
 import java.io.IOException;
-import java.io.InputStream;
 import java.math.BigDecimal;
 import java.nio.charset.Charset;
 import java.nio.charset.StandardCharsets;
@@ -20,6 +19,8 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.linuxense.javadbf.DBFException;
 import com.linuxense.javadbf.DBFReader;
+
+import io.furrow.model.text.FailureText;
 
 /**
  * Reads a Shapefile: .shp with .dbf, .prj and .cpg in the same directory. Attributes are decoded with the code page
@@ -68,13 +69,14 @@ final class ShapefileFields {
             }
             return rows;
         }
-        try (InputStream in = new BufferedInputStream(Files.newInputStream(dbf.get()));
-                DBFReader reader = new DBFReader(in, charset(), true)) {
+        byte[] table = bytes(dbf.get());
+        Charset charset = charset(table);
+        try (DBFReader reader = new DBFReader(new ByteArrayInputStream(table), charset, true)) {
             for (Object[] row = reader.nextRecord(); row != null; row = reader.nextRecord()) {
                 rows.add(Boolean.TRUE.equals(row[0]) ? null : attributes(reader, row));
             }
-        } catch (IOException | DBFException e) {
-            throw new UnusableFileException(dbf.get() + " cannot be read (" + e.getMessage() + ")", e);
+        } catch (DBFException e) {
+            throw new UnusableFileException(dbf.get() + " cannot be read (" + FailureText.of(e) + ")", e);
         }
         return rows;
     }
@@ -104,26 +106,38 @@ final class ShapefileFields {
         return attributes;
     }
 
-    /** Returns the code page that .cpg names; null to use that of the table itself. */
-    private Charset charset() throws UnusableFileException {
+    /** The code page that .cpg names, or else the table, or else the one that its texts are in. */
+    private Charset charset(byte[] table) throws UnusableFileException {
         Optional<Path> cpg = beside(".cpg");
-        if (cpg.isEmpty()) {
-            return null;
+        String named = cpg.isPresent() ? text(cpg.get()) : "";
+        if (!named.isEmpty()) {
+            return CodePage.named(named)
+                    .orElseThrow(() -> new UnusableFileException(
+                            "%s names the unknown code page '%s'; write into it what the texts of the .dbf file are in, for instance UTF-8 or 1252"
+                                    .formatted(cpg.get(), named)));
         }
-        String named = text(cpg.get()).strip();
-        String name = named.replaceFirst("(?i)^(ANSI |CP|OEM )?(\\d{3,4})$", "windows-$2")
-                .replaceFirst("(?i)^8859[-_]?(\\d+)$", "ISO-8859-$1");
-        try {
-            return Charset.forName(name);
-        } catch (IllegalArgumentException e) {
-            throw new UnusableFileException(
-                    "%s names the unknown code page '%s'; use for instance UTF-8".formatted(cpg.get(), named), e);
+        Optional<Charset> own = CodePage.of(table);
+        CodePage.Texts texts = CodePage.isDefault(table) ? CodePage.textsOf(table) : CodePage.Texts.ASCII;
+        Charset assumed =
+                texts == CodePage.Texts.UTF_8 ? StandardCharsets.UTF_8 : own.orElse(StandardCharsets.ISO_8859_1);
+        if (texts != CodePage.Texts.ASCII && !own.equals(Optional.of(assumed))) {
+            notes.add("there is no .cpg file next to it: its texts were read as " + assumed.name());
         }
+        return assumed;
     }
 
+    /** Without a byte order mark and the blanks around it. */
     private static String text(Path file) throws UnusableFileException {
+        byte[] bytes = bytes(file);
+        int begin = GeoJsonFields.begin(bytes);
+        return new String(bytes, begin, bytes.length - begin, StandardCharsets.UTF_8)
+                .replace('\0', ' ')
+                .strip();
+    }
+
+    private static byte[] bytes(Path file) throws UnusableFileException {
         try {
-            return new String(Files.readAllBytes(file), StandardCharsets.UTF_8);
+            return Files.readAllBytes(file);
         } catch (IOException e) {
             throw new UnusableFileException(file, e);
         }

@@ -147,6 +147,91 @@ public class FieldFileTest {
                 .hasMessageContaining("'EPSG:99999' is not a known coordinate system");
     }
 
+    /** The code page of a .cpg file, or else of the table, or else of its texts; as GDAL has it but for the last. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', nullValues = "-", textBlock = """
+        850          | 0   | IBM850       | Höhe | -
+        CP850        | 0   | IBM850       | Höhe | -
+        OEM 850      | 87  | IBM850       | Höhe | -
+        cp437        | 0   | IBM437       | Höhe | -
+        858          | 0   | IBM00858     | Höhe | -
+        65001        | 0   | UTF-8        | Höhe | -
+        UTF-8        | 0   | UTF-8        | Höhe | -
+        ﻿UTF-8¶      | 0   | UTF-8        | Höhe | -
+        utf8         | 87  | UTF-8        | Höhe | -
+        ANSI 1252    | 0   | windows-1252 | Höhe | -
+        1252         | 2   | windows-1252 | Höhe | -
+        windows-1252 | 0   | windows-1252 | Höhe | -
+        ANSI 1251    | 0   | windows-1251 | Поле | -
+        1250         | 0   | windows-1250 | łąka | -
+        866          | 0   | IBM866       | Поле | -
+        ISO 8859-1   | 0   | ISO-8859-1   | Höhe | -
+        ISO-8859-15  | 0   | ISO-8859-15  | Höhe | -
+        8859-1       | 0   | ISO-8859-1   | Höhe | -
+        88591        | 0   | ISO-8859-1   | Höhe | -
+        885915       | 0   | ISO-8859-15  | Höhe | -
+        28592        | 0   | ISO-8859-2   | łąka | -
+        932          | 0   | windows-31j  | 畑    | -
+        936          | 0   | GBK          | 田    | -
+        Big5         | 0   | Big5         | 田    | -
+        10000        | 0   | x-MacRoman   | Höhe | -
+        -            | 2   | IBM850       | Höhe | -
+        -            | 201 | windows-1251 | Поле | -
+        -            | 87  | ISO-8859-1   | Höhe | -
+        ¶            | 87  | ISO-8859-1   | Höhe | -
+        -            | 0   | UTF-8        | Höhe | UTF-8
+        -            | 87  | UTF-8        | Höhe | UTF-8
+        -            | 0   | ISO-8859-1   | Höhe | ISO-8859-1
+        -            | 0   | US-ASCII     | Hohe | -
+        """)
+    void readsTextsInTheCodePageThatIsNamed(String cpg, int driver, String charset, String name, String assumed)
+            throws Exception {
+        Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("coded.shp"));
+        Files.copy(resource("shapefile-25830.prj"), folder.resolve("coded.prj"));
+        byte[] table = Files.readAllBytes(resource("shapefile-25830.dbf"));
+        table[29] = (byte) driver;
+        for (int column : new int[] {386, 811}) { // 'name' of both rows
+            Arrays.fill(table, column, column + 80, (byte) ' ');
+            byte[] text = name.getBytes(charset);
+            System.arraycopy(text, 0, table, column, text.length);
+        }
+        Files.write(folder.resolve("coded.dbf"), table);
+        if (cpg != null) {
+            Files.writeString(folder.resolve("coded.cpg"), cpg.replace('¶', '\n'));
+        }
+
+        FieldFile read = FieldFile.read(shp, named("code"));
+
+        assertThat(read.fields().get(0).version().name()).isEqualTo(name);
+        if (assumed == null) {
+            assertThat(read.notes()).isEmpty();
+        } else {
+            assertThat(read.notes())
+                    .containsExactly("there is no .cpg file next to it: its texts were read as " + assumed);
+        }
+    }
+
+    @Test
+    void saysWhatToDoWithAFeaturePerLine() throws Exception {
+        Path file = Files.writeString(folder.resolve("x.geojsonl"), "{\"type\":\"Feature\"}\n{\"type\":\"Feature\"}\n");
+
+        assertThatThrownBy(() -> FieldFile.read(file, PLAIN))
+                .isInstanceOf(UnusableFileException.class)
+                .hasMessageEndingWith(
+                        "is not JSON (more than one JSON document at line 2, column 1); put the features into one FeatureCollection");
+    }
+
+    @Test
+    void saysWhatToWriteIntoACpgFileThatNamesNoCodePage() throws Exception {
+        Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("coded.shp"));
+        Files.copy(resource("shapefile-25830.dbf"), folder.resolve("coded.dbf"));
+        Files.writeString(folder.resolve("coded.cpg"), "Klingon");
+
+        assertThatThrownBy(() -> FieldFile.read(shp, named("code")))
+                .isInstanceOf(UnusableFileException.class)
+                .hasMessageContaining("names the unknown code page 'Klingon'; write into it");
+    }
+
     /** Well-known text may define the northing first; the file has the easting first all the same. */
     @Test
     void readsEastingFirstWhateverTheTextDefines() throws Exception {

@@ -43,13 +43,16 @@ record DeviceMapping(
         }
     }
 
+    /** Reserved names are ignored, as in FIWARE's agents. */
     static DeviceMapping read(JsonNode json) throws NgsiError {
         Map<String, Target> active = new LinkedHashMap<>();
         for (JsonNode attribute : json.path("attributes")) {
             String name = text(attribute, "name");
-            active.put(
-                    attribute.path("object_id").asText(name),
-                    new Target(name, attribute.path("type").asText("Text"), attribute.path("metadata")));
+            if (!SyntaxRules.isReserved(name)) {
+                active.put(
+                        attribute.path("object_id").asText(name),
+                        new Target(name, attribute.path("type").asText("Text"), attribute.path("metadata")));
+            }
         }
         Map<String, AttributeInput> fixed = new LinkedHashMap<>();
         for (JsonNode attribute : json.path("static_attributes")) {
@@ -59,10 +62,12 @@ record DeviceMapping(
             String type = attribute.path("type").asText(AttributeInput.defaultType(value));
             fixed.put(text(attribute, "name"), AttributeInput.of(type, value));
         }
+        fixed.keySet().removeIf(SyntaxRules::isReserved);
         Set<String> commands = new LinkedHashSet<>();
         for (JsonNode command : json.path("commands")) {
             commands.add(text(command, "name"));
         }
+        commands.removeIf(SyntaxRules::isReserved);
         boolean timestamped = json.path("timestamp").asBoolean(true);
         return new DeviceMapping(
                 active, fixed, commands, timestamped, json.path("explicitAttrs").asBoolean(false));
@@ -87,7 +92,10 @@ record DeviceMapping(
         return state;
     }
 
-    /** The update of one measure: measures, static attributes, {@code TimeInstant}, in this order. */
+    /**
+     * The update of one measure: measures, static attributes, {@code TimeInstant}, in this order. What a device calls
+     * {@code id} becomes {@code measure_id}, as in FIWARE's agents, and so do all names that an attribute cannot have.
+     */
     Map<String, AttributeInput> attributes(ObjectNode measure, String receivedAt) throws NgsiError {
         Map<String, AttributeInput> attributes = new LinkedHashMap<>();
         for (Map.Entry<String, JsonNode> member : measure.properties()) {
@@ -98,8 +106,9 @@ record DeviceMapping(
             } else if (member.getKey().equals(TIME_INSTANT)) {
                 attributes.put(TIME_INSTANT, AttributeInput.of("DateTime", value));
             } else if (!explicit) {
-                SyntaxRules.checkAttributeName(member.getKey());
-                attributes.put(member.getKey(), AttributeInput.of(AttributeInput.defaultType(value), value));
+                String name = SyntaxRules.isReserved(member.getKey()) ? "measure_" + member.getKey() : member.getKey();
+                SyntaxRules.checkAttributeName(name);
+                attributes.put(name, AttributeInput.of(AttributeInput.defaultType(value), value));
             }
         }
         fixed.forEach(attributes::putIfAbsent);

@@ -1,11 +1,14 @@
 package io.furrow.fiware.api;
 
 import java.util.Optional;
+import java.util.Set;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.broker.EntityUpdate;
+import io.furrow.model.ngsi.Entity;
 
 /**
  * Refuses names and values with characters that Orion forbids: in values {@code < > " ' = ; ( )}, in texts at any
@@ -16,6 +19,7 @@ public final class SyntaxRules {
     private static final Pattern IDENTIFIER = Pattern.compile("[\\x21-\\x7e&&[^&?/#<>\"'=;()]]{1,256}");
     private static final Pattern FORBIDDEN = Pattern.compile("[<>\"'=;()]");
     private static final int MAX_LENGTH = 256;
+    private static final Set<String> MEMBERS = Set.of("id", "type");
 
     private SyntaxRules() {}
 
@@ -26,8 +30,24 @@ public final class SyntaxRules {
         }
     }
 
+    /** Whether an entity has a member or a built-in attribute of this name, so that no attribute can have it. */
+    public static boolean isReserved(String name) {
+        return MEMBERS.contains(name) || Entity.BUILT_INS.contains(name);
+    }
+
     public static void checkAttributeName(String name) throws NgsiError {
         checkIdentifier(name, "attribute name");
+        if (isReserved(name)) {
+            throw NgsiError.badRequest("the name '" + name + "' is reserved and cannot be that of an attribute");
+        }
+    }
+
+    /** Checks all names of an entity: whatever is stored has passed it. */
+    public static void checkNames(EntityUpdate request) throws NgsiError {
+        checkEntity(request.id(), request.type());
+        for (String name : request.attributes().keySet()) {
+            checkAttributeName(name);
+        }
     }
 
     /** Checks type, value and metadata, including dates. */

@@ -19,6 +19,7 @@ import io.furrow.fiware.Correlator;
 import io.furrow.fiware.NgsiError;
 import io.furrow.fiware.agent.Registration;
 import io.furrow.fiware.api.AttributeInput;
+import io.furrow.fiware.api.SyntaxRules;
 import io.furrow.fiware.broker.EntityUpdate.Action;
 import io.furrow.fiware.broker.EntityUpdate.Options;
 import io.furrow.model.event.FiwareScope;
@@ -68,6 +69,7 @@ public final class ContextBroker {
     }
 
     public void create(FiwareScope scope, EntityUpdate request, Correlator correlator) throws NgsiError {
+        SyntaxRules.checkNames(request);
         Tenant tenant = tenant(scope.service());
         Optional<String> type = Optional.of(request.type().orElse(EntityUpdate.DEFAULT_TYPE));
         synchronized (tenant) {
@@ -99,6 +101,7 @@ public final class ContextBroker {
      */
     public void update(FiwareScope scope, EntityUpdate request, Action action, Options options, Correlator correlator)
             throws NgsiError {
+        SyntaxRules.checkNames(request);
         Tenant tenant = tenant(scope.service());
         single(tenant.find(scope.servicePath(), request.id(), request.type()));
         Map<String, AttributeInput> own = new LinkedHashMap<>(request.attributes());

@@ -23,6 +23,7 @@ import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
 import io.furrow.fiware.Correlator;
 import io.furrow.fiware.FiwareSettings.Connections;
+import io.furrow.model.text.FailureText;
 
 /**
  * Sends each notification once, over persistent connections or a new one each. Any HTTP status is a success; a refused
@@ -148,8 +149,7 @@ public final class Notifier implements AutoCloseable {
         } else {
             failed.increment();
             Throwable failure = result.getFailure();
-            subscription.failed(
-                    clock.instant(), failure.getMessage() == null ? failure.toString() : failure.getMessage());
+            subscription.failed(clock.instant(), FailureText.of(failure));
         }
     }
 

@@ -223,6 +223,29 @@ class IotAgentTest {
         assertThat(broker.get(THERMOMETER + "/attrs/note").status()).isEqualTo(404);
     }
 
+    /** Another name for the entity would make it unreadable for good. */
+    @Test
+    void givesNoAttributeANameThatTheEntityNeeds() throws MqttException {
+        agent.post("/iot/devices", """
+                {"devices": [{"device_id": "t2", "apikey": "k1", "entity_name": "T2", "entity_type": "Probe",
+                    "attributes": [{"object_id": "t", "name": "type"}],
+                    "static_attributes": [{"name": "id", "value": "zz"}], "commands": [{"name": "id"}]}]}""");
+
+        publish("/k1/t2/attrs", "{\"id\": \"x\", \"type\": \"y\", \"t\": 3, \"servicePath\": \"/s\"}");
+        publish("/k1/t2/attrs", "{\"temp\": 15}");
+
+        awaitValue("/v2/entities/T2", "temp", "15");
+        JsonNode entity = broker.get("/v2/entities/T2?options=keyValues&attrs=servicePath,*")
+                .json();
+        assertThat(entity.path("id").textValue()).isEqualTo("T2");
+        assertThat(entity.path("type").textValue()).isEqualTo("Probe");
+        assertThat(entity.path("servicePath").textValue()).isEqualTo("/plot1");
+        assertThat(entity.path("measure_id").textValue()).isEqualTo("x");
+        assertThat(entity.path("measure_type").textValue()).isEqualTo("y");
+        assertThat(entity.path("measure_servicePath").textValue()).isEqualTo("/s");
+        assertThat(entity.path("t").intValue()).isEqualTo(3);
+    }
+
     @Test
     void findsADeviceOnlyThroughAGroupOfItsOwnResource() throws MqttException {
         for (String group : List.of("{'apikey': 'k3', 'resource': ''}", "{'apikey': 'k4', 'resource': '/iot/d'}")) {

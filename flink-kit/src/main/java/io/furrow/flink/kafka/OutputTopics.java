@@ -25,6 +25,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.flink.job.TopicOptions;
+import io.furrow.model.text.FailureText;
 
 /**
  * The topics that a subtask writes to: made where they are not there, and how large a record each takes. Asks once per topic;
@@ -132,8 +133,8 @@ final class OutputTopics implements AutoCloseable {
             boolean unknown = e.getCause() instanceof UnknownTopicOrPartitionException;
             if (!unknown || nanoTime.getAsLong() > until) {
                 throw new IOException(
-                        "the partitions of " + topic + " cannot be read: "
-                                + e.getCause().getMessage() + "; is the topic there, and may the job describe it?",
+                        "the partitions of " + topic + " cannot be read: " + FailureText.of(e.getCause())
+                                + "; is the topic there, and may the job describe it?",
                         e.getCause());
             }
             return 0;
@@ -150,8 +151,7 @@ final class OutputTopics implements AutoCloseable {
             } catch (ExecutionException e) {
                 if (!(e.getCause() instanceof UnknownTopicOrPartitionException)) {
                     throw new IOException(
-                            "topic " + each.getKey() + " cannot be described: "
-                                    + e.getCause().getMessage(),
+                            "topic " + each.getKey() + " cannot be described: " + FailureText.of(e.getCause()),
                             e.getCause());
                 }
             }
@@ -166,7 +166,7 @@ final class OutputTopics implements AutoCloseable {
         } catch (ExecutionException e) {
             if (!(e.getCause() instanceof TopicExistsException) && !isAllowedOnlyToWrite(topic, e.getCause())) {
                 throw new IOException(
-                        "topic " + topic + " could not be made: " + e.getCause().getMessage()
+                        "topic " + topic + " could not be made: " + FailureText.of(e.getCause())
                                 + "; see --topic-partitions, --topic-replication, --topic-retention, or make it yourself",
                         e.getCause());
             }
@@ -205,8 +205,7 @@ final class OutputTopics implements AutoCloseable {
                 return; // made just now, this broker has not heard of it: the next record asks again
             }
             throw new IOException(
-                    "how large records " + topic + " takes cannot be read: "
-                            + e.getCause().getMessage(),
+                    "how large records " + topic + " takes cannot be read: " + FailureText.of(e.getCause()),
                     e.getCause());
         }
     }

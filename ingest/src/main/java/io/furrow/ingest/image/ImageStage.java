@@ -16,6 +16,7 @@ import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.image.store.ImageStore;
 import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.model.text.FailureText;
 
 /**
  * The stage of a job that moves images: events are emitted in the order of their entity, each once. Broken images are on {@link
@@ -49,7 +50,8 @@ public final class ImageStage {
             ImageStore.of(settings);
         } catch (IOException e) {
             throw options.refused(
-                    "--images " + settings.root() + ": Flink has no file system for it here (" + e.getMessage() + ")",
+                    "--images " + settings.root() + ": Flink has no file system for it here (" + FailureText.of(e)
+                            + ")",
                     e);
         }
     }

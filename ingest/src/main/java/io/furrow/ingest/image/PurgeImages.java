@@ -24,6 +24,7 @@ import picocli.CommandLine.Spec;
 import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.ingest.image.store.ImageFiles;
 import io.furrow.model.text.Counts;
+import io.furrow.model.text.FailureText;
 
 /**
  * Deletes images whose event time, by the name of their file, is older than allowed; leaves every other file alone.
@@ -85,7 +86,7 @@ public final class PurgeImages implements Callable<Integer> {
         } catch (FileNotFoundException e) {
             throw new ParameterException(spec.commandLine(), root + " is not there; name the folder of --images", e);
         } catch (IOException e) {
-            throw new ParameterException(spec.commandLine(), root + " cannot be read: " + e.getMessage(), e);
+            throw new ParameterException(spec.commandLine(), root + " cannot be read: " + FailureText.of(e), e);
         }
         PrintWriter out = spec.commandLine().getOut();
         out.printf(

@@ -63,15 +63,14 @@ public final class NormalizeNotifications extends ProcessFunction<TopicRecord, T
     public void processElement(TopicRecord record, Context context, Collector<TopicRecord> out) {
         try {
             Notification notification = read(record);
-            String source = settings.rules().source(notification);
             for (Rejected rejected : notification.rejected()) {
                 setAside(
                         valued(record, NgsiJson.write(rejected.reported())),
                         new UnreadableException(rejected.reason(), rejected.message()),
                         context);
             }
-            for (Entity entity : notification.entities()) {
-                emit(entity, record, source, context, out);
+            for (int i = 0; i < notification.entities().size(); i++) {
+                emit(notification, i, record, context, out);
             }
         } catch (UnreadableException e) {
             setAside(record, e, context);
@@ -85,12 +84,22 @@ public final class NormalizeNotifications extends ProcessFunction<TopicRecord, T
         return Notification.read(record.value(), header(record, ATTRS_FORMAT));
     }
 
-    private void emit(Entity entity, TopicRecord record, String source, Context context, Collector<TopicRecord> out) {
+    private void emit(
+            Notification notification, int index, TopicRecord record, Context context, Collector<TopicRecord> out) {
+        Entity entity = notification.entities().get(index);
         if (settings.rules().excludes(entity)) {
             excluded.inc();
             return;
         }
-        EntityRecord translated = settings.rules().record(entity, scope(record), received(record), source);
+        FiwareScope scope;
+        try {
+            scope = NotificationRules.scope(notification, index, scope(record));
+        } catch (UnreadableException e) {
+            setAside(valued(record, entity.toBytes()), e, context);
+            return;
+        }
+        EntityRecord translated = settings.rules()
+                .record(entity, scope, received(record), settings.rules().source(notification));
         if (translated.fault() != null) {
             faults.get(translated.fault()).inc();
         }

@@ -16,6 +16,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.CommandException;
 import io.furrow.cli.option.HelpOption;
+import io.furrow.model.file.FileProblem;
 import io.furrow.model.file.PrivateFile;
 
 /** {@code ./furrow init}. */
@@ -51,7 +52,7 @@ public final class InitCommand implements Callable<Integer> {
             throw new CommandException(
                     file + " is there already and stays as it is: running containers have its secrets.", e);
         } catch (IOException e) {
-            throw new CommandException("%s cannot be written (%s)".formatted(file, e), e);
+            throw new CommandException("%s cannot be written (%s)".formatted(file, FileProblem.of(e)), e);
         }
         spec.commandLine()
                 .getOut()

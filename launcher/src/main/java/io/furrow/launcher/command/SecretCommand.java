@@ -19,6 +19,7 @@ import io.furrow.cli.command.CommandGroup;
 import io.furrow.launcher.suite.FarmSecretFile;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.FarmSecretCodec;
+import io.furrow.model.file.FileProblem;
 import io.furrow.model.file.PrivateFile;
 
 /** {@code ./furrow secret}. */
@@ -44,7 +45,7 @@ public final class SecretCommand extends CommandGroup {
             return refuse(
                     file + " is there already and stays as it is; ./furrow secret rotate gives a farm another key", e);
         } catch (IOException e) {
-            return refuse("%s cannot be written (%s)".formatted(file, e), e);
+            return refuse("%s cannot be written (%s)".formatted(file, FileProblem.of(e)), e);
         }
     }
 
@@ -98,7 +99,7 @@ public final class SecretCommand extends CommandGroup {
         try {
             PrivateFile.replace(file, FarmSecretCodec.write(rotated));
         } catch (IOException e) {
-            return refuse("%s cannot be replaced (%s); it is as it was".formatted(file, e), e);
+            return refuse("%s cannot be replaced (%s); it is as it was".formatted(file, FileProblem.of(e)), e);
         }
         print("%s holds key %d with the fingerprint %s.".formatted(file, rotated.newestKey(), rotated.fingerprint()));
         print(

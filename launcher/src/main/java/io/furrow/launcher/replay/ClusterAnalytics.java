@@ -12,6 +12,7 @@ import java.util.Map;
 import java.util.Set;
 
 import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.model.file.FileProblem;
 
 /** Analytics of replays on a Flink cluster, by its REST API. The jar is uploaded once, under a name that has its hash. */
 final class ClusterAnalytics implements AnalyticsExecutor {
@@ -68,7 +69,7 @@ final class ClusterAnalytics implements AnalyticsExecutor {
             byte[] digest = MessageDigest.getInstance("SHA-256").digest(Files.readAllBytes(jar));
             return "furrow-replay-analytics-" + HexFormat.of().formatHex(digest, 0, HASH_BYTES) + ".jar";
         } catch (IOException e) {
-            throw new AnalyticsException(jar + " cannot be read: " + e.getMessage() + "; check --jar", e);
+            throw new AnalyticsException(jar + " cannot be read: " + FileProblem.of(e) + "; check --jar", e);
         } catch (NoSuchAlgorithmException e) {
             throw new IllegalStateException("every Java platform has SHA-256", e);
         }

@@ -19,8 +19,10 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.file.FileProblem;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 /** The part of Flink's REST API that uploads a jar, runs it, lists jobs and cancels them. */
 final class FlinkRest {
@@ -87,7 +89,7 @@ final class FlinkRest {
             String file = json(request).path("filename").asText();
             return file.substring(file.lastIndexOf('/') + 1);
         } catch (IOException e) {
-            throw new AnalyticsException(jar + " cannot be read: " + e.getMessage(), e);
+            throw new AnalyticsException(jar + " cannot be read: " + FileProblem.of(e), e);
         }
     }
 
@@ -125,7 +127,7 @@ final class FlinkRest {
         } catch (IOException e) {
             throw new AnalyticsException(
                     "Flink at %s does not answer (%s). Is it running? Check --flink-url."
-                            .formatted(base, e.getMessage()),
+                            .formatted(base, FailureText.of(e)),
                     e);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();

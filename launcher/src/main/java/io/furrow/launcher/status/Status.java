@@ -22,6 +22,7 @@ import io.furrow.launcher.status.JobLag.Lag;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.result.CollisionResult;
 import io.furrow.model.result.FieldResult;
+import io.furrow.model.text.FailureText;
 
 /**
  * The live status: the newest average of each field, collisions as they happen, each job's lag, records per second and total of each topic
@@ -88,10 +89,7 @@ public final class Status implements AutoCloseable {
             show(block(now, rates.next(now, System.nanoTime()), lag.read(), ""));
         } catch (ExecutionException e) {
             show(block(
-                    Map.of(),
-                    Map.of(),
-                    Map.of(),
-                    "Kafka does not tell its totals: " + e.getCause().getMessage()));
+                    Map.of(), Map.of(), Map.of(), "Kafka does not tell its totals: " + FailureText.of(e.getCause())));
         }
     }
 

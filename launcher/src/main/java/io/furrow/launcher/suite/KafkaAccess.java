@@ -17,6 +17,7 @@ import org.apache.kafka.common.errors.TopicExistsException;
 
 import io.furrow.cli.CommandException;
 import io.furrow.cli.KafkaClient;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /** The Kafka cluster of a suite, ours or another's, and how each kind of client reaches it. */
@@ -104,10 +105,7 @@ public final class KafkaAccess implements AutoCloseable {
                 if (!(e.getCause() instanceof TopicExistsException)) {
                     throw new CommandException(
                             "Kafka at %s does not make topic %s: %s"
-                                    .formatted(
-                                            bootstrapServers,
-                                            topic,
-                                            e.getCause().getMessage()),
+                                    .formatted(bootstrapServers, topic, FailureText.of(e.getCause())),
                             e);
                 }
             } catch (TimeoutException e) {

@@ -35,6 +35,7 @@ import org.bson.BsonInt32;
 import io.furrow.cli.CommandException;
 import io.furrow.cli.KafkaClient;
 import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.model.text.FailureText;
 import io.furrow.simulators.mqtt.MqttAccess;
 
 /** Finds the servers that options name and that do not answer, before anything is started beside them. */
@@ -180,7 +181,7 @@ public final class ServerCheck {
         } else if (failure instanceof MongoException refused) {
             return refused.getMessage().replaceFirst("(?s)[.:].*", "");
         }
-        return String.valueOf(failure.getMessage());
+        return FailureText.of(failure);
     }
 
     /**

@@ -14,6 +14,7 @@ import io.furrow.mission.RecordingGoneException;
 import io.furrow.mission.Recordings;
 import io.furrow.mission.marker.MarkerFile;
 import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.model.file.FileProblem;
 import io.furrow.model.topic.TopicName;
 
 /**
@@ -61,7 +62,7 @@ public record FileRecordings(String path, RecordingFiles files) implements Recor
             throw e;
         } catch (IOException e) {
             throw new RecordingException(
-                    "Mission %s cannot be looked for in %s: %s".formatted(mission, path, e.getMessage()), e);
+                    "Mission %s cannot be looked for in %s: %s".formatted(mission, path, FileProblem.of(e)), e);
         }
     }
 

@@ -25,6 +25,7 @@ import io.furrow.mission.Cursor;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 /**
  * Reads the documents of a mission in the order of events, beginning after a cursor. Queries ask for event time alone, which has
@@ -120,7 +121,7 @@ final class OrderedDocuments implements AutoCloseable {
         try {
             return EventDocumentCodec.read(document);
         } catch (BSONException | ArithmeticException e) { // the latter for a decimal −0
-            throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
+            throw new UnreadableException(Reason.NOT_AN_EVENT, FailureText.of(e));
         }
     }
 

@@ -25,6 +25,7 @@ import io.furrow.mission.RecordingInterruptedException;
 import io.furrow.mission.Recordings;
 import io.furrow.mission.Skipped;
 import io.furrow.mission.file.FileRecordings;
+import io.furrow.model.text.FailureText;
 
 /**
  * Topics of events, {@code data.*}, as recordings: the committed records between the beginning and the end that the topic has when
@@ -81,12 +82,12 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
         } catch (KafkaException e) {
             throw new RecordingException(
                     "Topic %s cannot be read from %s: %s. Check that Kafka runs there and answers."
-                            .formatted(topic, this, e.getMessage()),
+                            .formatted(topic, this, FailureText.of(e)),
                     e);
         } catch (IOException e) {
             throw new RecordingException(
                     "Topic %s cannot be sorted in %s: %s. Check that the folder can be written and has room."
-                            .formatted(topic, folder, e.getMessage()),
+                            .formatted(topic, folder, FailureText.of(e)),
                     e);
         } finally {
             if (own != null && opened == null) {

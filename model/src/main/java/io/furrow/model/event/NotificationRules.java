@@ -3,10 +3,14 @@ package io.furrow.model.event;
 import java.io.Serializable;
 import java.time.Instant;
 import java.util.List;
+import java.util.Optional;
 import java.util.regex.Pattern;
+import java.util.stream.Stream;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Notification;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * How the entities of a notification become records, whichever way the notification arrived.
@@ -17,6 +21,8 @@ import io.furrow.model.ngsi.Notification;
  */
 public record NotificationRules(String name, List<Pattern> excluded, EventTimeRule times, Origin origin)
         implements Serializable {
+    private static final String SERVICE_PATH = "servicePath";
+    private static final Pattern PATH = Pattern.compile("/[!-+\\--~]*");
     private static final Pattern SUBSCRIPTION = Pattern.compile("[A-Za-z0-9_.:-]{1,128}");
 
     /** The header {@code ce_source} of all records of a notification. */
@@ -35,6 +41,41 @@ public record NotificationRules(String name, List<Pattern> excluded, EventTimeRu
             }
         }
         return false;
+    }
+
+    /**
+     * The scope of an entity of a notification. Its service path is the one that the context broker reports with it, or else that of the
+     * header, which has one path for all entities, or one for each in their order.
+     *
+     * @param index of the entity among those that could be read
+     * @param headers the scope of the headers
+     * @throws UnreadableException if the header has another number of different paths
+     */
+    public static FiwareScope scope(Notification notification, int index, FiwareScope headers)
+            throws UnreadableException {
+        Optional<String> reported = notification
+                .entities()
+                .get(index)
+                .text(SERVICE_PATH)
+                .filter(path -> PATH.matcher(path).matches());
+        if (reported.isPresent()) {
+            return FiwareScope.of(headers.service(), reported.get());
+        }
+        if (headers.servicePath().indexOf(',') < 0) {
+            return headers;
+        }
+        String[] paths = headers.servicePath().split(",", -1);
+        int place = notification.places().get(index);
+        if (paths.length == notification.size()) {
+            return FiwareScope.of(headers.service(), paths[place]);
+        }
+        if (Stream.of(paths).map(String::trim).distinct().count() > 1) {
+            throw new UnreadableException(
+                    Reason.NOT_AN_ENTITY,
+                    "entity %d of %d has no service path: the header Fiware-ServicePath has %d, %s"
+                            .formatted(place + 1, notification.size(), paths.length, headers.servicePath()));
+        }
+        return FiwareScope.of(headers.service(), paths[0]);
     }
 
     /**

@@ -9,21 +9,26 @@ import com.fasterxml.jackson.core.JsonLocation;
 import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonMappingException;
 
+import io.furrow.model.text.FailureText;
+
 /** What is wrong with JSON, in words for people: Jackson's name its classes and constants. */
 public final class JsonProblem {
     private static final Pattern END =
             Pattern.compile("^(Unexpected end-of-input|No content to map).*", Pattern.DOTALL);
     private static final Pattern TRAILING = Pattern.compile("^Trailing token.*", Pattern.DOTALL);
+    private static final Pattern NO_NUMBER = Pattern.compile("^Non-standard token '([^']*)'.*", Pattern.DOTALL);
     /** What Jackson offers a programmer: where it was told so, and which constant would allow it. */
     private static final Pattern FOR_PROGRAMMERS = Pattern.compile(
-            ", from `[^`]*`|: enable `.*|,? ?\\(?start marker at .*|\\R? at \\[Source.*", Pattern.DOTALL);
+            ", from `[^`]*`|: enable `.*|,? ?\\(?start marker at .*|\\R? at \\[Source.*"
+                    + "| \\(for (?:Array|Object) starting at .*| ?\\(not recognized as one since Feature .*",
+            Pattern.DOTALL);
 
     private JsonProblem() {}
 
     /** For instance {@code unexpected end of input at line 1, column 17}. */
     public static String of(IOException failure) {
         if (!(failure instanceof JsonProcessingException json)) {
-            return failure.getMessage(); // bytes that are not UTF-8
+            return FailureText.of(failure); // bytes that are not UTF-8
         }
         String words = words(json);
         JsonLocation at = json.getLocation();
@@ -42,7 +47,8 @@ public final class JsonProblem {
                             .collect(Collectors.joining(".")));
         }
         String words = END.matcher(failure.getOriginalMessage()).replaceFirst("Unexpected end of input");
-        words = TRAILING.matcher(words).replaceFirst("More follows after the end of the value");
+        words = TRAILING.matcher(words).replaceFirst("More than one JSON document");
+        words = NO_NUMBER.matcher(words).replaceFirst("The token $1 is no JSON number; send null instead");
         words = FOR_PROGRAMMERS.matcher(words).replaceAll("");
         return words.contains("`") ? "The value is not what it must be" : words;
     }

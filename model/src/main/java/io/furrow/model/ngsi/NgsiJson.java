@@ -2,6 +2,7 @@ package io.furrow.model.ngsi;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
+import java.util.Arrays;
 
 import com.fasterxml.jackson.core.JsonFactory;
 import com.fasterxml.jackson.core.JsonGenerator;
@@ -26,6 +27,7 @@ public final class NgsiJson {
     public static final int MAX_NESTING = 64;
     public static final int MAX_STRING = 8 * 1024 * 1024;
 
+    private static final byte[] BYTE_ORDER_MARK = {(byte) 0xef, (byte) 0xbb, (byte) 0xbf};
     private static final int TYPICAL_ENTITY = 2048;
     private static final SerializableString TYPE = new SerializedString("type");
     private static final SerializableString VALUE = new SerializedString("value");
@@ -60,6 +62,7 @@ public final class NgsiJson {
      */
     public static JsonNode read(byte[] bytes) throws UnreadableException {
         checkUtf8(bytes);
+        checkMark(bytes);
         return understand(() -> {
             JsonNode node = MAPPER.readTree(bytes);
             if (node == null || node.isMissingNode()) {
@@ -67,6 +70,23 @@ public final class NgsiJson {
             }
             return node;
         });
+    }
+
+    /** The same of a file, which may begin with a byte order mark, as editors on Windows write it. */
+    public static JsonNode readFile(byte[] bytes) throws UnreadableException {
+        return read(hasMark(bytes) ? Arrays.copyOfRange(bytes, BYTE_ORDER_MARK.length, bytes.length) : bytes);
+    }
+
+    private static boolean hasMark(byte[] bytes) {
+        int length = BYTE_ORDER_MARK.length;
+        return bytes.length >= length && Arrays.equals(bytes, 0, length, BYTE_ORDER_MARK, 0, length);
+    }
+
+    private static void checkMark(byte[] bytes) throws UnreadableException {
+        if (hasMark(bytes)) {
+            throw new UnreadableException(
+                    Reason.NOT_JSON, "the text begins with a byte order mark (EF BB BF); send it without");
+        }
     }
 
     /** Jackson's own decoder is too lenient, and looks only at what it is asked for. */

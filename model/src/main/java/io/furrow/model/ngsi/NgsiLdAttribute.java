@@ -75,7 +75,8 @@ final class NgsiLdAttribute {
         return reported.isArray()
                 && !reported.isEmpty()
                 && reported.valueStream().allMatch(each -> kindOf(each).isPresent())
-                && reported.valueStream().anyMatch(each -> each.has("datasetId") || isNormalized(each));
+                && reported.valueStream()
+                        .anyMatch(each -> each.has("datasetId") || each.has("observedAt") || isNormalized(each));
     }
 
     static ObjectNode read(JsonNode reported) {

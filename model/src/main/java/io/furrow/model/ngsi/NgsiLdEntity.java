@@ -1,11 +1,13 @@
 package io.furrow.model.ngsi;
 
 import java.time.Instant;
+import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
 import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -26,7 +28,8 @@ import io.furrow.model.time.Instants;
  * <tr><td>{@code scope}</td><td>an attribute, type {@code Text} or {@code StructuredValue}</td></tr>
  * <tr><td>anything else</td><td>an attribute, see {@link NgsiLdAttribute}</td></tr>
  * <tr><td>an attribute with several instances</td><td>the one without {@code datasetId} under the attribute's name, each
- *     other under {@code <name>:<datasetId>}</td></tr>
+ *     other under {@code <name>:<datasetId>}; of several with one {@code datasetId}, or without, the newest by {@code observedAt}, or else
+ *     {@code modifiedAt}</td></tr>
  * </table>
  *
  * <p>Where the entity has none of {@code Time}, {@code TimeInstant}, {@code dateObserved}, {@code timestamp}, the newest
@@ -109,13 +112,27 @@ final class NgsiLdEntity {
                 put("alterationType", NgsiLdAttribute.plain("Text", JsonNodeFactory.instance.textNode("entityDelete")));
             }
         } else if (NgsiLdAttribute.isSeveral(reported)) {
+            Map<String, JsonNode> newest = new LinkedHashMap<>();
             for (JsonNode instance : reported) {
-                String dataset = instance.path("datasetId").asText("");
-                put(dataset.isEmpty() ? name : name + ":" + dataset, observed(instance));
+                newest.merge(instance.path("datasetId").asText(""), instance, NgsiLdEntity::newer);
             }
+            newest.forEach(
+                    (dataset, instance) -> put(dataset.isEmpty() ? name : name + ":" + dataset, observed(instance)));
         } else {
             put(name, observed(reported));
         }
+    }
+
+    /** Of two instances the one that was observed, or else modified, last; the second where nothing says so. */
+    private static JsonNode newer(JsonNode first, JsonNode second) {
+        return timeOf(second).isBefore(timeOf(first)) ? first : second;
+    }
+
+    private static Instant timeOf(JsonNode instance) {
+        return Stream.of("observedAt", "modifiedAt")
+                .flatMap(name -> Instants.ofText(instance.path(name).asText()).stream())
+                .findFirst()
+                .orElse(Instant.MIN);
     }
 
     /** Built-ins come first or last, as the context broker likes: an attribute of the thing never gives way to one. */

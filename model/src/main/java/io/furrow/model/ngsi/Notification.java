@@ -11,9 +11,11 @@ import com.fasterxml.jackson.databind.JsonNode;
  *
  * @param subscriptionId empty if the form does not name it
  * @param entities in the order of the notification
+ * @param places of the entities among all that were reported, unreadable ones included, from 0
  * @param rejected one per unreadable entity, at most {@value #MAX_REJECTED}; the others of the same notification are not harmed
  */
-public record Notification(Optional<String> subscriptionId, List<Entity> entities, List<Rejected> rejected) {
+public record Notification(
+        Optional<String> subscriptionId, List<Entity> entities, List<Integer> places, List<Rejected> rejected) {
     /** A notification with more unreadable entities than this is unreadable as a whole. */
     public static final int MAX_REJECTED = 1000;
 
@@ -32,6 +34,11 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
      */
     public static Notification read(byte[] body, String attrsFormat) throws UnreadableException {
         JsonNode root = NgsiJson.read(body);
+        if (root.path("contextResponses").isArray()) {
+            throw new UnreadableException(
+                    Reason.UNSUPPORTED_FORM,
+                    "form 'legacy' is that of NGSIv1, which is not read; set the subscription's attrsFormat to normalized");
+        }
         if ("values".equals(attrsFormat) || !root.has("id") && isListOfLists(root.path("data"))) {
             throw new UnreadableException(
                     Reason.UNSUPPORTED_FORM,
@@ -42,7 +49,7 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
         }
         boolean simplified = attrsFormat != null && attrsFormat.startsWith("simplified");
         if (simplified || root.has("id") || !root.has("data")) {
-            return new Notification(Optional.empty(), List.of(readEntity(root, attrsFormat)), List.of());
+            return new Notification(Optional.empty(), List.of(readEntity(root, attrsFormat)), List.of(0), List.of());
         }
         if (!root.isObject() || !root.get("data").isArray()) {
             throw new UnreadableException(Reason.NOT_AN_ENTITY, "'data' is no array of entities");
@@ -50,6 +57,11 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
         Optional<String> subscription =
                 Optional.ofNullable(root.path("subscriptionId").textValue());
         return readAll(subscription, root.get("data"), entity -> readEntity(entity, attrsFormat));
+    }
+
+    /** How many entities were reported, unreadable ones included. */
+    public int size() {
+        return entities.size() + rejected.size();
     }
 
     /** An NGSI-v2 entity may be called Notification too, but it has no list called data. */
@@ -73,10 +85,12 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
     private static Notification readAll(Optional<String> subscription, Iterable<JsonNode> data, EntityReader reader)
             throws UnreadableException {
         List<Entity> entities = new ArrayList<>();
+        List<Integer> places = new ArrayList<>();
         List<Rejected> rejected = new ArrayList<>();
         for (JsonNode reported : data) {
             try {
                 entities.add(reader.read(reported));
+                places.add(places.size() + rejected.size());
             } catch (UnreadableException e) {
                 if (rejected.size() == MAX_REJECTED) {
                     throw new UnreadableException(
@@ -86,7 +100,7 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
                 rejected.add(new Rejected(reported, e.reason(), e.getMessage()));
             }
         }
-        return new Notification(subscription, List.copyOf(entities), List.copyOf(rejected));
+        return new Notification(subscription, List.copyOf(entities), List.copyOf(places), List.copyOf(rejected));
     }
 
     private static boolean isListOfLists(JsonNode data) {

@@ -12,7 +12,7 @@ public enum Reason {
     TOO_LARGE,
     /** JSON, but no NGSI entity: no object, no id, or attributes of a shape no form has. */
     NOT_AN_ENTITY,
-    /** A notification form that does not name its attributes, so that nothing can be made of it. */
+    /** A notification form that does not name its attributes, so that nothing can be made of it, or that of NGSIv1. */
     UNSUPPORTED_FORM,
     /** A record on a topic that lacks what the reader needs, for instance a value where none may be missing. */
     NOT_AN_EVENT,

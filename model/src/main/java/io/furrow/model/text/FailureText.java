@@ -33,8 +33,8 @@ public final class FailureText {
     private static boolean isWrapper(Throwable failure) {
         return failure instanceof ExecutionException
                 || failure instanceof CompletionException
-                || failure.getMessage() == null
-                || failure.getMessage().equals(failure.getCause().toString());
+                || failure.getMessage() == null && !(failure instanceof ConnectException)
+                || failure.getCause().toString().equals(failure.getMessage());
     }
 
     /** What its class is called, as words: {@code closed channel}. */

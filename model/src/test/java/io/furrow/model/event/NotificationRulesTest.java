@@ -3,10 +3,13 @@ package io.furrow.model.event;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.regex.Pattern;
 
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Notification;
@@ -45,6 +48,41 @@ class NotificationRulesTest {
 
         assertThat(record.value()).isNull();
         assertThat(record.fault()).isNull();
+    }
+
+    /** Unreadable entities have a place, too. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+            /      | {'id':'a'},{'id':'b'}                                  | / /
+            /n     | {'id':'a'},{'id':'b'}                                  | /n /n
+            /a,/b  | {'id':'a'},{'id':'b'}                                  | /a /b
+            /a, /b | {'id':'a'},{'id':'b'}                                  | /a /b
+            /,/    | {'id':'a'},{'id':'b'}                                  | / /
+            /a,/b,/c | {'id':'a'},{'id':5},{'id':'b'}                       | /a /c
+            /,/    | {'id':'a'}                                             | /
+            /a,/b  | {'id':'a'}                                             | -
+            /a,/b  | {'id':'a'},{'id':'b'},{'id':'c'}                       | - - -
+            /a,/b  | {'id':'a','servicePath':{'type':'Text','value':'/t'}},{'id':'b'} | /t /b
+            /a,/b  | {'id':'a','servicePath':{'type':'Text','value':'/t'}}  | /t
+            /n     | {'id':'a','servicePath':{'type':'Text','value':'/t'}}  | /t
+            /n     | {'id':'a','servicePath':{'type':'Text','value':'no path'}} | /n
+            """)
+    void givesEachEntityItsServicePath(String header, String entities, String paths) throws Exception {
+        Notification notification =
+                notification("{\"subscriptionId\": \"5f1\", \"data\": [%s]}".formatted(entities.replace('\'', '"')));
+
+        List<String> found = new ArrayList<>();
+        for (int i = 0; i < notification.entities().size(); i++) {
+            try {
+                found.add(NotificationRules.scope(notification, i, FiwareScope.of("farm", header))
+                        .servicePath());
+            } catch (UnreadableException e) {
+                assertThat(e).hasMessageContaining("has no service path").hasMessageContaining(header);
+                found.add("-");
+            }
+        }
+
+        assertThat(found).containsExactly(paths.split(" "));
     }
 
     @Test

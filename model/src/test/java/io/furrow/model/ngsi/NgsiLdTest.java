@@ -52,6 +52,27 @@ class NgsiLdTest {
                 .satisfies(entity -> assertThat(entity.json().toString()).isEqualTo(each.entity.toString()));
     }
 
+    /** The order of a list says nothing. */
+    @ParameterizedTest
+    @CsvSource(
+            delimiter = '|',
+            quoteCharacter = '`',
+            value = {
+                "{'value':21.5,'observedAt':'2026-11-26T12:33:00Z'},{'value':19,'observedAt':'2026-11-26T12:32:00Z'}|21.5|2026-11-26T12:33:00Z",
+                "{'value':19,'observedAt':'2026-11-26T12:32:00Z'},{'value':21.5,'observedAt':'2026-11-26T12:33:00+00:00'}|21.5|2026-11-26T12:33:00+00:00",
+                "{'type':'Property','value':3,'modifiedAt':'2026-11-26T12:33:00Z'},{'type':'Property','value':2,'modifiedAt':'2026-11-26T12:32:00Z'}|3|",
+                "{'type':'Property','value':3,'datasetId':'urn:d','observedAt':'2026-11-26T12:40:00Z'},{'value':1,'observedAt':'2026-11-26T12:33:00Z'},{'value':2,'observedAt':'2026-11-26T12:30:00Z'}|1|2026-11-26T12:40:00Z",
+                "{'type':'Property','value':3},{'type':'Property','value':2}|2|"
+            })
+    void takesTheNewestOfSeveralInstances(String instances, String value, String time) throws Exception {
+        Entity entity = NgsiLdEntity.read(json("{'id':'a','type':'T','@context':'c','t':[%s]}"
+                .formatted(instances)
+                .replace('\'', '"')));
+
+        assertThat(entity.value("t").orElseThrow()).hasToString(value);
+        assertThat(entity.text("TimeInstant").orElse(null)).isEqualTo(time);
+    }
+
     @ParameterizedTest
     @MethodSource("cases")
     void whatItReadsIsAnEntityToEveryLaterReader(Case each) throws Exception {

@@ -67,6 +67,21 @@ class NotificationTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
+            legacy | {"subscriptionId":"5f1","originator":"localhost","contextResponses":[{"contextElement":{"id":"a","type":"T","isPattern":"false","attributes":[]},"statusCode":{"code":"200"}}]}
+                   | {"contextResponses":[{"contextElement":{"id":"a"}}]}
+            legacy | {"subscriptionId":"5f1","contextResponses":[]}
+            """)
+    void refusesTheFormOfNgsiV1(String header, String body) {
+        UnreadableException refused = unreadable(body, header);
+
+        assertThat(refused.reason()).isEqualTo(Reason.UNSUPPORTED_FORM);
+        assertThat(refused)
+                .hasMessageContaining("NGSIv1")
+                .hasMessageContaining("set the subscription's attrsFormat to normalized");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
             simplifiedNormalized | {"id":"a","data":{"type":"Text","value":"x","metadata":{}}}
             simplifiedKeyValues  | {"id":"a","data":"x"}
                                  | {"id":"a","data":"x"}

@@ -17,6 +17,9 @@ class FailureTextTest {
                 .isEqualTo("Topic x not present");
         assertThat(FailureText.of(new IllegalStateException(new ConnectException())))
                 .isEqualTo("connection refused");
+        ConnectException refused = new ConnectException(); // as the JDK's client has it
+        refused.initCause(new ClosedChannelException());
+        assertThat(FailureText.of(refused)).isEqualTo("connection refused");
         assertThat(FailureText.of(new ClosedChannelException())).isEqualTo("closed channel");
         assertThat(FailureText.of(new UnknownHostException("farm.lan"))).isEqualTo("there is no host of this name");
         assertThat(FailureText.of(new IOException("java.util.concurrent.TimeoutException: too late at farm.lan:9092")))

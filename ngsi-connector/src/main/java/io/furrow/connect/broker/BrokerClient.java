@@ -21,6 +21,7 @@ import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
 
 import io.furrow.connect.LogText;
+import io.furrow.model.text.FailureText;
 
 /**
  * Sends requests to a context broker over persistent connections; never throws for failures of the network or the
@@ -71,7 +72,7 @@ public final class BrokerClient {
         } catch (LimitedBody.TooLargeException e) {
             return tooLarge(uri, e);
         } catch (IOException e) {
-            return away(uri + " does not answer: " + e, e);
+            return away(uri + " does not answer: " + FailureText.of(e), e);
         } catch (TimeoutException e) {
             return away(uri + " does not answer within " + settings.timeout().toMillis() + " ms", e);
         } catch (InterruptedException e) {

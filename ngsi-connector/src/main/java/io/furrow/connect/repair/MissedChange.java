@@ -7,6 +7,7 @@ import io.furrow.connect.repair.entity.EntityRecord;
 import io.furrow.connect.repair.entity.EntityState;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
+import io.furrow.model.ngsi.UnreadableException;
 
 /** A change of which the source may have missed the notification. */
 public sealed interface MissedChange {
@@ -41,9 +42,8 @@ public sealed interface MissedChange {
             return state.entity().id();
         }
 
-        /** The reason, for messages. */
-        public String problem() {
-            return state.problem().orElse("");
+        public UnreadableException problem() {
+            return state.problem().orElseThrow();
         }
     }
 

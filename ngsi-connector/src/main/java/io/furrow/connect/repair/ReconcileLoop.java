@@ -22,6 +22,7 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.SubscriptionReconciler.SharedServices;
 import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.text.FailureText;
 
 /**
  * Manages all subscriptions of a task on its own thread. Requests that fail because the context broker is unavailable
@@ -239,7 +240,7 @@ public final class ReconcileLoop implements AutoCloseable {
         }
         boolean known = charge.failing;
         charge.failing = true;
-        charge.problem = why instanceof BrokerException ? why.getMessage() : why.toString();
+        charge.problem = FailureText.of(why);
         Duration twice = charge.pause.isZero() ? FIRST_PAUSE : charge.pause.multipliedBy(2);
         charge.pause = twice.compareTo(MAX_PAUSE) > 0 ? MAX_PAUSE : twice;
         if (!known) {

@@ -14,6 +14,7 @@ import io.furrow.connect.LogText;
 import io.furrow.connect.repair.LiveEvents.Appended;
 import io.furrow.connect.repair.entity.EntityRecord;
 import io.furrow.connect.repair.entity.KnownEntities;
+import io.furrow.model.text.FailureText;
 
 /** Emits findings in small batches and waits until they are durable, which leaves room for concurrent notifications. */
 public final class RepairPublisher {
@@ -99,7 +100,8 @@ public final class RepairPublisher {
         try {
             durable.get();
         } catch (ExecutionException e) {
-            throw new IOException("repaired records did not become durable: " + e.getCause(), e.getCause());
+            throw new IOException(
+                    "repaired records did not become durable: " + FailureText.of(e.getCause()), e.getCause());
         }
     }
 
@@ -117,7 +119,7 @@ public final class RepairPublisher {
                     "entity {} of {} became a dead letter: {}",
                     LogText.oneLine(dead.entityId()),
                     dead.state().scope(),
-                    LogText.oneLine(dead.problem()));
+                    LogText.oneLine(dead.problem().getMessage()));
         }
     }
 }

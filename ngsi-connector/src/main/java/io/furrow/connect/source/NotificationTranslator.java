@@ -17,6 +17,7 @@ import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EntityRecord;
 import io.furrow.model.event.EventTime;
 import io.furrow.model.event.EventTimeRule;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.NotificationRules;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
@@ -107,9 +108,15 @@ public final class NotificationTranslator {
         String source = rules.source(notification);
         notification.subscriptionId().ifPresent(arrived);
         List<OutgoingRecord> records = new ArrayList<>();
-        for (Entity entity : notification.entities()) {
+        for (int i = 0; i < notification.entities().size(); i++) {
+            Entity entity = notification.entities().get(i);
             if (!rules.excludes(entity)) {
-                records.add(translate(entity, source, received));
+                try {
+                    FiwareScope scope = NotificationRules.scope(notification, i, received.scope());
+                    records.add(translate(entity, scope, source, received));
+                } catch (UnreadableException e) {
+                    records.add(deadLetter(entity.toBytes(), new Refusal(e.reason(), e.getMessage()), received));
+                }
             }
         }
         for (Rejected rejected : notification.rejected()) {
@@ -148,8 +155,8 @@ public final class NotificationTranslator {
         ledger.accepted.add(records.size() - dead);
     }
 
-    private OutgoingRecord translate(Entity entity, String source, ReceivedNotification received) {
-        EntityRecord translated = rules.record(entity, received.scope(), received.at(), source);
+    private OutgoingRecord translate(Entity entity, FiwareScope scope, String source, ReceivedNotification received) {
+        EntityRecord translated = rules.record(entity, scope, received.at(), source);
         OutgoingRecord record = new OutgoingRecord(
                 settings.topic(),
                 translated.key(),
@@ -167,7 +174,7 @@ public final class NotificationTranslator {
         }
         if (translated.fault() != null) {
             counterOf(translated.fault()).increment();
-            clocks.note(received.scope().identity(entity.id()), translated.fault());
+            clocks.note(scope.identity(entity.id()), translated.fault());
         }
         if (entity.value(Entity.MODIFIED).isEmpty()) {
             ledger.undated.increment();

@@ -31,6 +31,7 @@ import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.connect.subscription.WantedSubscription.Name;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.file.FileProblem;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -159,7 +160,7 @@ final class OwnSubscriptions implements AutoCloseable {
                             live, new RepairedRecords(config.translation(), intake, ledger), ledger),
                     config.subscription().checkInterval());
         } catch (IOException e) {
-            throw new ConnectException("cannot use " + folder + " (" + e + "); make it writable", e);
+            throw new ConnectException("cannot use " + folder + " (" + FileProblem.of(e) + "); make it writable", e);
         }
     }
 

@@ -6,6 +6,7 @@ import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 
+import io.furrow.connect.LogText;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.MissedChange;
 import io.furrow.connect.repair.RepairOutput;
@@ -15,6 +16,7 @@ import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
 
 /** Creates records from the findings of the repair and appends them to the intake. */
 final class RepairedRecords implements RepairOutput {
@@ -45,9 +47,12 @@ final class RepairedRecords implements RepairOutput {
             return new OutgoingRecord(settings.topic(), gone.entityId(), null, gone.time(), gone.headers(source));
         }
         if (finding instanceof MissedChange.Unreadable unreadable) {
-            String message = "the entity " + unreadable.entityId() + " cannot be read: " + unreadable.problem();
-            DeadLetter letter = new DeadLetter(Reason.TOO_LARGE, message, NotificationTranslator.STAGE, source);
-            return deadLetter(letter, unreadable.entityId(), unreadable.received());
+            String id = unreadable.entityId();
+            UnreadableException problem = unreadable.problem();
+            String message = "the entity %s of the context broker cannot be read: %s"
+                    .formatted(id.isEmpty() ? "without an id" : LogText.beginning(id), problem.getMessage());
+            DeadLetter letter = new DeadLetter(problem.reason(), message, NotificationTranslator.STAGE, source);
+            return deadLetter(letter, id, unreadable.received());
         }
         EntityEvent event = ((MissedChange.Changed) finding).event();
         OutgoingRecord record = new OutgoingRecord(

@@ -10,6 +10,7 @@ import io.furrow.mission.Recordings;
 import io.furrow.mission.file.FileRecordings;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.file.FileProblem;
 
 /**
  * Missions that are kept, and what else a replay may name as its source: a file of the job's folder, a topic.
@@ -40,7 +41,7 @@ public record JobRecordings(Recordings missions, String folder, TopicHistories t
         try {
             return FILES.exists(path) ? new FileRecordings(path, FILES).open(mission) : Optional.empty();
         } catch (IOException e) {
-            throw new RecordingException("The file %s cannot be read: %s".formatted(path, e.getMessage()), e);
+            throw new RecordingException("The file %s cannot be read: %s".formatted(path, FileProblem.of(e)), e);
         }
     }
 }

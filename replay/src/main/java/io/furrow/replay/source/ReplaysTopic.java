@@ -23,6 +23,7 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /** What {@code service.replays} says, and {@code service.replays.status} of the time before. A topic that is not there is awaited. */
@@ -126,7 +127,7 @@ public final class ReplaysTopic implements WantedReplays {
         }
 
         private static IOException away(RetriableException failure) {
-            return new IOException(Topics.REPLAYS + " cannot be read: " + failure.getMessage(), failure);
+            return new IOException(Topics.REPLAYS + " cannot be read: " + FailureText.of(failure), failure);
         }
 
         @Override

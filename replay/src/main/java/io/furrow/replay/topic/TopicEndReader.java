@@ -18,6 +18,7 @@ import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.text.FailureText;
 
 /**
  * Reads the greatest epoch and timestamp at the end of a replay's topic, whether its transaction was committed or not. A checkpoint may be
@@ -64,7 +65,7 @@ record TopicEndReader(Properties client) implements Serializable {
             interrupted.initCause(e);
             throw interrupted;
         } catch (KafkaException e) {
-            throw new IOException("The end of topic " + topic + " cannot be read: " + e.getMessage(), e);
+            throw new IOException("The end of topic " + topic + " cannot be read: " + FailureText.of(e), e);
         }
     }
 

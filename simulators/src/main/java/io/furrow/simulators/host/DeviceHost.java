@@ -10,6 +10,7 @@ import org.apache.kafka.common.KafkaException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.text.FailureText;
 import io.furrow.model.time.Backoff;
 import io.furrow.simulators.fleet.FarmFleet;
 
@@ -49,7 +50,7 @@ public final class DeviceHost implements AutoCloseable {
             host.thread.start();
             return host;
         } catch (KafkaException e) {
-            throw new IOException("the host of devices cannot use Kafka with these settings: " + e.getMessage(), e);
+            throw new IOException("the host of devices cannot use Kafka with these settings: " + FailureText.of(e), e);
         }
     }
 

@@ -21,6 +21,7 @@ import com.fasterxml.jackson.databind.node.MissingNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 /** The REST API of a control plane. A request that it cannot take yet is sent again, under the same key, so that it has one effect. */
 public final class ControlApi {
@@ -155,7 +156,7 @@ public final class ControlApi {
         } catch (SSLException e) {
             throw new ControlPlaneException(
                     "The control plane at %s cannot be trusted (%s). Name the certificate of its CA with --api-ca."
-                            .formatted(base, e.getMessage()),
+                            .formatted(base, FailureText.of(e)),
                     e);
         } catch (IOException e) {
             throw new ControlPlaneException(

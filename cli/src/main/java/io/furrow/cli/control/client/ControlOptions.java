@@ -22,6 +22,7 @@ import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.CredentialList;
 import io.furrow.cli.option.HttpUri;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.FailureText;
 
 /** What every command has that speaks with the control plane: where that is, as whom, and how the answer is shown. */
 public final class ControlOptions {
@@ -187,7 +188,7 @@ public final class ControlOptions {
         } catch (ControlPlaneException e) {
             spec.commandLine().getErr().println(e.getMessage());
         } catch (IOException e) {
-            spec.commandLine().getErr().println("cannot read or write: " + e.getMessage());
+            spec.commandLine().getErr().println("cannot read or write: " + FailureText.of(e));
         }
         return spec.commandLine().getCommandSpec().exitCodeOnExecutionException();
     }

@@ -2,7 +2,6 @@ package io.furrow.cli.control.table;
 
 import java.time.Duration;
 import java.time.Instant;
-import java.util.ArrayList;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -14,17 +13,14 @@ public final class DevicePage {
     /** Less is how long a report takes. */
     private static final Duration RIGHT = Duration.ofSeconds(5);
 
-    private static final int WIDTH = 16;
-
     private final JsonNode device;
     private final JsonNode connection;
-    private final Instant now;
-    private final List<String> lines = new ArrayList<>();
+    private final PageLines page;
 
     private DevicePage(JsonNode device, Instant now) {
         this.device = device;
         this.connection = device.path("connection");
-        this.now = now;
+        this.page = new PageLines(now);
     }
 
     /** @param device as the REST API has it */
@@ -41,7 +37,7 @@ public final class DevicePage {
         add("Type", device.path("type").asText("not known") + (simulated ? ", simulated" : ", real"));
         add("Mission", "%s of domain %s".formatted(text(device.path("mission")), text(device.path("domain"))));
         add("Wanted", device.path("wanted").asText());
-        add("State", device.at("/status/state").asText("not known") + reason(device.at("/status/reason")));
+        add("State", device.at("/status/state").asText("not known") + PageLines.reason(device.at("/status/reason")));
         report(connection.path("lastReport"));
         if (device.at("/health/battery").isNumber()) {
             add("Battery", Math.round(device.at("/health/battery").doubleValue() * 100) + " %");
@@ -53,7 +49,7 @@ public final class DevicePage {
         if (connection.has("registered")) {
             add("IoT Agent", connection.path("registered").booleanValue() ? "knows it" : "does not know it");
         }
-        return lines;
+        return page.all();
     }
 
     private boolean isSilent() {
@@ -69,7 +65,9 @@ public final class DevicePage {
             add("Last report", "none yet");
             return;
         }
-        add("Last report", "of %s, received %s".formatted(time(report.path("time")), ago(report.path("received"))));
+        add(
+                "Last report",
+                "of %s, received %s".formatted(PageLines.time(report.path("time")), page.ago(report.path("received"))));
         Duration offset = Duration.ofMillis(report.path("offset").longValue());
         add(
                 "Clock",
@@ -82,9 +80,9 @@ public final class DevicePage {
     private void login() {
         JsonNode since = connection.path("since");
         if (connection.hasNonNull("loggedIn")) {
-            add("Last login", ago(connection.path("loggedIn")));
+            add("Last login", page.ago(connection.path("loggedIn")));
         } else if (!since.isMissingNode()) {
-            add("Last login", "none since " + time(since));
+            add("Last login", "none since " + PageLines.time(since));
         }
     }
 
@@ -126,16 +124,7 @@ public final class DevicePage {
 
     private String counted(JsonNode observed) {
         long count = observed.path("count").longValue();
-        return Counts.times(count) + (count == 1 ? ", " : ", last ") + ago(observed.path("last"));
-    }
-
-    private String ago(JsonNode time) {
-        return "%s (%s ago)"
-                .formatted(time(time), ControlTable.age(Duration.between(Instant.ofEpochMilli(time.longValue()), now)));
-    }
-
-    private static String time(JsonNode time) {
-        return Instant.ofEpochMilli(time.longValue()).toString().replaceFirst("\\.\\d+Z$", "Z");
+        return Counts.times(count) + (count == 1 ? ", " : ", last ") + page.ago(observed.path("last"));
     }
 
     /** Its two greatest units, as {@code 2 h 0 min}. */
@@ -154,11 +143,7 @@ public final class DevicePage {
         return name.asText().isEmpty() ? "–" : name.asText();
     }
 
-    private static String reason(JsonNode reason) {
-        return reason.isTextual() ? ": " + reason.textValue() : "";
-    }
-
     private void add(String label, String value) {
-        lines.add(("%-" + WIDTH + "s%s").formatted(label + ":", ControlTable.printable(value)));
+        page.add(label, value);
     }
 }

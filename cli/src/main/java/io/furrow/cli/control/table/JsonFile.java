@@ -31,7 +31,7 @@ public final class JsonFile {
     /** @throws IOException if there is none; the message names the file */
     public static JsonNode read(Path file) throws IOException {
         try {
-            return NgsiJson.read(Files.readAllBytes(file));
+            return NgsiJson.readFile(Files.readAllBytes(file));
         } catch (UnreadableException e) {
             throw new IOException(file + " is no JSON: " + e.getMessage(), e);
         } catch (FileSystemException e) {

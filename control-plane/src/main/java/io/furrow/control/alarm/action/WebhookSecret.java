@@ -14,6 +14,8 @@ import javax.crypto.spec.SecretKeySpec;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.file.FileProblem;
+
 /**
  * Signs request bodies with HMAC-SHA-256. The secret is a line of a file, at least 16 bytes. Two lines, old and new,
  * yield two signatures, so that a receiver can rotate the secret. The file is read for each signature; while it is
@@ -69,7 +71,8 @@ final class WebhookSecret {
                     .toList();
         } catch (IOException e) {
             throw new IOException(
-                    "%s cannot be read (%s). Name a file with the webhook's secret.".formatted(file, e), e);
+                    "%s cannot be read (%s). Name a file with the webhook's secret.".formatted(file, FileProblem.of(e)),
+                    e);
         }
         boolean tooShort = lines.stream().anyMatch(line -> line.getBytes(StandardCharsets.UTF_8).length < MIN_BYTES);
         if (lines.isEmpty() || lines.size() > MAX_LINES || tooShort) {

@@ -1,6 +1,5 @@
 package io.furrow.control.alarm.watch;
 
-import java.time.Duration;
 import java.util.List;
 import java.util.function.BiFunction;
 import java.util.function.Function;
@@ -35,10 +34,10 @@ public final class AnalyticsAlarms {
     public record Types(Function<ProcessorContext<?, ?>, Function<String, String>> opening, List<String> stores) {}
 
     /** @param collisions the records of {@code data.collision}, in a single partition */
-    public static void addEncounters(KStream<String, byte[]> collisions, Types types, Duration predictionHolds) {
+    public static void addEncounters(KStream<String, byte[]> collisions, Types types, WatchEncounters.Holds holds) {
         BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
             WatchEncounters watch = new WatchEncounters(
-                    AlarmManager.handler(context, outbox), types.opening().apply(context), predictionHolds);
+                    AlarmManager.handler(context, outbox), types.opening().apply(context), holds);
             return (record, now) -> {
                 if (record.value() != null) {
                     watch.take(Encounter.read(record.value(), RecordScope.of(record)), now);

@@ -10,23 +10,29 @@ import io.furrow.control.alarm.Cause;
 import io.furrow.model.control.AlarmKind;
 
 /**
- * Raises alarms for encounters. A collision lasts until the encounter has ended; records of an ongoing encounter raise
+ * Raises alarms for encounters. A collision lasts until the encounter has ended and the pair has kept its distance for a
+ * while: devices at the border of what is close have one alarm, not one per report. Records of an ongoing encounter raise
  * it too, if it was closed manually or began before the processor started. No record reports the end of a prediction:
- * it ends when it is not repeated for a while, or when the encounter starts.
+ * it ends when it is not repeated for a while, or when the encounter starts, and there is none while there is a collision.
  */
 public final class WatchEncounters {
     private final AlarmCommandHandler alarms;
     private final Function<String, String> types;
-    private final Duration predictionHolds;
+    private final Holds holds;
 
     /**
-     * @param types returns the type of a device's entity by tenant, service path and id
-     * @param predictionHolds how long a prediction stays valid without being repeated
+     * How long alarms last without a record of their encounter.
+     *
+     * @param prediction how long a prediction stays valid without being repeated
+     * @param collision how long a collision lasts after the end of its encounter
      */
-    public WatchEncounters(AlarmCommandHandler alarms, Function<String, String> types, Duration predictionHolds) {
+    public record Holds(Duration prediction, Duration collision) {}
+
+    /** @param types returns the type of a device's entity by tenant, service path and id */
+    public WatchEncounters(AlarmCommandHandler alarms, Function<String, String> types, Holds holds) {
         this.alarms = alarms;
         this.types = types;
-        this.predictionHolds = predictionHolds;
+        this.holds = holds;
     }
 
     /** @param now epoch ms */
@@ -35,11 +41,16 @@ public final class WatchEncounters {
         switch (encounter.phase()) {
             case "started" -> {
                 alarms.end(AlarmKind.PREDICTED_ENCOUNTER, pair, "the encounter has started", now);
-                alarms.raise(cause(AlarmKind.COLLISION, encounter, null), now);
+                alarms.raiseAnew(cause(AlarmKind.COLLISION, encounter, null), now);
             }
             case "ongoing" -> alarms.raise(cause(AlarmKind.COLLISION, encounter, null), now);
-            case "ended" -> alarms.end(AlarmKind.COLLISION, pair, "the encounter has ended", now);
-            case "predicted" -> alarms.raise(cause(AlarmKind.PREDICTED_ENCOUNTER, encounter, predictionHolds), now);
+            case "ended" ->
+                alarms.endAt(AlarmKind.COLLISION, pair, now + holds.collision().toMillis());
+            case "predicted" -> {
+                if (!alarms.isRaised(AlarmKind.COLLISION, pair)) {
+                    alarms.raise(cause(AlarmKind.PREDICTED_ENCOUNTER, encounter, holds.prediction()), now);
+                }
+            }
             default -> {} // other phases neither raise nor end an alarm
         }
     }

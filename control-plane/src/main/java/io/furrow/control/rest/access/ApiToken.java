@@ -16,6 +16,7 @@ import java.util.regex.Pattern;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.file.FileProblem;
 import io.furrow.model.file.PrivateFile;
 
 /**
@@ -71,7 +72,7 @@ public record ApiToken(String name, byte[] secret, Role role, boolean forUsers) 
         try {
             return Files.readAllLines(file);
         } catch (IOException e) {
-            throw new IOException("the file of tokens %s cannot be read (%s)".formatted(file, e), e);
+            throw new IOException("the file of tokens %s cannot be read (%s)".formatted(file, FileProblem.of(e)), e);
         }
     }
 

@@ -23,6 +23,8 @@ import org.apache.kafka.common.config.types.Password;
 import org.apache.kafka.common.security.auth.SslEngineFactory;
 import org.apache.kafka.common.security.ssl.DefaultSslEngineFactory;
 
+import io.furrow.model.text.FailureText;
+
 /**
  * With which certificate the REST API is reached over TLS: a certificate chain and its key in PEM, or both in a keystore.
  *
@@ -102,7 +104,7 @@ public record CertificateFiles(Path certificate, Path key, Path keystore, Path p
         while (cause.getCause() != null) {
             cause = cause.getCause();
         }
-        return cause.getMessage();
+        return FailureText.of(cause);
     }
 
     /** Both are replaced one after the other, so that for a moment they may not be a pair. */

@@ -48,6 +48,7 @@ public final class BrokerEntities {
     private static final int TREE_TO_BODY = 4;
 
     private static final int PAIR = 2;
+    private static final int MAX_QUOTED = 256;
     /** The paths that a header can carry. */
     private static final Pattern PATH = Pattern.compile("/[!-~]*");
 
@@ -93,11 +94,13 @@ public final class BrokerEntities {
 
     /** The current entities of an id, in the order of their times; empty if it was deleted. */
     public List<EntityState> ofId(FiwareScope place, String id) throws BrokerException, InterruptedException {
-        Optional<JsonNode> answer = ask(place, EntityRequests.ofId(id, told), TREE_TO_BODY * maxBytes);
-        if (answer.isPresent()) {
-            List<EntityState> states = states(answer.get(), MODIFIED, Instant.EPOCH);
+        try {
+            JsonNode answer = ask(place, EntityRequests.ofId(id, told), TREE_TO_BODY * maxBytes);
+            List<EntityState> states = states(answer, MODIFIED, Instant.EPOCH);
             states.sort(Comparator.comparing(EntityState::time));
             return states;
+        } catch (UnreadableException e) {
+            inParts(e);
         }
         List<EntityState> states = new ArrayList<>();
         for (EntityState stub : stubsOfId(place, id, MODIFIED)) {
@@ -124,13 +127,12 @@ public final class BrokerEntities {
     private Page page(Range range, Told wanted) throws BrokerException, InterruptedException {
         int limit = Math.min(range.limit(), fitting);
         while (true) {
-            Optional<JsonNode> answer =
-                    ask(scope, EntityRequests.page(range.first(limit), subject, wanted), TREE_TO_BODY * maxBytes);
-            if (answer.isPresent()) {
-                return new Page(
-                        states(answer.get(), range.order(), range.from()),
-                        limit,
-                        answer.get().size() >= limit);
+            try {
+                JsonNode answer =
+                        ask(scope, EntityRequests.page(range.first(limit), subject, wanted), TREE_TO_BODY * maxBytes);
+                return new Page(states(answer, range.order(), range.from()), limit, answer.size() >= limit);
+            } catch (UnreadableException e) {
+                inParts(e);
             }
             if (limit == PAIR) {
                 return pair(range.first(PAIR));
@@ -160,15 +162,13 @@ public final class BrokerEntities {
      */
     private Optional<EntityState> whole(EntityState stub) throws BrokerException, InterruptedException {
         String path = EntityRequests.ofType(stub.entity().id(), stub.entity().type(), told);
-        Optional<JsonNode> answer = ask(stub.scope(), path, TREE_TO_BODY * maxBytes / PAIR);
-        if (answer.isEmpty()) {
-            String problem = "it is larger than " + maxBytes
-                    + " bytes, or holds a text, number or nesting beyond what is read; see repair.page.max.bytes";
-            return Optional.of(new EntityState(stub.entity(), stub.scope(), stub.time(), Optional.of(problem)));
+        try {
+            return states(ask(stub.scope(), path, TREE_TO_BODY * maxBytes / PAIR), MODIFIED, stub.time()).stream()
+                    .findFirst()
+                    .map(state -> new EntityState(state.entity(), state.scope(), stub.time(), state.problem()));
+        } catch (UnreadableException e) {
+            return Optional.of(new EntityState(stub.entity(), stub.scope(), stub.time(), Optional.of(e)));
         }
-        return states(answer.get(), MODIFIED, stub.time()).stream()
-                .findFirst()
-                .map(state -> new EntityState(state.entity(), state.scope(), stub.time(), state.problem()));
     }
 
     /** An entity without a time gets the time of its predecessor, or the least. */
@@ -201,10 +201,16 @@ public final class BrokerEntities {
         } catch (UnreadableException e) {
             Entity stub = new Entity(JsonNodeFactory.instance
                     .objectNode()
-                    .put("id", json.path("id").asText())
+                    .put("id", idOf(json.path("id")))
                     .put("type", json.path("type").asText()));
-            return new EntityState(stub, place, time, Optional.of(e.getMessage()));
+            return new EntityState(stub, place, time, Optional.of(e));
         }
+    }
+
+    /** An id that is no text as the beginning of its JSON, so that the entity can be found. */
+    private static String idOf(JsonNode id) {
+        String text = id.isContainerNode() ? id.toString() : id.asText();
+        return text.substring(0, Math.min(text.length(), MAX_QUOTED));
     }
 
     private JsonNode stubs(FiwareScope place, String path) throws BrokerException, InterruptedException {
@@ -212,28 +218,32 @@ public final class BrokerEntities {
         return BrokerException.list(what, BrokerException.success(what, answer(BrokerRequest.get(place, path))));
     }
 
-    /** Empty if the answer is too large or cannot be read. */
-    private Optional<JsonNode> ask(FiwareScope place, String path, long maxHeap)
-            throws BrokerException, InterruptedException {
+    private static void inParts(UnreadableException why) {
+        LOG.debug("an answer cannot be read and is requested in parts", why);
+    }
+
+    /** @throws UnreadableException if the answer is too large or cannot be read */
+    private JsonNode ask(FiwareScope place, String path, long maxHeap)
+            throws BrokerException, InterruptedException, UnreadableException {
         Outcome outcome = answer(BrokerRequest.get(place, path));
         if (outcome instanceof Outcome.Refused refused && refused.isTooLarge()) {
-            return Optional.empty();
+            throw tooLarge();
         }
         Outcome.Done done = BrokerException.success("read entities of tenant '" + scope.service() + "'", outcome);
         byte[] body = done.body();
         long heap = TreeEstimate.of(body);
         if (body.length > maxBytes || heap > maxHeap) {
-            return Optional.empty();
+            throw tooLarge();
         }
         if (heap < maxBytes && fitting < Integer.MAX_VALUE / 2) {
             fitting *= 2;
         }
-        try {
-            return Optional.of(done.list());
-        } catch (UnreadableException e) {
-            LOG.debug("an answer cannot be read and is requested in parts", e);
-            return Optional.empty();
-        }
+        return done.list();
+    }
+
+    private UnreadableException tooLarge() {
+        return new UnreadableException(
+                Reason.TOO_LARGE, "it is larger than " + maxBytes + " bytes; see repair.page.max.bytes");
     }
 
     private Outcome answer(BrokerRequest request) throws InterruptedException {

@@ -29,6 +29,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.model.text.FailureText;
 
 /** An HTTP/1.1 server on one address; closing it frees the port within a second. */
 public final class NotificationServer implements AutoCloseable {
@@ -156,7 +157,7 @@ public final class NotificationServer implements AutoCloseable {
             } catch (IOException e) {
                 boolean taken = e instanceof BindException || e.getCause() instanceof BindException;
                 if (!taken || System.nanoTime() > deadline || !pause()) {
-                    throw new IOException("cannot listen on " + address + ": " + e.getMessage(), e);
+                    throw new IOException("cannot listen on " + address + ": " + FailureText.of(e), e);
                 }
             }
         }

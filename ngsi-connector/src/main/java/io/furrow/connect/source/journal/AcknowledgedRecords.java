@@ -29,6 +29,7 @@ import io.furrow.connect.journal.JournalReader;
 import io.furrow.connect.journal.JournalRecord;
 import io.furrow.connect.source.OutgoingRecord;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.text.FailureText;
 
 /**
  * Looks on the topics for the records that Kafka acknowledged last. A broker that lost power, and has no replica, may come back
@@ -79,7 +80,7 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
                     "journal {}: cannot see whether Kafka still has what it acknowledged last: {}; allow the user of"
                             + " admin.override.* to read the topics {}",
                     journal.id(),
-                    e.getMessage(),
+                    FailureText.of(e),
                     topics);
             return committed;
         } catch (KafkaException e) {

@@ -15,6 +15,7 @@ import org.apache.kafka.common.config.types.Password;
 
 import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
+import io.furrow.model.file.FileProblem;
 
 import static java.util.regex.Pattern.compile;
 
@@ -113,7 +114,8 @@ public record SecurityOptions(AbstractConfig config) {
                     .map(Password::new)
                     .toList();
         } catch (IOException e) {
-            throw new ConfigException(SECRET_FILE, file, "cannot be read (" + e + "); name a file with a secret");
+            throw new ConfigException(
+                    SECRET_FILE, file, "cannot be read (" + FileProblem.of(e) + "); name a file with a secret");
         }
         if (secrets.isEmpty() || secrets.size() > 2) {
             throw new ConfigException(SECRET_FILE, file, "holds no secret: one line, or two during a change");

@@ -1,0 +1,42 @@
+package io.furrow.cli.control.table;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+/** Lines {@code label: value} of the page of one thing. */
+final class PageLines {
+    private static final int WIDTH = 16;
+
+    private final Instant now;
+    private final List<String> lines = new ArrayList<>();
+
+    PageLines(Instant now) {
+        this.now = now;
+    }
+
+    void add(String label, String value) {
+        lines.add(("%-" + WIDTH + "s%s").formatted(label + ":", ControlTable.printable(value)));
+    }
+
+    List<String> all() {
+        return lines;
+    }
+
+    /** A time with how long ago it was, or how far ahead it is. */
+    String ago(JsonNode time) {
+        Duration ago = Duration.between(Instant.ofEpochMilli(time.longValue()), now);
+        return (ago.isNegative() ? "%s (in %s)" : "%s (%s ago)").formatted(time(time), ControlTable.age(ago.abs()));
+    }
+
+    static String time(JsonNode time) {
+        return Instant.ofEpochMilli(time.longValue()).toString().replaceFirst("\\.\\d+Z$", "Z");
+    }
+
+    static String reason(JsonNode reason) {
+        return reason.isTextual() ? ": " + reason.textValue() : "";
+    }
+}
