@@ -19,6 +19,7 @@ import io.furrow.connect.sink.Change;
 import io.furrow.connect.sink.EntityKey;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 /** Reads the times of entities that are not cached, or have expired, from the context broker, many per request. */
 final class EntityTimesLoader {
@@ -98,7 +99,7 @@ final class EntityTimesLoader {
             api.times(ids, done).forEach((id, times) -> found.put(new EntityKey(scope, id), times));
         } catch (UnreadableException e) {
             throw new WrongSettingException("what should be a context broker answers a query with no entities: "
-                    + LogText.beginning(e.toString()));
+                    + LogText.beginning(FailureText.of(e)));
         }
     }
 
