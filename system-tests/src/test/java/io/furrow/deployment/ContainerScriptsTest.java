@@ -57,8 +57,9 @@ class ContainerScriptsTest {
         completed("ingest/other/chk-1", 0);
 
         assertThat(submit("jobs/analytics.jar", "presence"))
-                .isEqualTo("run -d -s file://%s jobs/analytics.jar presence --checkpoint-dir file://%s/presence\n"
-                        .formatted(newest, checkpoints));
+                .isEqualTo(
+                        "run -d -s file://%s -claimMode claim jobs/analytics.jar presence --checkpoint-dir file://%s/presence\n"
+                                .formatted(newest, checkpoints));
     }
 
     @Test
