@@ -21,6 +21,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 /** The part of Flink's REST API that uploads a jar, runs it, lists jobs and cancels them. */
 final class FlinkRest {
@@ -150,11 +151,7 @@ final class FlinkRest {
 
     /** Flink answers with whole stack traces. */
     private static String cause(String body) {
-        String text = body.replace("\\n", "\n");
-        String told = text.lines()
-                .filter(line -> line.startsWith("Caused by: "))
-                .reduce((first, second) -> second)
-                .orElse(text);
+        String told = FailureText.ofTrace(body.replace("\\n", "\n"));
         return told.length() <= 300 ? told : told.substring(0, 300) + " …";
     }
 }

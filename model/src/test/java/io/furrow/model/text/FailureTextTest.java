@@ -17,10 +17,27 @@ class FailureTextTest {
                 .isEqualTo("Topic x not present");
         assertThat(FailureText.of(new IllegalStateException(new ConnectException())))
                 .isEqualTo("connection refused");
+        assertThat(FailureText.of(new ConnectException().initCause(new ClosedChannelException())))
+                .isEqualTo("connection refused");
         assertThat(FailureText.of(new ClosedChannelException())).isEqualTo("closed channel");
         assertThat(FailureText.of(new UnknownHostException("farm.lan"))).isEqualTo("there is no host of this name");
         assertThat(FailureText.of(new IOException("java.util.concurrent.TimeoutException: too late at farm.lan:9092")))
                 .isEqualTo("too late at farm.lan:9092");
+    }
+
+    @Test
+    void namesTheDeepestCauseOfAStackTrace() {
+        String trace =
+                "org.apache.kafka.connect.errors.ConnectException: Exiting WorkerSinkTask\n\tat org.apache.Some.run(Some.java:1)\n";
+        assertThat(FailureText.ofTrace(trace)).isEqualTo("Exiting WorkerSinkTask");
+        assertThat(
+                        FailureText.ofTrace(
+                                trace
+                                        + "Caused by: io.furrow.connect.Outer: a\n\tat x\nCaused by: io.furrow.connect.Inner: the broker answers 401"))
+                .isEqualTo("the broker answers 401");
+        assertThat(FailureText.ofTrace("java.lang.NullPointerException\n\tat x"))
+                .isEqualTo("null pointer");
+        assertThat(FailureText.ofTrace("")).isEmpty();
     }
 
     @Test

@@ -10,6 +10,7 @@ import org.apache.kafka.common.KafkaException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.text.FailureText;
 import io.furrow.model.time.Backoff;
 import io.furrow.simulators.fleet.FarmFleet;
 
@@ -126,7 +127,7 @@ public final class DeviceHost implements AutoCloseable {
             now.run(this::isClosing);
             return true;
         } catch (RuntimeException e) { // restarted whatever the cause
-            lastFailure = e.toString();
+            lastFailure = FailureText.of(e);
             LOG.error("the host of devices failed and restarts", e);
             return false;
         }
