@@ -8,9 +8,11 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
+import java.util.stream.Stream;
 
 import io.furrow.model.event.FiwareScope;
 import io.furrow.provisioner.AgentClient.Group;
+import io.furrow.provisioner.Removals.Kept;
 
 /**
  * The groups and devices that the IoT Agent has in one scope: read once, then updated with what is changed. Changes only what was made
@@ -20,6 +22,7 @@ final class AgentRegistry {
     private final AgentClient agent;
     private final FiwareScope scope;
     private final Registrations registrations;
+    private final Removals removals;
     private final Map<String, Registration> devices = new HashMap<>();
     /** Resource and API key of each group. */
     private final Set<GroupKey> groups = new HashSet<>();
@@ -32,16 +35,17 @@ final class AgentRegistry {
         }
     }
 
-    private AgentRegistry(AgentClient agent, FiwareScope scope, Registrations registrations) {
+    private AgentRegistry(AgentClient agent, FiwareScope scope, Registrations registrations, Removals removals) {
         this.agent = agent;
         this.scope = scope;
         this.registrations = registrations;
+        this.removals = removals;
     }
 
     /** Reads what the agent has. */
-    static AgentRegistry read(AgentClient agent, FiwareScope scope, Registrations registrations)
+    static AgentRegistry read(AgentClient agent, FiwareScope scope, Registrations registrations, Removals removals)
             throws IOException, RefusedByAgentException, InterruptedException {
-        AgentRegistry registry = new AgentRegistry(agent, scope, registrations);
+        AgentRegistry registry = new AgentRegistry(agent, scope, registrations, removals);
         registry.readDevices();
         registry.readGroups();
         return registry;
@@ -156,6 +160,11 @@ final class AgentRegistry {
                     "somebody else has provisioned a device '%s' at the IoT Agent; remove it there, or give this one another id"
                             .formatted(device.device()));
         }
+        if (there != null && !there.mission().equals(device.mission()) && !removals.allows(there)) {
+            throw new RefusedByAgentException(
+                    "the IoT Agent has '%s' as a device of mission '%s', of which this Kafka knows nothing; check --kafka, or give this one another id"
+                            .formatted(device.device(), there.mission()));
+        }
         Group group = agent.groupOf(device);
         if (!groups.contains(GroupKey.of(group))) {
             add(group);
@@ -199,7 +208,7 @@ final class AgentRegistry {
                 failure = e.getMessage();
             }
         }
-        for (Group group : unneeded(apiKeys)) {
+        for (Group group : unneeded(desired, apiKeys)) {
             boolean empty =
                     leftovers(desired).stream().noneMatch(left -> left.apiKey().equals(group.apiKey()));
             if (empty && !budget.isSpent()) {
@@ -217,20 +226,48 @@ final class AgentRegistry {
 
     /** Whether all of ours that is here is desired. */
     boolean isClean(Set<String> desired, Set<String> apiKeys) {
-        return leftovers(desired).isEmpty() && unneeded(apiKeys).isEmpty();
+        return leftovers(desired).isEmpty() && unneeded(desired, apiKeys).isEmpty();
     }
 
     private List<Registration> leftovers(Set<String> desired) {
+        return unwanted(desired).filter(removals::allows).toList();
+    }
+
+    private Stream<Registration> unwanted(Set<String> desired) {
         return devices.values().stream()
                 .filter(device -> !desired.contains(device.device()))
-                .filter(device -> registrations.isOurs(device.apiKey(), device.mission()))
-                .toList();
+                .filter(device -> registrations.isOurs(device.apiKey(), device.mission()));
     }
 
     /** Groups of missions that have no devices, and of a resource that was set before. */
-    private List<Group> unneeded(Set<String> apiKeys) {
-        return ownGroups.values().stream()
-                .filter(group -> !apiKeys.contains(group.apiKey()) || !agent.isOfItsResource(group))
+    private List<Group> unneeded(Set<String> desired, Set<String> apiKeys) {
+        return unwantedGroups(apiKeys)
+                .filter(group -> mayBeRemoved(group, desired))
                 .toList();
+    }
+
+    private boolean mayBeRemoved(Group group, Set<String> desired) {
+        return removals.allows(group)
+                && keptDevices(desired).noneMatch(device -> device.apiKey().equals(group.apiKey()));
+    }
+
+    private Stream<Registration> keptDevices(Set<String> desired) {
+        return unwanted(desired).filter(device -> !removals.allows(device));
+    }
+
+    private Stream<Group> unwantedGroups(Set<String> apiKeys) {
+        return ownGroups.values().stream()
+                .filter(group -> !apiKeys.contains(group.apiKey()) || !agent.isOfItsResource(group));
+    }
+
+    /** Those of ours that are not desired and stay. */
+    Kept kept(Set<String> desired, Set<String> apiKeys) {
+        return new Kept(
+                List.of(),
+                keptDevices(desired).map(Registration::device).toList(),
+                unwantedGroups(apiKeys)
+                        .filter(group -> !mayBeRemoved(group, desired))
+                        .map(Group::mission)
+                        .toList());
     }
 }

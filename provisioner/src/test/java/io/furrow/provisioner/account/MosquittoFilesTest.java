@@ -142,6 +142,13 @@ class MosquittoFilesTest {
     }
 
     @Test
+    void waitsForNoCommandThatTalks() throws IOException {
+        files("yes | head -c 200000").replace(List.of(device));
+        assertThatThrownBy(() -> files("yes | head -c 200000; exit 3").replace(List.of(device)))
+                .hasMessageStartingWith("the command of --mqtt-reload ended with 3: y");
+    }
+
+    @Test
     void refusesAUserThatStandsOutsideOfItsSectionOfEitherFile() throws IOException {
         String user = device.login().user();
         Files.write(passwords(), List.of(MosquittoPassword.line(new FarmSecret.Login(user, "plough"))));
