@@ -53,7 +53,7 @@ final class AlarmLimit {
      *
      * @param key kind and subject
      * @param until end of validity, epoch ms; null if it lasts until ended explicitly
-     * @param seen when it was last reported, epoch ms, to {@link #SEEN_INTERVAL}
+     * @param seen when it was last reported, epoch ms, to {@link #SEEN_INTERVAL}, and to a tenth of its validity
      */
     record Counted(String key, AlarmKind kind, String group, List<Cause.Device> devices, Long until, long seen) {}
 
@@ -96,7 +96,9 @@ final class AlarmLimit {
     }
 
     private static boolean isNews(Counted before, Counted now) {
-        return !Objects.equals(before.until(), now.until()) || now.seen() - before.seen() >= SEEN_INTERVAL;
+        boolean isOfAnotherKind = (before.until() == null) != (now.until() == null);
+        long interval = now.until() == null ? SEEN_INTERVAL : Math.min(SEEN_INTERVAL, (now.until() - now.seen()) / 10);
+        return isOfAnotherKind || now.seen() - before.seen() >= interval;
     }
 
     /**
@@ -212,8 +214,8 @@ final class AlarmLimit {
             case PREDICTED_ENCOUNTER -> "%s encounters of %s are predicted";
             case SUSPECT_SENSOR -> "%s sensors of %s deviate from the others";
             case CLOCK_BEHIND -> "reports of %s devices of %s arrive too late and are dropped";
-            case MISSING_DEVICES, SILENT_DEVICE, SILENT_MISSION, SILENT_FARM ->
-                throw new IllegalStateException("kinds of many devices have group alarms of their own: " + group.key());
+            case MISSING_DEVICES, SILENT_DEVICE, SILENT_MISSION, SILENT_FARM, FAULT ->
+                throw new IllegalStateException("alarms of this kind are not counted by group: " + group.key());
         };
         return what.formatted(number, AlarmGroup.label(group.group()));
     }
