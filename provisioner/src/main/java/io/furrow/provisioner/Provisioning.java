@@ -90,8 +90,8 @@ final class Provisioning {
     /** What the brokers' files say of it counts more than what Kafka says of itself. */
     private void start() throws IOException {
         if (!started) {
-            Set<String> clusters = accounts.clusters();
-            boolean same = clusters.isEmpty() ? origin.provisioned() : clusters.equals(Set.of(origin.cluster()));
+            Set<String> noted = accounts.origins();
+            boolean same = noted.isEmpty() ? origin.provisioned() : noted.equals(Set.of(origin.topic()));
             removals.startAnew(forgets || same);
             started = true;
             settled = false;
@@ -153,7 +153,7 @@ final class Provisioning {
         if (done && kept.isEmpty() && !settled) {
             settled = true;
             removals.allowAll();
-            accounts.noteCluster(origin.cluster());
+            accounts.noteOrigin(origin.topic());
         }
         return new Outcome(refused, stuck, kept.isEmpty() ? null : kept, done);
     }

@@ -22,6 +22,7 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.Uuid;
 import org.apache.kafka.common.errors.InterruptException;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
@@ -53,7 +54,7 @@ final class ProvisioningLoop implements AutoCloseable {
 
     private static final String TAKEN_OVER_AFTER_MS = "10000";
     private static final Duration POLL_INTERVAL = Duration.ofMillis(500);
-    private static final Duration CLUSTER_TIMEOUT = Duration.ofSeconds(15);
+    private static final Duration ADMIN_TIMEOUT = Duration.ofSeconds(15);
     private static final Duration REPORT_INTERVAL = Duration.ofMinutes(1);
 
     private final KafkaConsumer<String, byte[]> consumer;
@@ -239,13 +240,17 @@ final class ProvisioningLoop implements AutoCloseable {
 
     private Removals.Origin origin(Collection<TopicPartition> partitions) {
         try (Admin admin = Admin.create(client)) {
-            String cluster = admin.describeCluster().clusterId().get(CLUSTER_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS);
+            Uuid topic = admin.describeTopics(List.of(Topics.DEVICES))
+                    .topicNameValues()
+                    .get(Topics.DEVICES)
+                    .get(ADMIN_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS)
+                    .topicId();
             boolean provisioned = consumer.committed(Set.copyOf(partitions)).values().stream()
                     .anyMatch(committed ->
                             committed != null && committed.metadata().equals(agent));
-            return new Removals.Origin(cluster == null ? "" : cluster, provisioned);
+            return new Removals.Origin(Uuid.ZERO_UUID.equals(topic) ? "" : topic.toString(), provisioned);
         } catch (ExecutionException | TimeoutException e) {
-            throw new KafkaException("the id of the Kafka cluster cannot be found out: " + FailureText.of(e), e);
+            throw new KafkaException(Topics.DEVICES + " cannot be described: " + FailureText.of(e), e);
         } catch (InterruptedException e) {
             throw new InterruptException(e);
         }

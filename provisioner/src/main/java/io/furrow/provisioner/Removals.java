@@ -22,10 +22,10 @@ final class Removals {
     /**
      * The Kafka of which the desired devices are.
      *
-     * @param cluster its id
+     * @param topic id of its topic of devices, another one where that was made again; empty if it is not known
      * @param provisioned whether it is known that its devices were provisioned at this IoT Agent before
      */
-    record Origin(String cluster, boolean provisioned) {
+    record Origin(String topic, boolean provisioned) {
         static final Origin UNKNOWN = new Origin("", false);
     }
 

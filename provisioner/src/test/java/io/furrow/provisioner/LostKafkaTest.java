@@ -3,6 +3,7 @@ package io.furrow.provisioner;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.time.Instant;
 import java.util.List;
 import java.util.Properties;
 
@@ -10,6 +11,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.provisioner.Provisioning.Outcome;
 import io.furrow.provisioner.Removals.Origin;
@@ -20,7 +22,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** A Kafka that is empty, or not the one for which devices were provisioned. */
 class LostKafkaTest extends ProvisioningFixture {
-    private static final Origin EMPTY = new Origin("cluster-2", false);
+    private static final Origin EMPTY = new Origin("topic-2", false);
 
     @TempDir
     Path directory;
@@ -29,7 +31,7 @@ class LostKafkaTest extends ProvisioningFixture {
     void keepsTheAccountsAndDevicesThatAnotherKafkaWanted() throws Exception {
         provisionTen();
 
-        provisioning = provisioning(files(false), new Origin("cluster-2", true));
+        provisioning = provisioning(files(false), new Origin("topic-2", true));
         Outcome outcome = provisioning.step();
 
         assertThat(users()).hasSize(10);
@@ -95,8 +97,8 @@ class LostKafkaTest extends ProvisioningFixture {
         wantTen();
         assertThat(provisioning(files(false), EMPTY).step()).isEqualTo(DONE);
         assertThat(Files.readString(passwords()))
-                .contains("Kafka cluster cluster-2")
-                .doesNotContain("cluster-1");
+                .contains("the topic topic-2")
+                .doesNotContain("topic-1");
 
         wanted.clear();
         assertThat(provisioning(files(false), EMPTY).step()).isEqualTo(DONE);
@@ -139,12 +141,25 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(users()).isEmpty();
         wanted.clear();
         want(device);
-        assertThat(provisioning(files(true), new Origin("cluster-3", false))
+        assertThat(provisioning(files(true), new Origin("topic-3", false))
                         .step()
                         .refused())
                 .as("though no account of it was left")
                 .isNotEmpty();
         assertThat(users()).isEmpty();
+    }
+
+    @Test
+    void removesOnlyAccountsOfAKeyWhoseTimeIsOver() throws Exception {
+        provisionTen();
+        FarmSecret rotated =
+                Wanted.SECRET.rotated(Instant.now(), Instant.EPOCH, false).at(Instant.now());
+
+        Outcome outcome =
+                provisioning(files(SecretSource.of(rotated), false), EMPTY).step();
+
+        assertThat(users()).isEmpty();
+        assertThat(outcome.kept().devices()).hasSize(10);
     }
 
     private static String user(WantedDevice device, int generation) {
@@ -167,11 +182,15 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     private ProvisioningSettings files(boolean forgets) {
+        return files(SecretSource.of(Wanted.SECRET), forgets);
+    }
+
+    private ProvisioningSettings files(SecretSource secret, boolean forgets) {
         List<MqttAccounts> files = List.of(new MosquittoFiles(passwords(), directory.resolve("rules"), null));
         return new ProvisioningSettings(
                 new Properties(),
                 Wanted.SCOPE,
-                SecretSource.of(Wanted.SECRET),
+                secret,
                 AgentSettings.at(agent.uri()),
                 files,
                 false,

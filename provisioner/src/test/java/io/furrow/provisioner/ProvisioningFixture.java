@@ -27,7 +27,7 @@ import io.furrow.provisioner.account.MqttAccounts;
 abstract class ProvisioningFixture {
     static final Outcome DONE = new Outcome(Map.of(), null, null, true);
     /** The Kafka whose devices were provisioned before. */
-    static final Removals.Origin SAME = new Removals.Origin("cluster-1", true);
+    static final Removals.Origin SAME = new Removals.Origin("topic-1", true);
 
     static final String KEY = Wanted.SECRET.apiKey("hoeing");
 

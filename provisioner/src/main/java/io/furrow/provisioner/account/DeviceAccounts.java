@@ -48,19 +48,19 @@ public final class DeviceAccounts {
         kept.clear();
     }
 
-    /** The Kafka clusters whose devices the brokers' accounts are noted to be of. */
-    public Set<String> clusters() throws IOException {
-        Set<String> clusters = new HashSet<>();
+    /** The ids of the topics whose devices the brokers' accounts are noted to be of. */
+    public Set<String> origins() throws IOException {
+        Set<String> origins = new HashSet<>();
         for (MqttAccounts broker : brokers) {
-            broker.cluster().ifPresent(clusters::add);
+            broker.origin().ifPresent(origins::add);
         }
-        return clusters;
+        return origins;
     }
 
-    /** Notes that all accounts are of devices of a Kafka cluster; an unknown one is empty. */
-    public void noteCluster(String cluster) throws IOException {
-        for (MqttAccounts broker : cluster.isEmpty() ? List.<MqttAccounts>of() : brokers) {
-            broker.noteCluster(cluster);
+    /** Notes that all accounts are of devices of a topic. @param topic its id; empty if it is not known */
+    public void noteOrigin(String topic) throws IOException {
+        for (MqttAccounts broker : topic.isEmpty() ? List.<MqttAccounts>of() : brokers) {
+            broker.noteOrigin(topic);
         }
     }
 
@@ -82,7 +82,7 @@ public final class DeviceAccounts {
     /**
      * Removes the accounts that none of the desired devices has any more.
      *
-     * @param all whether those too that no desired device has had since the start
+     * @param all whether those too that no desired device has had since the start, and whose key is accepted
      */
     public void revoke(Collection<WantedDevice> wanted, boolean all) throws IOException {
         Set<String> users = new HashSet<>(byUser(wanted).keySet());
@@ -96,12 +96,15 @@ public final class DeviceAccounts {
                             .toList();
             kept.clear();
             for (MqttAccounts broker : brokers) {
-                kept.addAll(broker.retain(
-                        users, user -> all || own.contains(UserName.of(user).owner())));
+                kept.addAll(broker.retain(users, user -> all || mayGo(UserName.of(user))));
             }
         }
         kept.removeAll(users);
         allowed = users;
+    }
+
+    private boolean mayGo(UserName user) {
+        return own.contains(user.owner()) || !secret.get().acceptedKeys().contains(user.key());
     }
 
     /**

@@ -152,14 +152,14 @@ public final class MosquittoFiles implements MqttAccounts {
     }
 
     @Override
-    public synchronized Optional<String> cluster() throws IOException {
-        return SectionNotes.of(passwords.read()).cluster();
+    public synchronized Optional<String> origin() throws IOException {
+        return SectionNotes.of(passwords.read()).origin();
     }
 
     @Override
-    public synchronized void noteCluster(String cluster) throws IOException {
+    public synchronized void noteOrigin(String topic) throws IOException {
         List<String> before = passwords.read();
-        write(passwords, SectionNotes.of(before).with(cluster).before(passwordsOf(before, any -> true)));
+        write(passwords, SectionNotes.of(before).with(topic).before(passwordsOf(before, any -> true)));
     }
 
     /** The user with which a line of the rules begins; null if it begins none. */

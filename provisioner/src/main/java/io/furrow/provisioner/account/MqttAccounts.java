@@ -38,11 +38,11 @@ public interface MqttAccounts {
         retain(users, any -> true);
     }
 
-    /** Id of the Kafka cluster whose devices have the accounts, where that was noted. */
-    default Optional<String> cluster() throws IOException {
+    /** Id of the topic whose devices have the accounts, where that was noted. */
+    default Optional<String> origin() throws IOException {
         return Optional.empty();
     }
 
-    /** Notes that all accounts are of devices of a Kafka cluster. */
-    default void noteCluster(String cluster) throws IOException {}
+    /** Notes that all accounts are of devices of a topic. @param topic its id */
+    default void noteOrigin(String topic) throws IOException {}
 }

@@ -10,45 +10,45 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * What Furrow's section of a password file says in comments, because it must outlive Kafka: of which cluster the accounts are, and from
+ * What Furrow's section of a password file says in comments, because it must outlive Kafka: of the devices of which topic the accounts are, and from
  * which generation on logins of a device are accepted. A login that was revoked is not accepted again by a Kafka that has lost that.
  *
- * @param ofCluster null if it is not noted
+ * @param topic its id; null if it is not noted
  * @param generations the latest, by device; those whose credentials were never rotated are not there
  */
-record SectionNotes(String ofCluster, Map<String, Integer> generations) {
-    private static final String CLUSTER = "# Furrow: devices of the Kafka cluster ";
+record SectionNotes(String topic, Map<String, Integer> generations) {
+    private static final String TOPIC = "# Furrow: devices of the topic ";
     private static final Pattern GENERATION =
             Pattern.compile("# Furrow: (\\S+) logs in with generation (\\d{1,9}) or later");
 
     /** @param lines of the section */
     static SectionNotes of(List<String> lines) {
-        String cluster = null;
+        String topic = null;
         Map<String, Integer> generations = new TreeMap<>();
         List<String> users = new ArrayList<>();
         for (String line : lines) {
             Matcher generation = GENERATION.matcher(line);
-            if (line.startsWith(CLUSTER)) {
-                cluster = line.substring(CLUSTER.length()).strip();
+            if (line.startsWith(TOPIC)) {
+                topic = line.substring(TOPIC.length()).strip();
             } else if (generation.matches()) {
                 generations.merge(generation.group(1), Integer.valueOf(generation.group(2)), Math::max);
             } else {
                 users.add(MosquittoPassword.user(line));
             }
         }
-        return new SectionNotes(cluster, generations).with(users);
+        return new SectionNotes(topic, generations).with(users);
     }
 
     static boolean isNote(String line) {
         return line.startsWith("#");
     }
 
-    Optional<String> cluster() {
-        return Optional.ofNullable(ofCluster);
+    Optional<String> origin() {
+        return Optional.ofNullable(topic);
     }
 
-    SectionNotes with(String newCluster) {
-        return new SectionNotes(newCluster, generations);
+    SectionNotes with(String newTopic) {
+        return new SectionNotes(newTopic, generations);
     }
 
     /** Notes the generations of users. */
@@ -60,7 +60,7 @@ record SectionNotes(String ofCluster, Map<String, Integer> generations) {
                 next.merge(name.owner(), name.generation(), Math::max);
             }
         }
-        return new SectionNotes(ofCluster, next);
+        return new SectionNotes(topic, next);
     }
 
     /** Why a user may not log in; empty if he may. */
@@ -78,7 +78,7 @@ record SectionNotes(String ofCluster, Map<String, Integer> generations) {
     /** The lines of a section that has these notes. */
     List<String> before(List<String> accounts) {
         List<String> lines = new ArrayList<>();
-        cluster().ifPresent(cluster -> lines.add(CLUSTER + cluster));
+        origin().ifPresent(id -> lines.add(TOPIC + id));
         generations.forEach((device, generation) ->
                 lines.add("# Furrow: %s logs in with generation %d or later".formatted(device, generation)));
         lines.addAll(accounts);
