@@ -96,9 +96,7 @@ class LostKafkaTest extends ProvisioningFixture {
         provisionTen();
         wantTen();
         assertThat(provisioning(files(false), EMPTY).step()).isEqualTo(DONE);
-        assertThat(Files.readString(passwords()))
-                .contains("the topic topic-2")
-                .doesNotContain("topic-1");
+        assertThat(Files.readString(passwords())).contains("the topic topic-2").doesNotContain("topic-1");
 
         wanted.clear();
         assertThat(provisioning(files(false), EMPTY).step()).isEqualTo(DONE);

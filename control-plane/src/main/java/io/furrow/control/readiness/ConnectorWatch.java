@@ -55,7 +55,7 @@ public final class ConnectorWatch implements AutoCloseable {
     private volatile Instant lastAnswer;
     private volatile String failure = "not asked yet";
 
-    private ConnectorWatch(URI connect, Producer<String, byte[]> producer, Clock clock) {
+    ConnectorWatch(URI connect, Producer<String, byte[]> producer, Clock clock) {
         this.connect = connect.toString().replaceAll("/+$", "");
         this.producer = producer;
         this.clock = clock;
@@ -75,11 +75,6 @@ public final class ConnectorWatch implements AutoCloseable {
                 Clock.systemUTC());
         watch.worker.start(watch::watch, () -> "");
         return watch;
-    }
-
-    /** For tests, which ask themselves. */
-    static ConnectorWatch of(URI connect, Producer<String, byte[]> producer, Clock clock) {
-        return new ConnectorWatch(connect, producer, clock);
     }
 
     private void watch(RestartingWorker self) throws InterruptedException {

@@ -49,7 +49,7 @@ class ConnectorWatchTest {
             exchange.close();
         });
         connect.start();
-        watch = ConnectorWatch.of(
+        watch = new ConnectorWatch(
                 URI.create("http://127.0.0.1:" + connect.getAddress().getPort() + "/"), producer, new Clock() {
                     @Override
                     public Instant instant() {
@@ -127,7 +127,7 @@ class ConnectorWatchTest {
     void namesNoClassOnThePage() throws Exception {
         Readiness readiness = new Readiness(Clock.systemUTC());
         URI nowhere = URI.create("http://127.0.0.1:1/");
-        ConnectorWatch away = ConnectorWatch.of(nowhere, producer, Clock.systemUTC());
+        ConnectorWatch away = new ConnectorWatch(nowhere, producer, Clock.systemUTC());
         away.ask();
         readiness.showAll(away::statuses);
         try (Probe probe = Probe.http("contextBroker", nowhere);

@@ -43,11 +43,6 @@ public final class LiveAccounts implements MqttAccounts, LoginReports {
     }
 
     @Override
-    public Map<String, String> replace(List<MqttAccount> accounts) {
-        return replace(accounts, Set.of());
-    }
-
-    @Override
     public Map<String, String> replace(List<MqttAccount> accounts, Set<String> kept) {
         List<MqttAccount> all = new ArrayList<>(accounts);
         Set<String> users =

@@ -19,11 +19,6 @@ public interface MqttAccounts {
      */
     Map<String, String> replace(List<MqttAccount> accounts, Set<String> kept) throws IOException;
 
-    /** The same; no other stays. */
-    default Map<String, String> replace(List<MqttAccount> accounts) throws IOException {
-        return replace(accounts, Set.of());
-    }
-
     /**
      * Removes the accounts of other users, also those that another process or an earlier start has put there.
      *
@@ -32,11 +27,6 @@ public interface MqttAccounts {
      * @throws IOException as {@link #replace}
      */
     Set<String> retain(Set<String> users, Predicate<String> removable) throws IOException;
-
-    /** The same; all other users are removed. */
-    default void retain(Set<String> users) throws IOException {
-        retain(users, any -> true);
-    }
 
     /** Id of the topic whose devices have the accounts, where that was noted. */
     default Optional<String> origin() throws IOException {
