@@ -112,6 +112,9 @@ public final class ConnectorWatch implements AutoCloseable {
             for (JsonNode task : status.path("tasks")) {
                 describe("task " + task.path("id").asInt() + " ", task, states, failures);
             }
+            if (states.isEmpty() && status.path("tasks").isEmpty()) {
+                states.add("has no task");
+            }
             parts.put(each.getKey(), part(each.getKey(), states));
             report(each.getKey(), failures);
         }

@@ -113,6 +113,10 @@ class ConnectorWatchTest {
         assertThat(watch.statuses().get(1).detail()).isEqualTo("task 0 is paused");
         assertThat(producer.history()).isEmpty();
 
+        answer.set("{\"sink\":{\"status\":{\"connector\":{\"state\":\"RUNNING\"},\"tasks\":[]}}}");
+        watch.ask();
+        assertThat(watch.statuses().get(1).detail()).isEqualTo("has no task");
+
         answer.set("<html>");
         watch.ask();
         now = now.plusSeconds(30);
