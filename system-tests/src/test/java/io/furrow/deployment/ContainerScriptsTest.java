@@ -63,6 +63,16 @@ class ContainerScriptsTest {
     }
 
     @Test
+    void leavesASavepointToWhoeverMadeIt() throws Exception {
+        completed("presence/first/chk-9", 60);
+        Path savepoint = completed("presence/savepoint-0a1b", 30);
+
+        assertThat(submit("jobs/analytics.jar", "presence"))
+                .isEqualTo("run -d -s file://%s jobs/analytics.jar presence --checkpoint-dir file://%s/presence\n"
+                        .formatted(savepoint, checkpoints));
+    }
+
+    @Test
     void leavesAJobThatRunsAsItIs() throws Exception {
         assertThat(submit("jobs/analytics.jar", "collision")).isEqualTo("collision runs already.\n");
     }
