@@ -29,6 +29,8 @@ final class AlarmLimit {
 
     private static final long RECOUNT_EVERY = Duration.ofSeconds(10).toMillis();
     private static final long SEEN_INTERVAL = Duration.ofSeconds(10).toMillis();
+    /** A validity to which {@link #SEEN_INTERVAL} does not matter. */
+    private static final long LONG = Duration.ofMinutes(30).toMillis();
 
     private final Records<Group> groups;
     private final Records<Counted> counted;
@@ -53,7 +55,7 @@ final class AlarmLimit {
      *
      * @param key kind and subject
      * @param until end of validity, epoch ms; null if it lasts until ended explicitly
-     * @param seen when it was last reported, epoch ms, to {@link #SEEN_INTERVAL}, and to a tenth of its validity
+     * @param seen when it was last reported, epoch ms, to {@link #SEEN_INTERVAL}
      */
     record Counted(String key, AlarmKind kind, String group, List<Cause.Device> devices, Long until, long seen) {}
 
@@ -96,9 +98,9 @@ final class AlarmLimit {
     }
 
     private static boolean isNews(Counted before, Counted now) {
-        boolean isOfAnotherKind = (before.until() == null) != (now.until() == null);
-        long interval = now.until() == null ? SEEN_INTERVAL : Math.min(SEEN_INTERVAL, (now.until() - now.seen()) / 10);
-        return isOfAnotherKind || now.seen() - before.seen() >= interval;
+        boolean lastsLong = before.until() != null && now.until() != null && now.until() - now.seen() >= LONG;
+        boolean lastsOtherwise = !lastsLong && !Objects.equals(before.until(), now.until());
+        return lastsOtherwise || now.seen() - before.seen() >= SEEN_INTERVAL;
     }
 
     /**
