@@ -208,7 +208,7 @@ final class AgentRegistry {
                 failure = e.getMessage();
             }
         }
-        for (Group group : unneeded(desired, apiKeys)) {
+        for (Group group : unneeded(apiKeys)) {
             boolean empty =
                     leftovers(desired).stream().noneMatch(left -> left.apiKey().equals(group.apiKey()));
             if (empty && !budget.isSpent()) {
@@ -226,33 +226,22 @@ final class AgentRegistry {
 
     /** Whether all of ours that is here is desired. */
     boolean isClean(Set<String> desired, Set<String> apiKeys) {
-        return leftovers(desired).isEmpty() && unneeded(desired, apiKeys).isEmpty();
+        return leftovers(desired).isEmpty() && unneeded(apiKeys).isEmpty();
     }
 
     private List<Registration> leftovers(Set<String> desired) {
-        return unwanted(desired).filter(removals::allows).toList();
-    }
-
-    private Stream<Registration> unwanted(Set<String> desired) {
-        return devices.values().stream()
-                .filter(device -> !desired.contains(device.device()))
-                .filter(device -> registrations.isOurs(device.apiKey(), device.mission()));
-    }
-
-    /** Groups of missions that have no devices, and of a resource that was set before. */
-    private List<Group> unneeded(Set<String> desired, Set<String> apiKeys) {
-        return unwantedGroups(apiKeys)
-                .filter(group -> mayBeRemoved(group, desired))
+        return own().filter(device -> !desired.contains(device.device()))
+                .filter(removals::allows)
                 .toList();
     }
 
-    private boolean mayBeRemoved(Group group, Set<String> desired) {
-        return removals.allows(group)
-                && keptDevices(desired).noneMatch(device -> device.apiKey().equals(group.apiKey()));
+    private Stream<Registration> own() {
+        return devices.values().stream().filter(device -> registrations.isOurs(device.apiKey(), device.mission()));
     }
 
-    private Stream<Registration> keptDevices(Set<String> desired) {
-        return unwanted(desired).filter(device -> !removals.allows(device));
+    /** Groups of missions that have no devices, and of a resource that was set before. */
+    private List<Group> unneeded(Set<String> apiKeys) {
+        return unwantedGroups(apiKeys).filter(this::mayBeRemoved).toList();
     }
 
     private Stream<Group> unwantedGroups(Set<String> apiKeys) {
@@ -260,13 +249,23 @@ final class AgentRegistry {
                 .filter(group -> !apiKeys.contains(group.apiKey()) || !agent.isOfItsResource(group));
     }
 
-    /** Those of ours that are not desired and stay. */
-    Kept kept(Set<String> desired, Set<String> apiKeys) {
+    private boolean mayBeRemoved(Group group) {
+        return removals.allows(group)
+                && keptDevices().noneMatch(device -> device.apiKey().equals(group.apiKey()));
+    }
+
+    /** What is desired may be removed, to be made again otherwise. */
+    private Stream<Registration> keptDevices() {
+        return own().filter(device -> !removals.allows(device));
+    }
+
+    /** What stays of ours though this Kafka does not want it, or wants it in another mission. */
+    Kept kept(Set<String> apiKeys) {
         return new Kept(
                 List.of(),
-                keptDevices(desired).map(Registration::device).toList(),
+                keptDevices().map(Registration::device).toList(),
                 unwantedGroups(apiKeys)
-                        .filter(group -> !mayBeRemoved(group, desired))
+                        .filter(group -> !mayBeRemoved(group))
                         .map(Group::mission)
                         .toList());
     }

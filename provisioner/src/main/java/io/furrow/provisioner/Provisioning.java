@@ -143,7 +143,7 @@ final class Provisioning {
                 String failure = remove(scope, budget);
                 stuck = failure == null ? stuck : failure;
                 removed &= failure != null || isClean(scope);
-                Kept here = registry(scope).kept(desiredDevices(scope), desiredKeys(scope));
+                Kept here = registry(scope).kept(desiredKeys(scope));
                 keptDevices.addAll(here.devices());
                 keptGroups.addAll(here.groups());
             }
