@@ -105,6 +105,19 @@ class DeadLettersIT {
         assertThat(recordsOf("elsewhere")).extracting(ConsumerRecord::value).containsExactly(new byte[] {1});
     }
 
+    /** The last one is the first to be brought: what was left before it is not taken for brought. */
+    @Tag("full")
+    @Test
+    void saysAgainWhatItLeftBeforeALetterThatItBrought() {
+        letter("left.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why (truncated to 1 bytes)", Map.of());
+        letter("left.dead", "k", new byte[] {2}, Reason.NOT_JSON, "why", Map.of());
+
+        assertThat(redrive("--topic", "left.dead"))
+                .isEqualTo("sent 1 dead letter from left.dead to left: 1 not-json\nleft where they are: 1 truncated");
+        assertThat(redrive("--topic", "left.dead"))
+                .isEqualTo("sent 0 dead letters from left.dead to left\nleft where they are: 1 truncated");
+    }
+
     @Tag("full")
     @Test
     void bringsThemAgainWhereAskedTo() {

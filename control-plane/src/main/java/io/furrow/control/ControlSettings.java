@@ -61,6 +61,10 @@ public record ControlSettings(
         return new ControlSettings(client, replicas, replicationFactor, remembered, missions, replays);
     }
 
+    public ControlSettings withReplicationFactor(short factor) {
+        return new ControlSettings(client, standbyReplicas, factor, remembered, missions, replays);
+    }
+
     public ControlSettings with(ReplaySettings newReplays) {
         return new ControlSettings(client, standbyReplicas, replicationFactor, remembered, missions, newReplays);
     }

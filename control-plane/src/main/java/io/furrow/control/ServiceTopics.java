@@ -52,6 +52,7 @@ public final class ServiceTopics {
             Topics.DEVICES_STATUS,
             Topics.DEVICES_HEALTH,
             Topics.DEVICES_CONNECTION,
+            Topics.FAULTS,
             Topics.REPLAYS_STATUS,
             Topics.ALARMS,
             Topics.ALARMS_DELIVERED,
@@ -73,6 +74,7 @@ public final class ServiceTopics {
                             Topics.MISSIONS_STATUS,
                             Topics.DEVICES_STATUS,
                             Topics.DEVICES_HEALTH,
+                            Topics.FAULTS,
                             Topics.REPLAYS_STATUS))
             .flatMap(List::stream)
             .map(Topics::dead)

@@ -19,6 +19,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.PartStatus;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.time.Backoff;
 
 /**
@@ -120,7 +121,7 @@ final class StreamsApplication implements AutoCloseable {
         try {
             startClient();
         } catch (RuntimeException e) { // for instance while no address of Kafka resolves
-            failure = e.toString();
+            failure = FailureText.of(e);
             LOG.warn("the {} did not start", name, e);
             replaceClient();
         }
@@ -131,7 +132,7 @@ final class StreamsApplication implements AutoCloseable {
      * else the state of this client is not trusted.
      */
     private StreamThreadExceptionResponse onFailure(Throwable cause) {
-        failure = cause.toString();
+        failure = FailureText.of(cause);
         for (Throwable each = cause; each != null; each = each.getCause()) {
             if (each instanceof RetriableException || each instanceof MissingSourceTopicException) {
                 LOG.warn("the {} lost Kafka, or a topic of it, and goes on when that is back", name, cause);

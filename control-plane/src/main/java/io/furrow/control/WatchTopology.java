@@ -44,6 +44,8 @@ final class WatchTopology {
 
         AnalyticsAlarms.addClocks(observed(builder, Topics.CLOCKS, "clocks"), types);
 
+        AnalyticsAlarms.addFaults(observed(builder, Topics.FAULTS, "faults"), types);
+
         KStream<String, byte[]> statuses = ManagerInput.observed(
                 builder, Topics.MISSIONS_STATUS, "context-mission-statuses", AutoOffsetReset.earliest());
         AnalyticsAlarms.addStarts(statuses, types);

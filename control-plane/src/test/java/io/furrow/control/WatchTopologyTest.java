@@ -208,6 +208,34 @@ class WatchTopologyTest {
     }
 
     @Test
+    void endsACollisionWhoseEndWasLost() throws Exception {
+        farm.encounter("started", 3.2);
+        farm.pass(Duration.ofMinutes(50));
+        farm.encounter("ongoing", 3.2);
+        farm.pass(Duration.ofMinutes(50));
+        assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("open");
+        farm.pass(Duration.ofMinutes(11));
+        assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
+    }
+
+    @Test
+    void raisesAnAlarmOfWhatDoesNotWorkInFurrowItselfWhileItIsRepeated() throws Exception {
+        for (int minutes = 0; minutes < 5; minutes++) {
+            farm.pipe(Topics.FAULTS, "connector ngsi-sink", "{'text':'it failed; restart it'}");
+            farm.pass(Duration.ofMinutes(1));
+        }
+        JsonNode alarm = farm.newest(Topics.ALARMS);
+        assertThat(alarm.path("kind").asText()).isEqualTo("fault");
+        assertThat(alarm.path("subject").asText()).isEqualTo("connector ngsi-sink");
+        assertThat(alarm.path("text").asText()).isEqualTo("it failed; restart it");
+        assertThat(alarm.path("state").asText()).isEqualTo("open");
+        farm.pass(Duration.ofMinutes(3));
+        assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
+        farm.pipe(Topics.FAULTS, "x", "{}");
+        assertThat(farm.read(Topics.dead(Topics.FAULTS))).hasSize(1);
+    }
+
+    @Test
     void namesTheDevicesThatAMissionMisses() throws Exception {
         farm.pipe(Topics.MISSIONS_STATUS, "m", status("starting", "[]", "null"));
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
@@ -349,6 +377,7 @@ class WatchTopologyTest {
                         "collisions-repartition",
                         "temperatures-repartition",
                         "clocks-repartition",
+                        "faults-repartition",
                         "context-domains-repartition",
                         "context-missions-repartition",
                         "context-mission-statuses-repartition");
@@ -366,6 +395,7 @@ class WatchTopologyTest {
                         "temperatures-positions",
                         "suspect-runs",
                         "clocks-positions",
+                        "faults-positions",
                         "wanted-devices",
                         "device-connections",
                         "device-health",

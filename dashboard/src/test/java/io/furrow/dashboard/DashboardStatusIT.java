@@ -160,7 +160,7 @@ class DashboardStatusIT extends DashboardFixture {
         HttpResponse<String> answer = get("/ready", null);
         assertThat(answer.statusCode()).isEqualTo(503);
         assertThat(json(answer).path("status").asText()).isEqualTo("not-ready");
-        assertThat(json(answer).at("/parts/controlPlane/detail").asText()).contains("ConnectException");
+        assertThat(json(answer).at("/parts/controlPlane/detail").asText()).isEqualTo("connection refused");
         assertThat(get("/health", null).statusCode()).isEqualTo(200);
     }
 

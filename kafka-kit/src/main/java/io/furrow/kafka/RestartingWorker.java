@@ -11,6 +11,7 @@ import org.apache.kafka.common.errors.InterruptException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.text.FailureText;
 import io.furrow.model.time.Backoff;
 
 /**
@@ -96,7 +97,7 @@ public final class RestartingWorker implements AutoCloseable {
         } catch (InterruptedException e) { // as close() asks
             LOG.debug("{} ends", name, e);
         } catch (Error e) {
-            failed(e + "; it has ended, start the process again");
+            failed(FailureText.of(e) + "; it has ended, start the process again");
             LOG.error("{} has ended; start the process again", name, e);
             throw e;
         }
@@ -111,7 +112,7 @@ public final class RestartingWorker implements AutoCloseable {
             throw new InterruptedException(e.getMessage());
         } catch (RuntimeException e) { // no exception may end a thread that nothing restarts
             LOG.error("{} failed and begins anew", name, e);
-            failed(e.toString());
+            failed(FailureText.of(e));
             return false;
         }
     }

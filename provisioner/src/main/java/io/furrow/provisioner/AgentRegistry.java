@@ -8,9 +8,11 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
+import java.util.stream.Stream;
 
 import io.furrow.model.event.FiwareScope;
 import io.furrow.provisioner.AgentClient.Group;
+import io.furrow.provisioner.Removals.Kept;
 
 /**
  * The groups and devices that the IoT Agent has in one scope: read once, then updated with what is changed. Changes only what was made
@@ -20,6 +22,7 @@ final class AgentRegistry {
     private final AgentClient agent;
     private final FiwareScope scope;
     private final Registrations registrations;
+    private final Removals removals;
     private final Map<String, Registration> devices = new HashMap<>();
     /** Resource and API key of each group. */
     private final Set<GroupKey> groups = new HashSet<>();
@@ -32,16 +35,17 @@ final class AgentRegistry {
         }
     }
 
-    private AgentRegistry(AgentClient agent, FiwareScope scope, Registrations registrations) {
+    private AgentRegistry(AgentClient agent, FiwareScope scope, Registrations registrations, Removals removals) {
         this.agent = agent;
         this.scope = scope;
         this.registrations = registrations;
+        this.removals = removals;
     }
 
     /** Reads what the agent has. */
-    static AgentRegistry read(AgentClient agent, FiwareScope scope, Registrations registrations)
+    static AgentRegistry read(AgentClient agent, FiwareScope scope, Registrations registrations, Removals removals)
             throws IOException, RefusedByAgentException, InterruptedException {
-        AgentRegistry registry = new AgentRegistry(agent, scope, registrations);
+        AgentRegistry registry = new AgentRegistry(agent, scope, registrations, removals);
         registry.readDevices();
         registry.readGroups();
         return registry;
@@ -156,6 +160,11 @@ final class AgentRegistry {
                     "somebody else has provisioned a device '%s' at the IoT Agent; remove it there, or give this one another id"
                             .formatted(device.device()));
         }
+        if (there != null && !there.mission().equals(device.mission()) && !removals.allows(there)) {
+            throw new RefusedByAgentException(
+                    "the IoT Agent has '%s' as a device of mission '%s', of which this Kafka knows nothing; check --kafka, or give this one another id"
+                            .formatted(device.device(), there.mission()));
+        }
         Group group = agent.groupOf(device);
         if (!groups.contains(GroupKey.of(group))) {
             add(group);
@@ -221,16 +230,43 @@ final class AgentRegistry {
     }
 
     private List<Registration> leftovers(Set<String> desired) {
-        return devices.values().stream()
-                .filter(device -> !desired.contains(device.device()))
-                .filter(device -> registrations.isOurs(device.apiKey(), device.mission()))
+        return own().filter(device -> !desired.contains(device.device()))
+                .filter(removals::allows)
                 .toList();
+    }
+
+    private Stream<Registration> own() {
+        return devices.values().stream().filter(device -> registrations.isOurs(device.apiKey(), device.mission()));
     }
 
     /** Groups of missions that have no devices, and of a resource that was set before. */
     private List<Group> unneeded(Set<String> apiKeys) {
+        return unwantedGroups(apiKeys).filter(this::mayBeRemoved).toList();
+    }
+
+    private Stream<Group> unwantedGroups(Set<String> apiKeys) {
         return ownGroups.values().stream()
-                .filter(group -> !apiKeys.contains(group.apiKey()) || !agent.isOfItsResource(group))
-                .toList();
+                .filter(group -> !apiKeys.contains(group.apiKey()) || !agent.isOfItsResource(group));
+    }
+
+    private boolean mayBeRemoved(Group group) {
+        return removals.allows(group)
+                && keptDevices().noneMatch(device -> device.apiKey().equals(group.apiKey()));
+    }
+
+    /** What is desired may be removed, to be made again otherwise. */
+    private Stream<Registration> keptDevices() {
+        return own().filter(device -> !removals.allows(device));
+    }
+
+    /** What stays of ours though this Kafka does not want it, or wants it in another mission. */
+    Kept kept(Set<String> apiKeys) {
+        return new Kept(
+                List.of(),
+                keptDevices().map(Registration::device).toList(),
+                unwantedGroups(apiKeys)
+                        .filter(group -> !mayBeRemoved(group))
+                        .map(Group::mission)
+                        .toList());
     }
 }

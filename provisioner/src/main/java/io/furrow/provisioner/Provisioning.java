@@ -2,6 +2,7 @@ package io.furrow.provisioner;
 
 import java.io.IOException;
 import java.time.Duration;
+import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -18,6 +19,7 @@ import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.provisioner.Removals.Kept;
 import io.furrow.provisioner.account.DeviceAccounts;
 
 /**
@@ -36,18 +38,24 @@ final class Provisioning {
     private final DeviceAccounts accounts;
     private final WantedDevices wanted;
     private final LongSupplier nanos;
+    private final boolean forgets;
     private final BatchSize batchSize = new BatchSize();
+    private final Removals removals = new Removals();
     private final Map<FiwareScope, AgentRegistry> registries = new HashMap<>();
     private final Map<Registration, String> held = new HashMap<>();
     private FarmSecret used;
     private Set<String> registered;
     private boolean verified;
+    private Removals.Origin origin = Removals.Origin.UNKNOWN;
+    private boolean started;
+    private boolean settled;
 
     Provisioning(ProvisioningSettings settings, WantedDevices wanted, LongSupplier nanos) {
         this.agent = new AgentClient(settings.agent());
         this.registrations = new Registrations(settings.secret());
         this.secret = settings.secret();
         this.accounts = new DeviceAccounts(settings);
+        this.forgets = settings.forgets();
         this.wanted = wanted;
         this.nanos = nanos;
     }
@@ -57,9 +65,10 @@ final class Provisioning {
      *
      * @param refused why, by key of the device
      * @param stuck why something that is no longer wanted could not be removed; null if nothing was in the way
-     * @param done whether nothing is left to be done but what was refused or is stuck
+     * @param kept what is not wanted and may not be removed; null for nothing
+     * @param done whether nothing is left to be done but what was refused, is stuck or kept
      */
-    record Outcome(Map<String, String> refused, String stuck, boolean done) {}
+    record Outcome(Map<String, String> refused, String stuck, Kept kept, boolean done) {}
 
     /** Asks the agent again before the next step, and offers it again what it has refused. */
     void lookAgain() {
@@ -70,10 +79,24 @@ final class Provisioning {
     }
 
     /** The same, and takes nothing of the accounts for granted. */
-    void startAnew() {
+    void startAnew(Removals.Origin newOrigin) {
         lookAgain();
         registered = null;
         accounts.startAnew();
+        origin = newOrigin;
+        started = false;
+    }
+
+    /** What the brokers' files say of it counts more than what Kafka says of itself. */
+    private void start() throws IOException {
+        if (!started) {
+            Set<String> noted = accounts.origins();
+            boolean same = noted.isEmpty() ? origin.provisioned() : noted.equals(Set.of(origin.topic()));
+            removals.startAnew(forgets || same);
+            started = true;
+            settled = false;
+        }
+        removals.wanted(wanted.all().values());
     }
 
     /** Whether the farm's secret is another than at the last step: it was rotated, or the time of an older key is over. */
@@ -97,7 +120,8 @@ final class Provisioning {
                     "the MQTT brokers are to accept passwords of the keys {} of the farm's secret", now.acceptedKeys());
         }
         used = now;
-        accounts.revoke(wanted.all().values());
+        start();
+        accounts.revoke(wanted.all().values(), removals.allowsAll());
         Map<String, String> refused = new TreeMap<>();
         Map<String, Registration> there = new LinkedHashMap<>();
         StepBudget budget = new StepBudget(STEP, nanos);
@@ -112,19 +136,36 @@ final class Provisioning {
         registered = Set.copyOf(there.keySet());
         boolean removed = true;
         String stuck = null;
+        List<String> keptDevices = new ArrayList<>();
+        List<String> keptGroups = new ArrayList<>();
         for (FiwareScope scope : wanted.scopes()) {
             if (Registrations.hasTenant(scope)) {
                 String failure = remove(scope, budget);
                 stuck = failure == null ? stuck : failure;
                 removed &= failure != null || isClean(scope);
+                Kept here = registry(scope).kept(desiredKeys(scope));
+                keptDevices.addAll(here.devices());
+                keptGroups.addAll(here.groups());
             }
         }
-        return new Outcome(refused, stuck, added && removed);
+        Kept kept = new Kept(accounts.kept(), keptDevices, keptGroups);
+        boolean done = added && removed;
+        if (done && kept.isEmpty() && !settled) {
+            settled = true;
+            removals.allowAll();
+            accounts.noteOrigin(origin.topic());
+        }
+        return new Outcome(refused, stuck, kept.isEmpty() ? null : kept, done);
     }
 
     /** Keys of the devices that the agent had at the last step; null before the first. */
     Set<String> registered() {
         return registered;
+    }
+
+    /** Whether all that is there is wanted, or may be removed: this Kafka is the one of which it is. */
+    boolean isSettled() {
+        return settled;
     }
 
     private boolean add(
@@ -198,7 +239,7 @@ final class Provisioning {
         AgentRegistry registry = registries.get(scope);
         if (registry == null) {
             try {
-                registry = AgentRegistry.read(agent, scope, registrations);
+                registry = AgentRegistry.read(agent, scope, registrations, removals);
             } catch (RefusedByAgentException e) {
                 throw new IOException(e.getMessage(), e);
             }

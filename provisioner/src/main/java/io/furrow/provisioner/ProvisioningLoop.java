@@ -7,13 +7,23 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Properties;
+import java.util.Set;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
 
+import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.consumer.ConsumerRebalanceListener;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.consumer.OffsetAndMetadata;
 import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.Uuid;
+import org.apache.kafka.common.errors.InterruptException;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringDeserializer;
@@ -22,11 +32,13 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
+import io.furrow.model.control.Fault;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
+import io.furrow.provisioner.Removals.Kept;
 
 /**
  * Provisions the devices of {@code service.devices} at the IoT Agent and at the MQTT brokers, and removes all others.
@@ -42,11 +54,15 @@ final class ProvisioningLoop implements AutoCloseable {
 
     private static final String TAKEN_OVER_AFTER_MS = "10000";
     private static final Duration POLL_INTERVAL = Duration.ofMillis(500);
+    private static final Duration ADMIN_TIMEOUT = Duration.ofSeconds(15);
+    private static final Duration REPORT_INTERVAL = Duration.ofMinutes(1);
 
     private final KafkaConsumer<String, byte[]> consumer;
     private final KafkaProducer<String, byte[]> producer;
     private final WantedDevices wanted;
     private final Properties client;
+    /** Its address. */
+    private final String agent;
     /** Follows {@code service.missions.devices}; null while another instance is active. */
     private CommittedReader<String> lists;
 
@@ -57,12 +73,16 @@ final class ProvisioningLoop implements AutoCloseable {
     private final Map<TopicPartition, Long> unread = new HashMap<>();
     private boolean active;
     private String failure = "";
+    private Kept kept;
+    private long keptReported;
+    private boolean noted;
 
     ProvisioningLoop(ProvisioningSettings settings) {
         this.wanted = new WantedDevices(settings.scope());
         this.provisioning = new Provisioning(settings, wanted, System::nanoTime);
         this.pace = new RetrySchedule(System::nanoTime, settings.agent().interval());
         this.client = settings.client();
+        this.agent = settings.agent().base().toString();
         this.consumer =
                 new KafkaConsumer<>(consumerSettings(client), new StringDeserializer(), new ByteArrayDeserializer());
         this.producer = new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer());
@@ -95,6 +115,7 @@ final class ProvisioningLoop implements AutoCloseable {
             if (pace.isDue()) {
                 step();
             }
+            reportKept();
             connections.publish(provisioning.registered());
         }
     }
@@ -176,7 +197,13 @@ final class ProvisioningLoop implements AutoCloseable {
                 return;
             }
             failures.refused(outcome.refused());
-            failure = "";
+            failure = outcome.kept() == null ? "" : outcome.kept().summary();
+            if (outcome.kept() != null && !outcome.kept().equals(kept)) {
+                LOG.warn(outcome.kept().text());
+                keptReported = System.nanoTime() - REPORT_INTERVAL.toNanos();
+            }
+            kept = outcome.kept();
+            noteProvisioned();
             if (outcome.refused().isEmpty() && outcome.stuck() == null) {
                 pace.rest();
             } else if (pace.failed() && outcome.stuck() != null) {
@@ -191,6 +218,44 @@ final class ProvisioningLoop implements AutoCloseable {
         }
     }
 
+    /** An alarm is raised of it, as long as it is repeated. */
+    private void reportKept() {
+        if (kept != null && System.nanoTime() - keptReported >= REPORT_INTERVAL.toNanos()) {
+            keptReported = System.nanoTime();
+            producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner", new Fault(kept.text()).toBytes()));
+        }
+    }
+
+    /** Nothing reads by this offset: it says that the devices of this Kafka were provisioned at this IoT Agent. */
+    private void noteProvisioned() {
+        if (provisioning.isSettled() && !noted) {
+            Map<TopicPartition, OffsetAndMetadata> offsets = new HashMap<>();
+            consumer.assignment()
+                    .forEach(partition ->
+                            offsets.put(partition, new OffsetAndMetadata(consumer.position(partition), agent)));
+            consumer.commitSync(offsets);
+            noted = true;
+        }
+    }
+
+    private Removals.Origin origin(Collection<TopicPartition> partitions) {
+        try (Admin admin = Admin.create(client)) {
+            Uuid topic = admin.describeTopics(List.of(Topics.DEVICES))
+                    .topicNameValues()
+                    .get(Topics.DEVICES)
+                    .get(ADMIN_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS)
+                    .topicId();
+            boolean provisioned = consumer.committed(Set.copyOf(partitions)).values().stream()
+                    .anyMatch(committed ->
+                            committed != null && committed.metadata().equals(agent));
+            return new Removals.Origin(Uuid.ZERO_UUID.equals(topic) ? "" : topic.toString(), provisioned);
+        } catch (ExecutionException | TimeoutException e) {
+            throw new KafkaException(Topics.DEVICES + " cannot be described: " + FailureText.of(e), e);
+        } catch (InterruptedException e) {
+            throw new InterruptException(e);
+        }
+    }
+
     private final class Assignment implements ConsumerRebalanceListener {
         @Override
         public void onPartitionsAssigned(Collection<TopicPartition> partitions) {
@@ -201,7 +266,9 @@ final class ProvisioningLoop implements AutoCloseable {
             wanted.clear();
             failures.clear();
             connections.startAnew(publishedConnections());
-            provisioning.startAnew();
+            provisioning.startAnew(origin(partitions));
+            kept = null;
+            noted = false;
             closeLists();
             lists = CommittedReader.open(client, Topics.MISSION_DEVICES);
             consumer.seekToBeginning(partitions);

@@ -18,6 +18,7 @@ import io.furrow.provisioner.account.MqttAccounts;
  * @param accounts of the MQTT brokers; none where the broker lets everybody in that the IoT Agent shall hear
  * @param gateways whether each mission has an account that may speak for all its devices, as a host of many devices needs it
  * @param connections who knows how devices are connected
+ * @param forgets whether accounts and devices are removed that a Kafka does not want which is empty, or not the one they were made for
  */
 public record ProvisioningSettings(
         Properties client,
@@ -26,8 +27,9 @@ public record ProvisioningSettings(
         AgentSettings agent,
         List<MqttAccounts> accounts,
         boolean gateways,
-        ConnectionSources connections) {
-    /** Without anybody who knows how devices are connected. */
+        ConnectionSources connections,
+        boolean forgets) {
+    /** Which forgets nothing, without anybody who knows how devices are connected. */
     public ProvisioningSettings(
             Properties client,
             FiwareScope scope,
@@ -35,7 +37,7 @@ public record ProvisioningSettings(
             AgentSettings agent,
             List<MqttAccounts> accounts,
             boolean gateways) {
-        this(client, scope, secret, agent, accounts, gateways, ConnectionSources.NONE);
+        this(client, scope, secret, agent, accounts, gateways, ConnectionSources.NONE, false);
     }
 
     /** With a secret that does not change, and without accounts of gateways. */

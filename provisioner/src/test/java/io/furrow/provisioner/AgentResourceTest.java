@@ -27,7 +27,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** The resource of service groups. */
 class AgentResourceTest {
-    private static final Outcome DONE = new Outcome(Map.of(), null, true);
+    private static final Outcome DONE = new Outcome(Map.of(), null, null, true);
     private static final String API_KEY = Wanted.SECRET.apiKey("hoeing");
 
     private final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);

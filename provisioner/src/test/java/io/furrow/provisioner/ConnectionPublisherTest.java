@@ -139,7 +139,7 @@ class ConnectionPublisherTest {
 
     private ConnectionPublisher publisher(ConnectionSources sources) {
         ProvisioningSettings settings = new ProvisioningSettings(
-                new Properties(), Wanted.SCOPE, SecretSource.of(Wanted.SECRET), null, List.of(), true, sources);
+                new Properties(), Wanted.SCOPE, SecretSource.of(Wanted.SECRET), null, List.of(), true, sources, false);
         return new ConnectionPublisher(settings, wanted, producer, now::get);
     }
 

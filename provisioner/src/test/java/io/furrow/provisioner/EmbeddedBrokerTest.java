@@ -3,6 +3,7 @@ package io.furrow.provisioner;
 import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 
 import org.eclipse.paho.client.mqttv3.MqttClient;
@@ -72,8 +73,9 @@ class EmbeddedBrokerTest {
 
     @BeforeEach
     void listen() throws MqttException {
-        ACCOUNTS.replace(List.of(
-                MqttAccount.device(Wanted.SECRET, "hoeing", "d"), MqttAccount.gateway(Wanted.SECRET, "hoeing")));
+        ACCOUNTS.replace(
+                List.of(MqttAccount.device(Wanted.SECRET, "hoeing", "d"), MqttAccount.gateway(Wanted.SECRET, "hoeing")),
+                Set.of());
         agent = connect(new FarmSecret.Login("agent", "plough"));
         agent.subscribe(
                 "#", 1, (topic, message) -> heard.put(topic, new String(message.getPayload(), StandardCharsets.UTF_8)));
@@ -129,7 +131,7 @@ class EmbeddedBrokerTest {
         MqttClient device = connect(DEVICE);
         MqttClient gateway = connect(Wanted.SECRET.gateway("hoeing"));
 
-        ACCOUNTS.replace(List.of(MqttAccount.gateway(Wanted.SECRET, "hoeing")));
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(Wanted.SECRET, "hoeing")), Set.of());
 
         await().until(() -> !device.isConnected());
         assertThat(gateway.isConnected()).isTrue();
@@ -157,7 +159,7 @@ class EmbeddedBrokerTest {
     @Test
     void shutsOutWhoIsNoLongerWanted() throws MqttException {
         leave(connect(DEVICE));
-        ACCOUNTS.replace(List.of());
+        ACCOUNTS.replace(List.of(), Set.of());
 
         assertThatThrownBy(() -> connect(DEVICE)).isInstanceOf(MqttException.class);
         assertThatThrownBy(() -> connect(new FarmSecret.Login("agent", "harrow")))
@@ -166,7 +168,7 @@ class EmbeddedBrokerTest {
 
     @Test
     void letsAMissionHaveTheNameOfAUserOfTheStart() throws MqttException {
-        ACCOUNTS.replace(List.of(MqttAccount.gateway(Wanted.SECRET, "agent")));
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(Wanted.SECRET, "agent")), Set.of());
         MqttClient gateway = connect(Wanted.SECRET.gateway("agent"));
 
         assertThatThrownBy(() -> gateway.subscribe("#", 1)).isInstanceOf(MqttException.class);

@@ -49,7 +49,7 @@ class MosquittoIT {
         broker = start(directory);
         files = broker.files();
         agent = broker.connect(AGENT, "agent").subscribe("#");
-        files.replace(ACCOUNTS);
+        files.replace(ACCOUNTS, Set.of());
     }
 
     Mosquitto start(Path folder) throws Exception {
@@ -130,7 +130,7 @@ class MosquittoIT {
     @Test
     void shutsADeviceOutThatIsNoLongerWantedAndKeepsTheAgent() throws Exception {
         try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
-            files.replace(List.of());
+            files.replace(List.of(), Set.of());
 
             await().atMost(TIMEOUT).until(() -> !device.isConnected());
             assertThatThrownBy(() -> broker.connect(SECRET.device("hoeing", DEVICE), "again"))
@@ -142,7 +142,7 @@ class MosquittoIT {
     @Test
     void letsAMissionHaveTheNameOfAnotherUser() throws Exception {
         String key = "/" + SECRET.apiKey("agent");
-        files.replace(List.of(MqttAccount.gateway(SECRET, "agent")));
+        files.replace(List.of(MqttAccount.gateway(SECRET, "agent")), Set.of());
 
         try (MqttPeer gateway = broker.comesIn(SECRET.gateway("agent"));
                 MqttPeer again = broker.connect(AGENT, "agent-again").subscribe("#")) {
@@ -165,7 +165,7 @@ class MosquittoIT {
         wanted.add(MqttAccount.device(SECRET, "hoeing", "theirs"));
         wanted.add(MqttAccount.device(SECRET, "hoeing", "late"));
 
-        assertThat(files.replace(wanted)).containsOnlyKeys(theirs.user());
+        assertThat(files.replace(wanted, Set.of())).containsOnlyKeys(theirs.user());
 
         broker.comesIn(SECRET.device("hoeing", "late")).close();
         broker.connect(theirs, "theirs").close();
@@ -180,11 +180,13 @@ class MosquittoIT {
         rotated.add(MqttAccount.device(SECRET, "weeding", "other"));
         try (MqttPeer thief = broker.comesIn(SECRET.device("hoeing", DEVICE));
                 MqttPeer other = broker.connect(SECRET.device("weeding", "other"), "other")) {
-            files.retain(Set.of(
-                    SECRET.device("hoeing", DEVICE, 1).user(),
-                    SECRET.device("weeding", "other").user()));
+            files.retain(
+                    Set.of(
+                            SECRET.device("hoeing", DEVICE, 1).user(),
+                            SECRET.device("weeding", "other").user()),
+                    any -> true);
             await().atMost(TIMEOUT).until(() -> !thief.isConnected());
-            files.replace(rotated);
+            files.replace(rotated, Set.of());
 
             broker.comesIn(SECRET.device("hoeing", DEVICE, 1)).close();
             assertThatThrownBy(() -> broker.connect(SECRET.device("hoeing", DEVICE), "again"))

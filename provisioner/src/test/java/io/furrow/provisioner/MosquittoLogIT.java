@@ -3,6 +3,7 @@ package io.furrow.provisioner;
 import java.nio.file.Path;
 import java.time.Instant;
 import java.util.List;
+import java.util.Set;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -26,7 +27,7 @@ class MosquittoLogIT {
     void saysWhenADeviceConnectedAndWhereItPublishedThoughItMayNot() throws Exception {
         long start = Instant.now().getEpochSecond() * 1000;
         try (Mosquitto broker = new Mosquitto(directory)) {
-            broker.files().replace(List.of(MqttAccount.device(Wanted.SECRET, "hoeing", "d")));
+            broker.files().replace(List.of(MqttAccount.device(Wanted.SECRET, "hoeing", "d")), Set.of());
             try (MqttPeer device = broker.comesIn(DEVICE)) {
                 device.publish("/" + Wanted.SECRET.apiKey("hoeing") + "/d/attrs", "1");
                 device.publish("/key/e/attrs", "2");

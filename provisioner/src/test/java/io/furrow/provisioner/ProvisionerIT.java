@@ -9,6 +9,7 @@ import java.util.Optional;
 import java.util.Properties;
 
 import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
@@ -24,6 +25,9 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.control.Fault;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.topic.Topics;
@@ -49,7 +53,7 @@ class ProvisionerIT {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
         agent = FakeAgent.start();
         producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
-        kafka.createTopics(List.of(topic(Topics.DEVICES), topic(Topics.DEVICES_STATUS), topic(Topics.MISSION_DEVICES)));
+        createTopics();
     }
 
     @AfterEach
@@ -130,6 +134,38 @@ class ProvisionerIT {
         assertThat(statuses()).isEmpty();
     }
 
+    /** A Kafka that knows nothing of them says so on a topic until it is told to forget them. */
+    @Test
+    void keepsWhatAnotherKafkaHasProvisioned() throws Exception {
+        put(Wanted.thermometer("hoeing", 1));
+        try (Provisioner provisioner = provisioner()) {
+            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
+            assertThat(provisioner).isNotNull();
+        }
+        kafka.close();
+        kafka = EmbeddedKafka.start(directory.resolve("another"));
+        createTopics();
+        int changes = agent.changes.size();
+        try (Provisioner provisioner = provisioner();
+                CommittedReader<String> faults = CommittedReader.open(client(), Topics.FAULTS)) {
+            List<ConsumerRecord<String, byte[]>> records = new ArrayList<>();
+            await().atMost(TIMEOUT).until(() -> {
+                faults.poll(Duration.ofMillis(100)).forEach(records::add);
+                return !records.isEmpty();
+            });
+            assertThat(Fault.read(records.get(0).value()).text())
+                    .contains("1 devices", "Thermometer:hoeing-1", "--forget-devices");
+            assertThat(provisioner.status().detail()).contains("1 devices").doesNotContain("hoeing");
+        }
+        assertThat(agent.changes).hasSize(changes);
+
+        try (Provisioner provisioner = Provisioner.start(settings(true))) {
+            await().atMost(TIMEOUT).until(() -> agent.apiKeys().isEmpty());
+            assertThat(agent.deviceIds()).isEmpty();
+            assertThat(provisioner).isNotNull();
+        }
+    }
+
     @Test
     void leavesTheWorkToOneOfTwoInstancesAndThenToTheOther() {
         Provisioner first = provisioner();
@@ -151,12 +187,27 @@ class ProvisionerIT {
     }
 
     private Provisioner provisioner() {
-        return Provisioner.start(new ProvisioningSettings(
+        return Provisioner.start(settings(false));
+    }
+
+    private ProvisioningSettings settings(boolean forgets) {
+        return new ProvisioningSettings(
                 client(),
                 Wanted.SCOPE,
-                Wanted.SECRET,
+                SecretSource.of(Wanted.SECRET),
                 AgentSettings.at(agent.uri()).withInterval(Duration.ofSeconds(1)),
-                List.of(accounts)));
+                List.of(accounts),
+                false,
+                ConnectionSources.NONE,
+                forgets);
+    }
+
+    private void createTopics() {
+        kafka.createTopics(List.of(
+                topic(Topics.DEVICES),
+                topic(Topics.DEVICES_STATUS),
+                topic(Topics.MISSION_DEVICES),
+                topic(Topics.FAULTS)));
     }
 
     private void put(WantedDevice device) {

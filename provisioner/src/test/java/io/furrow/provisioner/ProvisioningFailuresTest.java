@@ -27,7 +27,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 /** An IoT Agent that forgets, refuses, fails or is slow. */
 @Tag("full")
 class ProvisioningFailuresTest {
-    private static final Outcome DONE = new Outcome(Map.of(), null, true);
+    private static final Outcome DONE = new Outcome(Map.of(), null, null, true);
     private static final String KEY = FakeAgent.key("/iot/json", Wanted.SECRET.apiKey("hoeing"));
 
     private final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);

@@ -9,6 +9,8 @@ import java.util.List;
 import java.util.Map;
 import java.util.Properties;
 import java.util.Set;
+import java.util.function.Predicate;
+import java.util.stream.Collectors;
 
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
@@ -23,7 +25,10 @@ import io.furrow.provisioner.account.MqttAccounts;
 
 /** A provisioner in a test's hands: what is requested, and what the agent and the MQTT brokers are told. */
 abstract class ProvisioningFixture {
-    static final Outcome DONE = new Outcome(Map.of(), null, true);
+    static final Outcome DONE = new Outcome(Map.of(), null, null, true);
+    /** The Kafka whose devices were provisioned before. */
+    static final Removals.Origin SAME = new Removals.Origin("topic-1", true);
+
     static final String KEY = Wanted.SECRET.apiKey("hoeing");
 
     final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);
@@ -47,7 +52,13 @@ abstract class ProvisioningFixture {
     }
 
     Provisioning provisioning() {
-        return new Provisioning(settings(SecretSource.of(Wanted.SECRET), false), wanted, System::nanoTime);
+        return provisioning(settings(SecretSource.of(Wanted.SECRET), false), SAME);
+    }
+
+    Provisioning provisioning(ProvisioningSettings settings, Removals.Origin origin) {
+        Provisioning begun = new Provisioning(settings, wanted, System::nanoTime);
+        begun.startAnew(origin);
+        return begun;
     }
 
     ProvisioningSettings settings(SecretSource secret, boolean gateways) {
@@ -73,18 +84,19 @@ abstract class ProvisioningFixture {
         private final Set<String> users = new HashSet<>();
 
         @Override
-        public Map<String, String> replace(List<MqttAccount> all) {
-            users.clear();
+        public Map<String, String> replace(List<MqttAccount> all, Set<String> kept) {
+            users.retainAll(kept);
             all.forEach(account -> users.add(account.login().user()));
-            counts.add(all.size());
+            counts.add(users.size());
             return Map.copyOf(refused);
         }
 
         @Override
-        public void retain(Set<String> some) {
-            if (users.retainAll(some)) {
+        public Set<String> retain(Set<String> some, Predicate<String> removable) {
+            if (users.removeIf(user -> !some.contains(user) && removable.test(user))) {
                 counts.add(users.size());
             }
+            return users.stream().filter(user -> !some.contains(user)).collect(Collectors.toSet());
         }
     }
 }

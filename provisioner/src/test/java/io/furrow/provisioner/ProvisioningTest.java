@@ -90,7 +90,7 @@ class ProvisioningTest extends ProvisioningFixture {
         provisioning.step();
         assertThat(accounts.mayRead(gateway, "/" + KEY + "/+/cmd")).isFalse();
 
-        provisioning = new Provisioning(settings(SecretSource.of(Wanted.SECRET), true), wanted, System::nanoTime);
+        provisioning = provisioning(settings(SecretSource.of(Wanted.SECRET), true), SAME);
         provisioning.step();
 
         assertThat(counts).containsExactly(1, 2);

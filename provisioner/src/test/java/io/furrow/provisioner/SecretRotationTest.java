@@ -18,7 +18,7 @@ class SecretRotationTest extends ProvisioningFixture {
     @Test
     void acceptsOldAndNewPasswordsWhileASecretIsRotatedAndDoesNotProvisionAnew() throws Exception {
         Secret secret = new Secret();
-        provisioning = new Provisioning(settings(secret, false), wanted, System::nanoTime);
+        provisioning = provisioning(settings(secret, false), SAME);
         WantedDevice device = Wanted.thermometer("hoeing", 1);
         want(device);
         provisioning.step();
@@ -48,7 +48,7 @@ class SecretRotationTest extends ProvisioningFixture {
         WantedDevice device = Wanted.thermometer("hoeing", 1);
         want(device);
         want(Wanted.thermometer("gone", 1));
-        new Provisioning(settings(secret, false), wanted, System::nanoTime).step();
+        provisioning(settings(secret, false), SAME).step();
         agent.devices.put(
                 "foreign",
                 JsonNodeFactory.instance
@@ -60,8 +60,7 @@ class SecretRotationTest extends ProvisioningFixture {
         secret.current =
                 Wanted.SECRET.rotated(Instant.now(), Instant.EPOCH, true).at(Instant.now());
 
-        assertThat(new Provisioning(settings(secret, false), wanted, System::nanoTime).step())
-                .isEqualTo(DONE);
+        assertThat(provisioning(settings(secret, false), SAME).step()).isEqualTo(DONE);
 
         assertThat(agent.deviceIds()).containsExactlyInAnyOrder(device.device(), "foreign");
         assertThat(agent.apiKeys()).containsExactly(secret.current.apiKey("hoeing"));
@@ -105,7 +104,7 @@ class SecretRotationTest extends ProvisioningFixture {
         Secret another = new Secret();
         another.current = FarmSecret.generate();
         another.foreign = "this farm has another secret";
-        provisioning = new Provisioning(settings(another, false), wanted, System::nanoTime);
+        provisioning = provisioning(settings(another, false), SAME);
 
         assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessage(another.foreign);
 

@@ -57,8 +57,19 @@ class ContainerScriptsTest {
         completed("ingest/other/chk-1", 0);
 
         assertThat(submit("jobs/analytics.jar", "presence"))
+                .isEqualTo(
+                        "run -d -s file://%s -claimMode claim jobs/analytics.jar presence --checkpoint-dir file://%s/presence\n"
+                                .formatted(newest, checkpoints));
+    }
+
+    @Test
+    void leavesASavepointToWhoeverMadeIt() throws Exception {
+        completed("presence/first/chk-9", 60);
+        Path savepoint = completed("presence/savepoint-0a1b", 30);
+
+        assertThat(submit("jobs/analytics.jar", "presence"))
                 .isEqualTo("run -d -s file://%s jobs/analytics.jar presence --checkpoint-dir file://%s/presence\n"
-                        .formatted(newest, checkpoints));
+                        .formatted(savepoint, checkpoints));
     }
 
     @Test

@@ -152,9 +152,11 @@ public final class Redrive {
         boolean begun = false;
         for (ConsumerRecord<byte[], byte[]> letter : records) {
             boolean isNew = letter.offset() >= ends.get(new TopicPartition(letter.topic(), letter.partition()));
-            Optional<ConsumerRecord<byte[], byte[]>> original =
-                    isNew || !isWanted(letter) ? Optional.empty() : original(letter);
-            if (original.isPresent()) {
+            boolean isWanted = !isNew && isWanted(letter);
+            Optional<ConsumerRecord<byte[], byte[]>> original = isWanted ? original(letter) : Optional.empty();
+            if (isWanted && original.isEmpty()) {
+                memory.leave(letter.partition(), kind(letter), letter.offset());
+            } else if (original.isPresent()) {
                 memory.add(letter.partition(), kind(letter), letter.offset());
                 fed.merge(kind(letter).reason(), 1L, Long::sum);
                 if (producer != null) {
@@ -166,9 +168,8 @@ public final class Redrive {
                 }
             }
         }
-        List<ProducerRecord<byte[], byte[]>> done = memory.changes();
         if (begun) {
-            done.forEach(producer::send);
+            memory.changes().forEach(producer::send);
             producer.commitTransaction();
         }
     }

@@ -5,10 +5,12 @@ import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashMap;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Properties;
+import java.util.Set;
 import java.util.concurrent.ExecutionException;
 
 import org.apache.kafka.clients.admin.Admin;
@@ -24,15 +26,18 @@ import io.furrow.kafka.CommittedReader;
 /**
  * How far the letters of each partition, reason and stage were brought to a topic: the compacted topic {@code <dead
  * letters>.refed}, written in the transaction that brings them. Whichever reasons and stages are asked for together, no letter
- * is brought twice; and unlike the offsets of a consumer group this is not forgotten after a week.
+ * is brought twice; and unlike the offsets of a consumer group this is not forgotten after a week. A letter that was left before one
+ * that was brought is remembered by itself.
  */
 final class RedriveOffsets {
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
+    private static final String LEFT = "|left|";
 
     private final String topic;
     private final String prefix;
     private final Map<String, Long> next = new HashMap<>();
     private final Map<String, Long> changed = new HashMap<>();
+    private final Set<String> left = new HashSet<>();
 
     /** @param dead id of the topic of dead letters, for one that is made again counts from 0 again */
     private RedriveOffsets(String topic, String dead, String to) {
@@ -94,14 +99,21 @@ final class RedriveOffsets {
 
     private void remember(ConsumerRecord<byte[], byte[]> record) {
         String key = new String(record.key(), StandardCharsets.UTF_8);
-        if (key.startsWith(prefix) && record.value() != null) {
+        if (!key.startsWith(prefix)) {
+            return;
+        }
+        if (record.value() == null) {
+            left.remove(key);
+        } else if (key.contains(LEFT)) {
+            left.add(key);
+        } else {
             next.put(key, Long.parseLong(new String(record.value(), StandardCharsets.UTF_8)));
         }
     }
 
     /** Whether the letter at this offset was brought back before. */
     boolean holds(int partition, Redrive.Kind kind, long offset) {
-        return offset < next.getOrDefault(key(partition, kind), 0L);
+        return offset < next.getOrDefault(key(partition, kind), 0L) && !left.contains(leftKey(partition, kind, offset));
     }
 
     /** To be remembered with the next {@link #changes()}. */
@@ -110,6 +122,18 @@ final class RedriveOffsets {
         if (offset >= next.getOrDefault(key, 0L)) { // what is fed again was remembered before
             next.put(key, offset + 1);
             changed.put(key, offset + 1);
+        }
+        String leftKey = leftKey(partition, kind, offset);
+        if (left.remove(leftKey)) {
+            changed.put(leftKey, null);
+        }
+    }
+
+    /** The same of a letter that cannot be brought. */
+    void leave(int partition, Redrive.Kind kind, long offset) {
+        String key = leftKey(partition, kind, offset);
+        if (offset >= next.getOrDefault(key(partition, kind), 0L) && left.add(key)) {
+            changed.put(key, offset);
         }
     }
 
@@ -120,9 +144,13 @@ final class RedriveOffsets {
                 topic,
                 0,
                 key.getBytes(StandardCharsets.UTF_8),
-                offset.toString().getBytes(StandardCharsets.UTF_8))));
+                offset == null ? null : offset.toString().getBytes(StandardCharsets.UTF_8))));
         changed.clear();
         return records;
+    }
+
+    private String leftKey(int partition, Redrive.Kind kind, long offset) {
+        return key(partition, kind) + LEFT + offset;
     }
 
     private String key(int partition, Redrive.Kind kind) {

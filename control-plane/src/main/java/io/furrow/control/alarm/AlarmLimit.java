@@ -29,6 +29,8 @@ final class AlarmLimit {
 
     private static final long RECOUNT_EVERY = Duration.ofSeconds(10).toMillis();
     private static final long SEEN_INTERVAL = Duration.ofSeconds(10).toMillis();
+    /** A validity to which {@link #SEEN_INTERVAL} does not matter. */
+    private static final long LONG = Duration.ofMinutes(30).toMillis();
 
     private final Records<Group> groups;
     private final Records<Counted> counted;
@@ -96,7 +98,9 @@ final class AlarmLimit {
     }
 
     private static boolean isNews(Counted before, Counted now) {
-        return !Objects.equals(before.until(), now.until()) || now.seen() - before.seen() >= SEEN_INTERVAL;
+        boolean lastsLong = before.until() != null && now.until() != null && now.until() - now.seen() >= LONG;
+        boolean lastsOtherwise = !lastsLong && !Objects.equals(before.until(), now.until());
+        return lastsOtherwise || now.seen() - before.seen() >= SEEN_INTERVAL;
     }
 
     /**
@@ -221,8 +225,8 @@ final class AlarmLimit {
             case PREDICTED_ENCOUNTER -> "%s encounters of %s are predicted";
             case SUSPECT_SENSOR -> "%s sensors of %s deviate from the others";
             case CLOCK_BEHIND -> "reports of %s devices of %s arrive too late and are dropped";
-            case MISSING_DEVICES, SILENT_DEVICE, SILENT_MISSION, SILENT_FARM ->
-                throw new IllegalStateException("kinds of many devices have group alarms of their own: " + group.key());
+            case MISSING_DEVICES, SILENT_DEVICE, SILENT_MISSION, SILENT_FARM, FAULT ->
+                throw new IllegalStateException("alarms of this kind are not counted by group: " + group.key());
         };
         return what.formatted(number, AlarmGroup.label(group.group()));
     }

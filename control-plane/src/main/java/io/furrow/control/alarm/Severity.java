@@ -17,7 +17,7 @@ public enum Severity {
     static Severity of(AlarmKind kind) {
         return switch (kind) {
             case COLLISION, SILENT_FARM -> CRITICAL;
-            case PREDICTED_ENCOUNTER, SILENT_MISSION, MISSING_DEVICES, CLOCK_BEHIND -> MAJOR;
+            case PREDICTED_ENCOUNTER, SILENT_MISSION, MISSING_DEVICES, CLOCK_BEHIND, FAULT -> MAJOR;
             case SILENT_DEVICE -> MINOR;
             case SUSPECT_SENSOR -> WARNING;
         };

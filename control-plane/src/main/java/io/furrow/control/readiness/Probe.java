@@ -18,6 +18,7 @@ import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.DescribeClusterOptions;
 
 import io.furrow.kafka.PartStatus;
+import io.furrow.model.text.FailureText;
 
 /**
  * Probes a service every two seconds on a thread of its own; the service counts as unavailable after six seconds
@@ -90,10 +91,8 @@ public final class Probe implements AutoCloseable {
             failure = "";
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-        } catch (ExecutionException e) {
-            failure = String.valueOf(e.getCause());
-        } catch (IOException | TimeoutException | RuntimeException e) { // whatever a client throws, it is not there
-            failure = e.toString();
+        } catch (IOException | ExecutionException | TimeoutException | RuntimeException e) { // it is not there
+            failure = FailureText.of(e);
         }
     }
 

@@ -44,6 +44,16 @@ public final class Readiness {
         parts.add(new Part(() -> List.of(status.get()), false));
     }
 
+    /** The same of several. */
+    public void showAll(Supplier<List<PartStatus>> statuses) {
+        parts.add(new Part(statuses, false));
+    }
+
+    /** All parts, for metrics. */
+    public List<PartStatus> statuses() {
+        return all(false).toList();
+    }
+
     /** Sentences about what needs somebody though all works; everybody may read them, so they contain nothing about the farm. */
     public void warn(Supplier<List<String>> sentences) {
         warnings.add(sentences);

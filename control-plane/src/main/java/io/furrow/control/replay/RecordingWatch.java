@@ -20,6 +20,7 @@ import io.furrow.kafka.RestartingWorker;
 import io.furrow.mission.mongo.MissionCatalog;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -82,7 +83,7 @@ public final class RecordingWatch implements AutoCloseable {
                         LOG.warn("{} stays as it is until MongoDB is back", Topics.RECORDINGS, e);
                     }
                     away = true;
-                    running.failed(e.getMessage());
+                    running.failed(FailureText.of(e));
                 }
                 running.pause(settings.pollInterval());
             }

@@ -61,7 +61,7 @@ public final class RestApi implements AutoCloseable {
     private final ServiceView view = new ServiceView();
     private final PendingReplies answers = new PendingReplies();
     private final Server server = new Server(threads);
-    private final RestMetrics metrics = new RestMetrics(view, answers);
+    private final RestMetrics metrics;
     private final ServiceReader reader;
     private final CommandClient managers;
     private final ReplayView replays = new ReplayView(view);
@@ -70,7 +70,8 @@ public final class RestApi implements AutoCloseable {
     /** Null if there is no MongoDB. */
     private final EventTiles events;
 
-    private RestApi(ControlSettings control, RestSettings rest) {
+    private RestApi(ControlSettings control, RestSettings rest, Readiness readiness) {
+        metrics = new RestMetrics(view, answers, readiness);
         // A manager may remember an id by a twelfth longer than was asked for.
         reader = new ServiceReader(
                 control.client(), control.remembered().multipliedBy(13).dividedBy(12), view, answers);
@@ -92,7 +93,7 @@ public final class RestApi implements AutoCloseable {
         BearerTokens tokens = rest.tokens() == null ? null : BearerTokens.read(rest.tokens());
         TlsListener tls = rest.certificate() == null ? null : TlsListener.open(rest.certificate());
         check(control, rest);
-        RestApi api = new RestApi(control, rest);
+        RestApi api = new RestApi(control, rest, readiness);
         try {
             readiness.warn(new Warnings(rest.secret(), tokens, tls));
             api.listen(rest, tls, api.resources(control, rest, readiness, tokens));

@@ -24,8 +24,10 @@ import jakarta.ws.rs.container.PreMatching;
 import org.glassfish.jersey.server.ExtendedUriInfo;
 import org.glassfish.jersey.uri.UriTemplate;
 
+import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.view.PendingReplies;
 import io.furrow.control.rest.view.ServiceView;
+import io.furrow.kafka.PartStatus;
 import io.furrow.model.topic.Topics;
 
 /** Counts requests, and writes that and what the view holds in the text format of Prometheus. */
@@ -39,6 +41,7 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
 
     private final ServiceView view;
     private final PendingReplies answers;
+    private final Readiness readiness;
     private final Map<Route, Count> counts = new ConcurrentHashMap<>();
     private final PrometheusTextFormatWriter writer =
             PrometheusTextFormatWriter.builder().build();
@@ -47,9 +50,10 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
 
     private record Count(LongAdder requests, LongAdder nanos) {}
 
-    RestMetrics(ServiceView view, PendingReplies answers) {
+    RestMetrics(ServiceView view, PendingReplies answers, Readiness readiness) {
         this.view = view;
         this.answers = answers;
+        this.readiness = readiness;
     }
 
     @Override
@@ -98,7 +102,14 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
         answers.counts()
                 .forEach((kind, count) -> answered.dataPoint(
                         point(Labels.of("manager", kind.topic(), "status", kind.status()), count.sum())));
+        GaugeSnapshot.Builder parts =
+                gauge("part_up", "1 where a part of this instance, or something that it speaks with, works.");
+        readiness
+                .statuses()
+                .forEach(part -> parts.dataPoint(
+                        value(Labels.of("part", part.name()), part.state() == PartStatus.State.UP ? 1 : 0)));
         MetricSnapshots.Builder metrics = MetricSnapshots.builder()
+                .metricSnapshot(parts.build())
                 .metricSnapshot(answered.build())
                 .metricSnapshot(requests.build())
                 .metricSnapshot(seconds.build())

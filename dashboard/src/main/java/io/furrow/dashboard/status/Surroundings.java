@@ -19,6 +19,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.dashboard.proxy.TopicStreams;
+import io.furrow.model.text.FailureText;
 
 /**
  * What the dashboard stands in front of, asked every two seconds: Kafka and the control plane. One counts as away after six seconds
@@ -89,10 +90,8 @@ public final class Surroundings implements AutoCloseable {
             part.failure = "";
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-        } catch (ExecutionException e) {
-            part.failure = String.valueOf(e.getCause());
-        } catch (IOException | TimeoutException | RuntimeException e) { // whatever a client throws, it is not there
-            part.failure = e.toString();
+        } catch (IOException | ExecutionException | TimeoutException | RuntimeException e) { // it is not there
+            part.failure = FailureText.of(e);
         }
     }
 

@@ -112,6 +112,23 @@ public final class ControlPlaneCommand implements Callable<Integer> {
     private URI orion;
 
     @Option(
+            names = "--connect-url",
+            paramLabel = "URL",
+            converter = HttpUri.class,
+            description =
+                    "REST API of Kafka Connect, for instance http://127.0.0.1:8083: /ready shows its connectors, and one that failed "
+                            + "raises an alarm. Default: it is not asked.")
+    private URI connect;
+
+    @Option(
+            names = "--replication-factor",
+            paramLabel = "N",
+            defaultValue = "-1",
+            description =
+                    "Copies of each topic that this makes, its internal ones too; those that exist stay as they are. Default: that of the brokers.")
+    private short replicationFactor;
+
+    @Option(
             names = "--fiware-service",
             paramLabel = "NAME",
             defaultValue = "farm",
@@ -157,6 +174,10 @@ public final class ControlPlaneCommand implements Callable<Integer> {
         AccessToken token = fiware.token();
         provisioning.agent(fiwareService, token); // the same
         provisioning.mqttPublic(); // the same
+        if (replicationFactor < 1 && replicationFactor != -1) {
+            throw new ParameterException(
+                    spec.commandLine(), "--replication-factor is at least 1, or -1 for that of the brokers.");
+        }
         replays.settings(); // the same
         new PortCheck()
                 .add(host, port, "the REST API", "--control-port")
@@ -197,6 +218,9 @@ public final class ControlPlaneCommand implements Callable<Integer> {
             out.flush();
             RestApi.check(settings(), rest);
             service.startManagers();
+            if (connect != null) {
+                service.watchConnectors(connect);
+            }
             out.println("REST API: " + serve(service, rest, secret) + "/openapi.json");
             out.println("Health: " + service.health() + "/ready");
             out.flush();
@@ -214,6 +238,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
         return ControlSettings.of(client)
                 .with(new MissionOptions(provisioning.startTimeout, fiware.scope(fiwareService), false))
                 .withStandbyReplicas(standbyReplicas)
+                .withReplicationFactor(replicationFactor)
                 .with(replays.settings());
     }
 
@@ -234,7 +259,8 @@ public final class ControlPlaneCommand implements Callable<Integer> {
                                 agent,
                                 provisioning.accounts().accounts(),
                                 provisioning.gateways,
-                                provisioning.accounts().connections()));
+                                provisioning.accounts().connections(),
+                                provisioning.forgets));
     }
 
     private static void stopFromOutside(ControlService service, CountDownLatch stop, CountDownLatch stopped) {

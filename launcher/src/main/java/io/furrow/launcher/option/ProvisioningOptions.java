@@ -90,6 +90,13 @@ public final class ProvisioningOptions {
     public boolean gateways;
 
     @Option(
+            names = "--forget-devices",
+            description =
+                    "For one start: remove devices at the IoT Agent and MQTT accounts that were made for another Kafka, or for one whose "
+                            + "data is lost. Default: they stay, and an alarm names them.")
+    public boolean forgets;
+
+    @Option(
             names = "--mqtt-public-url",
             paramLabel = "URL",
             description =
@@ -162,7 +169,7 @@ public final class ProvisioningOptions {
     }
 
     public SuiteSettings.AccountFiles accounts() {
-        return new SuiteSettings.AccountFiles(passwords, rules, reload, gateways, log);
+        return new SuiteSettings.AccountFiles(passwords, rules, reload, gateways, log, forgets);
     }
 
     SuiteSettings.Secret secret() {

@@ -152,11 +152,7 @@ final class FlinkRest {
 
     /** Flink answers with whole stack traces. */
     private static String cause(String body) {
-        String text = body.replace("\\n", "\n");
-        String told = text.lines()
-                .filter(line -> line.startsWith("Caused by: "))
-                .reduce((first, second) -> second)
-                .orElse(text);
+        String told = FailureText.ofTrace(body.replace("\\n", "\n"));
         return told.length() <= 300 ? told : told.substring(0, 300) + " …";
     }
 }

@@ -14,6 +14,7 @@ import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.FarmWatch;
 import io.furrow.control.WatchOptions;
+import io.furrow.control.readiness.ConnectorWatch;
 import io.furrow.control.readiness.HealthServer;
 import io.furrow.control.readiness.Probe;
 import io.furrow.control.readiness.Readiness;
@@ -93,6 +94,12 @@ public final class ControlService implements AutoCloseable {
                         rest.host(), healthPort, rest.allowed(), new HealthServer.Pages(readiness, api::metrics)));
         health = pages.uri();
         return api.uri();
+    }
+
+    /** Shows how the connectors of a Kafka Connect are, and raises alarms of those that failed. @param connect base of its REST API */
+    public void watchConnectors(URI connect) {
+        ConnectorWatch watch = parts.add("connector watch", ConnectorWatch.start(connect, settings.client()));
+        readiness.showAll(watch::statuses);
     }
 
     private void startReplays(ReplaySettings replays) throws IOException {

@@ -126,7 +126,7 @@ public final class Suite implements AutoCloseable {
 
     private URI joinControl() {
         try {
-            return control.join(ends());
+            return control.join(ends(), connect.uri());
         } catch (IOException e) { // says what is unavailable or refused, and what to do
             throw new CommandException(e.getMessage(), e);
         }

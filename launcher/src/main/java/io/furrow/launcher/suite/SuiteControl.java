@@ -92,8 +92,13 @@ final class SuiteControl implements AutoCloseable {
         return service.startManagers();
     }
 
-    /** Begins to take commands, and to run the devices of missions. */
-    URI join(Endpoints ends) throws IOException {
+    /**
+     * Begins to take commands, and to run the devices of missions.
+     *
+     * @param connect base of Kafka Connect's REST API
+     */
+    URI join(Endpoints ends, URI connect) throws IOException {
+        service.watchConnectors(connect);
         SuiteSettings.Farm farm = suite.farm();
         SecretFile source = FarmSecretFile.open(secret, client, farm.secret().replaced());
         boolean simulates = ends.mqtt() != null && farm.missions().simulates();
@@ -122,7 +127,8 @@ final class SuiteControl implements AutoCloseable {
                                 ends.iotAgent(),
                                 ends.accounts(),
                                 simulates || farm.accounts().gateways(),
-                                ends.connections()));
+                                ends.connections(),
+                                farm.accounts().forgets()));
         if (simulates) {
             devices = DeviceHost.start(HostSettings.of(client, ends.mqtt(), ends.contextBroker(), source)
                     .withToken(suite.fiware().token()));

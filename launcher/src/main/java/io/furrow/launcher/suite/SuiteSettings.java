@@ -132,7 +132,7 @@ public record SuiteSettings(
                 null,
                 null,
                 null,
-                new AccountFiles(null, null, null, false, null),
+                new AccountFiles(null, null, null, false, null, false),
                 new Secret(null, null),
                 null,
                 new Missions(MissionOptions.START_TIMEOUT, true, true));
@@ -163,8 +163,9 @@ public record SuiteSettings(
      * @param reload run after a change; null for nothing
      * @param gateways whether each mission has an account that speaks for all its devices
      * @param log Mosquitto's; null for none
+     * @param forgets whether accounts and devices are removed that were made for another Kafka
      */
-    public record AccountFiles(Path passwords, Path rules, String reload, boolean gateways, Path log) {
+    public record AccountFiles(Path passwords, Path rules, String reload, boolean gateways, Path log, boolean forgets) {
         /** What the broker's log says of logins. */
         public ConnectionSources connections() {
             return new ConnectionSources(log == null ? List.of() : List.of(new MosquittoLog(log)), MeasureReports.NONE);

@@ -91,6 +91,19 @@ class ControlPlaneCommandIT {
     }
 
     @Test
+    void makesItsTopicsWithTheReplicationThatItIsGiven() throws Exception {
+        Process none = run(directory.resolve("none"), "--replication-factor", "0");
+        assertThat(none.waitFor()).isNotZero();
+        assertThat(Files.readString(directory.resolve("none"))).contains("--replication-factor is at least 1");
+
+        Process two = run(directory.resolve("two"), "--replication-factor", "2");
+        assertThat(two.waitFor()).as("there is one broker").isNotZero();
+        assertThat(Files.readString(directory.resolve("two")))
+                .contains("The topics service.* cannot be prepared", "replic")
+                .doesNotContain("Exception");
+    }
+
+    @Test
     void startsNoProcessWithoutTheSecretOrWithAnother() throws Exception {
         Path missing = directory.resolve("missing");
         Process process = run(directory.resolve("one"), "--farm-secret", missing.toString());

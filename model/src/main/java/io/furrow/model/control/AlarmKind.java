@@ -22,7 +22,9 @@ public enum AlarmKind {
     /** A sensor shows what those around it do not; the subject is its entity; of more, that of the field's results. */
     SUSPECT_SENSOR,
     /** A device's positions come too late to count; the subject is its entity; of more, their mission's entity. */
-    CLOCK_BEHIND;
+    CLOCK_BEHIND,
+    /** A part of Furrow itself does not do its work, or needs somebody; the subject is its name. */
+    FAULT;
 
     /** The name in lower case with hyphens, for instance {@code silent-device}. */
     @JsonValue

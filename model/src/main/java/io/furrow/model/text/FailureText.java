@@ -13,6 +13,8 @@ public final class FailureText {
     /** The state of MongoDB's driver as it prints it. */
     private static final Pattern STATE = Pattern.compile("\\. Client view of cluster state is .*", Pattern.DOTALL);
 
+    private static final String CAUSE = "Caused by: ";
+
     private FailureText() {}
 
     /** A part of a sentence, for instance {@code connection refused}. */
@@ -25,12 +27,29 @@ public final class FailureText {
         if (cause instanceof UnknownHostException) {
             return "there is no host of this name";
         } else if (message == null || message.isBlank()) {
-            return cause instanceof ConnectException ? "connection refused" : words(cause.getClass());
+            return cause instanceof ConnectException
+                    ? "connection refused"
+                    : words(cause.getClass().getSimpleName());
         }
-        return CLASS.matcher(STATE.matcher(message).replaceFirst("")).replaceAll("");
+        String text = CLASS.matcher(STATE.matcher(message).replaceFirst("")).replaceAll("");
+        return cause instanceof Error ? words(cause.getClass().getSimpleName()) + ": " + text : text;
+    }
+
+    /** The same of a stack trace as it is printed: the first line of its deepest cause. */
+    public static String ofTrace(String trace) {
+        String cause = trace.lines()
+                .filter(line -> line.startsWith(CAUSE))
+                .reduce((outer, inner) -> inner)
+                .map(line -> line.substring(CAUSE.length()))
+                .orElseGet(() -> trace.lines().findFirst().orElse(""));
+        String text = CLASS.matcher(cause).replaceAll("").strip();
+        return text.isEmpty() ? words(cause.substring(cause.lastIndexOf('.') + 1)) : text;
     }
 
     private static boolean isWrapper(Throwable failure) {
+        if (failure instanceof ConnectException) { // the client of Java has the reason itself for a cause
+            return false;
+        }
         return failure instanceof ExecutionException
                 || failure instanceof CompletionException
                 || failure.getMessage() == null && !(failure instanceof ConnectException)
@@ -38,9 +57,8 @@ public final class FailureText {
     }
 
     /** What its class is called, as words: {@code closed channel}. */
-    private static String words(Class<?> type) {
-        return type.getSimpleName()
-                .replaceFirst("(Exception|Error)$", "")
+    private static String words(String type) {
+        return type.replaceFirst("(Exception|Error)$", "")
                 .replaceAll("(?<=[a-z])(?=[A-Z])", " ")
                 .toLowerCase(Locale.ROOT);
     }

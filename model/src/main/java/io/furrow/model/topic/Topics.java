@@ -38,6 +38,9 @@ public final class Topics {
     public static final String DEVICES_HEALTH = "service.devices.health";
 
     public static final String DEVICES_CONNECTION = "service.devices.connection";
+    /** What does not work in Furrow itself, by its part, repeated while it lasts; compacted. */
+    public static final String FAULTS = "service.faults";
+
     /** Status of each replay, reported by its player; compacted. */
     public static final String REPLAYS_STATUS = "service.replays.status";
 

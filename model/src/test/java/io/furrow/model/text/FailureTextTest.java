@@ -27,6 +27,21 @@ class FailureTextTest {
     }
 
     @Test
+    void namesTheDeepestCauseOfAStackTrace() {
+        String trace =
+                "org.apache.kafka.connect.errors.ConnectException: Exiting WorkerSinkTask\n\tat org.apache.Some.run(Some.java:1)\n";
+        assertThat(FailureText.ofTrace(trace)).isEqualTo("Exiting WorkerSinkTask");
+        assertThat(
+                        FailureText.ofTrace(
+                                trace
+                                        + "Caused by: io.furrow.connect.Outer: a\n\tat x\nCaused by: io.furrow.connect.Inner: the broker answers 401"))
+                .isEqualTo("the broker answers 401");
+        assertThat(FailureText.ofTrace("java.lang.NullPointerException\n\tat x"))
+                .isEqualTo("null pointer");
+        assertThat(FailureText.ofTrace("")).isEmpty();
+    }
+
+    @Test
     void leavesOutTheStateOfADriver() {
         assertThat(
                         FailureText.of(

@@ -164,10 +164,13 @@ public final class Journal implements AutoCloseable {
 
     /** Closes it and deletes its folder. */
     public void delete() {
-        close();
         try {
-            JournalFolders.delete(folder);
+            commit.close();
+            Path deleted = JournalFolders.markDeleted(folder); // before it is unlocked, so that no task takes it
+            close();
+            JournalFolders.delete(deleted);
         } catch (IOException e) {
+            close();
             LOG.warn("cannot delete the folder {} of an empty journal; delete it manually", folder, e);
         }
     }

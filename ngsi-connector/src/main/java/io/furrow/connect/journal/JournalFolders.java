@@ -65,7 +65,7 @@ public final class JournalFolders {
             Disk.syncFolder(own);
             for (Path folder : foldersOf(own)) {
                 if (folder.getFileName().toString().startsWith(slot + "-")) {
-                    Optional<Journal> journal = Journal.open(folder, settings);
+                    Optional<Journal> journal = openUnlessDeleted(folder);
                     if (journal.isPresent()) {
                         return journal.get();
                     }
@@ -81,8 +81,12 @@ public final class JournalFolders {
         Optional<Journal> journal = Optional.empty();
         while (journal.isEmpty()) {
             Path made = own.resolve(slot + "-" + HexFormat.of().toHexDigits(RANDOM.nextLong()));
-            DurableFolders.create(made, Disk::syncFolder);
-            journal = Journal.open(made, settings); // empty if another task adopted it just now
+            try {
+                DurableFolders.create(made, Disk::syncFolder);
+                journal = openUnlessDeleted(made);
+            } catch (NoSuchFileException e) {
+                LOG.debug("another task has adopted and deleted {} just now", made, e);
+            }
         }
         return journal.get();
     }
@@ -95,15 +99,30 @@ public final class JournalFolders {
      */
     public void adopt(Consumer<Journal> taker) {
         for (Path folder : foldersOf(own)) {
-            if (!NAME.matcher(folder.getFileName().toString()).matches()) {
+            if (!isJournal(folder)) {
                 continue;
             }
             try {
-                Journal.open(folder, settings).ifPresent(journal -> give(journal, taker));
+                openUnlessDeleted(folder).ifPresent(journal -> give(journal, taker));
             } catch (UncheckedIOException e) {
                 LOG.warn("an unused journal cannot be taken over", e);
             }
         }
+    }
+
+    private Optional<Journal> openUnlessDeleted(Path folder) {
+        try {
+            return Journal.open(folder, settings);
+        } catch (UncheckedIOException e) {
+            if (Files.notExists(folder)) { // since it was listed
+                return Optional.empty();
+            }
+            throw e;
+        }
+    }
+
+    private static boolean isJournal(Path folder) {
+        return NAME.matcher(folder.getFileName().toString()).matches();
     }
 
     private static void give(Journal journal, Consumer<Journal> taker) {
@@ -119,7 +138,8 @@ public final class JournalFolders {
     public List<Orphan> orphans() {
         List<Orphan> orphans = new ArrayList<>();
         for (Path owner : foldersOf(root)) {
-            for (Path folder : foldersOf(owner)) {
+            for (Path folder :
+                    foldersOf(owner).stream().filter(JournalFolders::isJournal).toList()) {
                 try {
                     long bytes = segmentBytes(folder);
                     if (bytes > 0 && !JournalLock.isHeld(folder)) {
@@ -153,6 +173,11 @@ public final class JournalFolders {
         } catch (IOException e) {
             throw new UncheckedIOException("cannot list " + folder, e);
         }
+    }
+
+    /** Gives a folder a name that is none of a journal's; returns it. */
+    static Path markDeleted(Path folder) throws IOException {
+        return Files.move(folder, folder.resolveSibling("deleted-" + folder.getFileName()));
     }
 
     static void delete(Path folder) throws IOException {

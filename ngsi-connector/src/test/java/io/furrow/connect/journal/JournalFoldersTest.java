@@ -60,6 +60,29 @@ class JournalFoldersTest {
         }
     }
 
+    /** Else a record may be confirmed in a journal whose files are deleted the moment after. */
+    @Test
+    void deletesNoJournalThatATaskHasTaken() throws Exception {
+        AtomicBoolean ended = new AtomicBoolean();
+        CompletableFuture<Void> deleting = CompletableFuture.runAsync(() -> {
+            while (!ended.get()) {
+                adopted("farm").forEach(Journal::delete);
+            }
+        });
+        try {
+            for (int i = 0; i < 100; i++) {
+                try (Journal journal = folders("farm").take(0)) {
+                    JournalTest.append(journal, "confirmed");
+                    assertThat(journal.folder()).isDirectoryContaining("regex:.*\\d{19}.*");
+                }
+            }
+        } finally {
+            ended.set(true);
+            deleting.join();
+        }
+        assertThat(Files.list(root.resolve("farm")).map(Path::toString)).noneMatch(name -> name.contains("deleted-"));
+    }
+
     @Test
     void leavesFoldersAloneThatAreNoJournals() throws Exception {
         Path other = Files.createDirectories(root.resolve("farm").resolve("notes"));

@@ -138,6 +138,13 @@ final class FakeContextBroker implements AutoCloseable {
         if (isLdDeletion || update.body().path("actionType").asText().equals("delete")) {
             return deleted(update, isLdDeletion, reply);
         }
+        String[] attribute = update.path().split("/attrs/");
+        if (update.method().equals("DELETE") && attribute.length == 2) {
+            String id =
+                    attribute[0].substring(attribute[0].lastIndexOf('/') + 1).replace("%3A", ":");
+            boolean isThere = entities.containsKey(id) && ((ObjectNode) entities.get(id)).remove(attribute[1]) != null;
+            return isThere ? reply : new Reply(404, "none");
+        }
         if (update.method().equals("DELETE")) {
             String id = update.path().substring(update.path().lastIndexOf('/') + 1);
             return entities.remove(id.replace("%3A", ":")) == null ? new Reply(404, "none") : reply;

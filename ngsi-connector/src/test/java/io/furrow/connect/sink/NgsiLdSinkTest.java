@@ -66,6 +66,34 @@ class NgsiLdSinkTest {
     }
 
     @Test
+    void deletesAnAttributeWhoseValueBecomesNull() {
+        task.put(List.of(record("urn:x:a", 1, "{'id':'urn:x:a','type':'T','x':1,'y':2}")));
+        task.put(List.of(record("urn:x:a", 2, "{'id':'urn:x:a','type':'T','x':3,'y':null}")));
+        assertThat(broker.value("urn:x:a", "x").asInt()).isEqualTo(3);
+        assertThat(broker.entities.get("urn:x:a").has("y")).isFalse();
+        assertThat(broker.requests.get(2).path()).isEqualTo("/ngsi-ld/v1/entities/urn%3Ax%3Aa/attrs/y");
+
+        task.put(List.of(record("urn:x:a", 1, "{'id':'urn:x:a','type':'T','y':1}")));
+        assertThat(broker.entities.get("urn:x:a").has("y")).as("it is older").isFalse();
+        assertThat(context.reported).isEmpty();
+    }
+
+    @Test
+    void goesOnWhereTheBrokerDeletesNoAttribute() {
+        task.put(List.of(record("urn:x:a", 1, "{'id':'urn:x:a','type':'T','x':1,'y':2}")));
+        broker.behaviour = update -> update.path().contains("/attrs/") ? new Reply(405, "no") : Reply.WRITTEN;
+
+        task.put(List.of(record("urn:x:a", 2, "{'id':'urn:x:a','type':'T','x':3,'y':null}")));
+        task.put(List.of(record("urn:x:b", 2)));
+
+        assertThat(broker.value("urn:x:a", "x").asInt()).isEqualTo(3);
+        assertThat(broker.entities).containsKey("urn:x:b");
+        assertThat(context.reported)
+                .singleElement()
+                .satisfies(reported -> assertThat(reported.cause()).hasMessageContaining("'y' keeps its value"));
+    }
+
+    @Test
     void setsAsideWhatAMultiStatusAnswerRefusesAndNothingElse() {
         broker.behaviour = update -> new Reply(207, """
                 {"success": ["urn:x:a", "urn:x:c"], "errors": [
@@ -120,6 +148,6 @@ class NgsiLdSinkTest {
     }
 
     private static SinkRecord record(String id, long time, String json) {
-        return new SinkRecord("t", 0, null, id, null, json, 0, time, TimestampType.CREATE_TIME);
+        return new SinkRecord("t", 0, null, id, null, json.replace('\'', '"'), 0, time, TimestampType.CREATE_TIME);
     }
 }

@@ -8,6 +8,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.TreeMap;
+import java.util.TreeSet;
 
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.FarmSecret;
@@ -26,6 +27,11 @@ public final class DeviceAccounts {
     private List<MqttAccount> granted;
 
     private Set<String> allowed;
+    /** Whose accounts this Kafka has asked for since the start: devices and missions. */
+    private final Set<String> own = new HashSet<>();
+    /** Users that nothing asks for and that may not be removed. */
+    private final Set<String> kept = new TreeSet<>();
+
     private Map<String, String> refused = Map.of();
 
     public DeviceAccounts(ProvisioningSettings settings) {
@@ -38,6 +44,29 @@ public final class DeviceAccounts {
     public void startAnew() {
         granted = null;
         allowed = null;
+        own.clear();
+        kept.clear();
+    }
+
+    /** The ids of the topics whose devices the brokers' accounts are noted to be of. */
+    public Set<String> origins() throws IOException {
+        Set<String> origins = new HashSet<>();
+        for (MqttAccounts broker : brokers) {
+            broker.origin().ifPresent(origins::add);
+        }
+        return origins;
+    }
+
+    /** Notes that all accounts are of devices of a topic. @param topic its id; empty if it is not known */
+    public void noteOrigin(String topic) throws IOException {
+        for (MqttAccounts broker : topic.isEmpty() ? List.<MqttAccounts>of() : brokers) {
+            broker.noteOrigin(topic);
+        }
+    }
+
+    /** Users that nothing asks for and that may not be removed. */
+    public Set<String> kept() {
+        return Set.copyOf(kept);
     }
 
     /** Tries those again that a broker has refused. */
@@ -45,11 +74,19 @@ public final class DeviceAccounts {
         if (!refused.isEmpty()) {
             granted = null;
         }
+        if (!kept.isEmpty()) {
+            allowed = null;
+        }
     }
 
-    /** Removes the accounts that none of the desired devices has any more. */
-    public void revoke(Collection<WantedDevice> wanted) throws IOException {
+    /**
+     * Removes the accounts that none of the desired devices has any more.
+     *
+     * @param all whether those too that no desired device has had since the start, and whose key is accepted
+     */
+    public void revoke(Collection<WantedDevice> wanted, boolean all) throws IOException {
         Set<String> users = new HashSet<>(byUser(wanted).keySet());
+        users.forEach(user -> own.add(UserName.of(user).owner()));
         if (allowed == null || !users.containsAll(allowed)) {
             allowed = null;
             granted = granted == null
@@ -57,11 +94,17 @@ public final class DeviceAccounts {
                     : granted.stream()
                             .filter(account -> users.contains(account.login().user()))
                             .toList();
+            kept.clear();
             for (MqttAccounts broker : brokers) {
-                broker.retain(users);
+                kept.addAll(broker.retain(users, user -> all || mayGo(UserName.of(user))));
             }
         }
+        kept.removeAll(users);
         allowed = users;
+    }
+
+    private boolean mayGo(UserName user) {
+        return own.contains(user.owner()) || !secret.get().acceptedKeys().contains(user.key());
     }
 
     /**
@@ -78,7 +121,7 @@ public final class DeviceAccounts {
             granted = null;
             refused = new HashMap<>();
             for (MqttAccounts broker : brokers) {
-                refused.putAll(broker.replace(accounts));
+                refused.putAll(broker.replace(accounts, kept));
             }
             granted = accounts;
         }

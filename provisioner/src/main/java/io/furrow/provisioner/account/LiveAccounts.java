@@ -2,6 +2,7 @@ package io.furrow.provisioner.account;
 
 import java.nio.charset.StandardCharsets;
 import java.security.MessageDigest;
+import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -9,6 +10,7 @@ import java.util.Set;
 import java.util.concurrent.atomic.AtomicLong;
 import java.util.function.Function;
 import java.util.function.LongSupplier;
+import java.util.function.Predicate;
 import java.util.stream.Collectors;
 
 import org.slf4j.Logger;
@@ -41,18 +43,32 @@ public final class LiveAccounts implements MqttAccounts, LoginReports {
     }
 
     @Override
-    public Map<String, String> replace(List<MqttAccount> accounts) {
-        byUser = accounts.stream()
+    public Map<String, String> replace(List<MqttAccount> accounts, Set<String> kept) {
+        List<MqttAccount> all = new ArrayList<>(accounts);
+        Set<String> users =
+                accounts.stream().map(account -> account.login().user()).collect(Collectors.toSet());
+        byUser.forEach((user, account) -> {
+            if (kept.contains(user) && !users.contains(user)) {
+                all.add(account);
+            }
+        });
+        byUser = all.stream()
                 .collect(Collectors.toUnmodifiableMap(account -> account.login().user(), Function.identity()));
         owners.retain(byUser.keySet());
         return Map.of();
     }
 
     @Override
-    public void retain(Set<String> users) {
-        replace(byUser.values().stream()
-                .filter(account -> users.contains(account.login().user()))
-                .toList());
+    public Set<String> retain(Set<String> users, Predicate<String> removable) {
+        Set<String> kept = byUser.keySet().stream()
+                .filter(user -> !users.contains(user) && !removable.test(user))
+                .collect(Collectors.toSet());
+        replace(
+                byUser.values().stream()
+                        .filter(account -> users.contains(account.login().user()))
+                        .toList(),
+                kept);
+        return kept;
     }
 
     @Override

@@ -9,13 +9,16 @@ import java.nio.file.attribute.PosixFileAttributes;
 import java.nio.file.attribute.PosixFilePermissions;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.UUID;
 
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.file.PrivateFile;
+
 /**
  * The part of a text file between two marked lines. What stands before and after belongs to others and stays. The file is replaced
- * as a whole, so that no reader ever sees half of it; it keeps its permissions and, where that is allowed, its group.
+ * as a whole, so that no reader ever sees half of it, nor anybody after a power cut; it keeps its permissions and, where that is allowed, its group.
  */
 final class ManagedFileSection {
     private static final Logger LOG = LoggerFactory.getLogger(ManagedFileSection.class);
@@ -60,10 +63,9 @@ final class ManagedFileSection {
         }
         Path written = Files.exists(file) ? file.toRealPath() : file; // a link stays one
         Files.createDirectories(written.getParent());
-        Path fresh =
-                Files.createTempFile(written.getParent(), written.getFileName().toString(), ".new");
+        Path fresh = written.resolveSibling(written.getFileName() + "." + UUID.randomUUID() + ".new");
         try {
-            Files.write(fresh, next);
+            PrivateFile.create(fresh, String.join("\n", next) + "\n");
             giveTo(fresh);
             Files.move(fresh, written, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
         } finally {

@@ -1,7 +1,9 @@
 package io.furrow.provisioner.account;
 
 import java.io.IOException;
+import java.io.InputStream;
 import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -9,11 +11,14 @@ import java.util.HashSet;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 import java.util.Set;
 import java.util.TreeMap;
 import java.util.concurrent.TimeUnit;
+import java.util.function.Predicate;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
+import java.util.stream.Collectors;
 
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -27,6 +32,7 @@ import io.furrow.model.device.FarmSecret;
 public final class MosquittoFiles implements MqttAccounts {
     private static final Logger LOG = LoggerFactory.getLogger(MosquittoFiles.class);
     private static final long COMMAND_SECONDS = 10;
+    private static final int MAX_SAID = 1000;
     /** Mosquitto loses a signal that comes while it reads its files for the one before: 0.4 s with ten thousand accounts. */
     private static final long BETWEEN_RELOADS_NANOS = TimeUnit.SECONDS.toNanos(1);
 
@@ -57,23 +63,31 @@ public final class MosquittoFiles implements MqttAccounts {
     }
 
     @Override
-    public synchronized Map<String, String> replace(List<MqttAccount> accounts) throws IOException {
-        Map<String, String> refused = refused(accounts);
+    public synchronized Map<String, String> replace(List<MqttAccount> accounts, Set<String> kept) throws IOException {
+        List<String> before = passwords.read();
+        Map<String, String> refused = refused(accounts, SectionNotes.of(before));
         List<MqttAccount> own = accounts.stream()
                 .filter(account -> !refused.containsKey(account.login().user()))
                 .toList();
+        Set<String> users = own.stream().map(account -> account.login().user()).collect(Collectors.toSet());
+        Predicate<String> stays = user -> kept.contains(user) && !users.contains(user);
+        List<String> nextRules = rulesOf(stays);
+        nextRules.addAll(rules(own));
+        List<String> next = passwordsOf(before, stays);
+        next.addAll(passwords(own));
         // The rules first: should only one of both be written, nobody gets in without them.
-        reloadIsDue |= write(rules, rules(own));
-        reloadIsDue |= write(passwords, passwords(own));
+        reloadIsDue |= write(rules, nextRules);
+        reloadIsDue |= write(passwords, SectionNotes.of(before).with(users).before(next));
         reloadIfDue();
         return refused;
     }
 
     /** A user that stands elsewhere in the files is somebody else's: Mosquitto would take the later line of two. */
-    private Map<String, String> refused(List<MqttAccount> accounts) throws IOException {
+    private Map<String, String> refused(List<MqttAccount> accounts, SectionNotes notes) throws IOException {
         Set<String> users = new HashSet<>();
         accounts.forEach(account -> users.add(account.login().user()));
         Map<String, String> refused = new TreeMap<>();
+        users.forEach(user -> notes.refusal(user).ifPresent(reason -> refused.put(user, reason)));
         for (String line : passwords.readOthers()) {
             refuse(MosquittoPassword.user(line), passwords, users, refused);
         }
@@ -97,24 +111,55 @@ public final class MosquittoFiles implements MqttAccounts {
     }
 
     @Override
-    public synchronized void retain(Set<String> users) throws IOException {
+    public synchronized Set<String> retain(Set<String> users, Predicate<String> removable) throws IOException {
+        List<String> before = passwords.read();
+        Map<String, Integer> desired = new HashMap<>();
+        users.stream().map(UserName::of).forEach(name -> desired.merge(name.owner(), name.generation(), Math::max));
+        Predicate<String> stays = user -> {
+            UserName name = UserName.of(user);
+            boolean later = name.generation() > desired.getOrDefault(name.owner(), Integer.MAX_VALUE);
+            return users.contains(user) || later || !removable.test(user);
+        };
+        List<String> next = passwordsOf(before, stays);
+        List<String> nextRules = rulesOf(stays);
+        // The passwords first: should only one of both be written, nobody gets in who shall not.
+        reloadIsDue |= write(passwords, SectionNotes.of(before).with(users).before(next));
+        reloadIsDue |= write(rules, nextRules);
+        reloadIfDue();
+        return next.stream()
+                .map(MosquittoPassword::user)
+                .filter(user -> !users.contains(user))
+                .collect(Collectors.toSet());
+    }
+
+    private static List<String> passwordsOf(List<String> lines, Predicate<String> users) {
+        return lines.stream()
+                .filter(line -> !SectionNotes.isNote(line) && users.test(MosquittoPassword.user(line)))
+                .collect(Collectors.toCollection(ArrayList::new));
+    }
+
+    private List<String> rulesOf(Predicate<String> users) throws IOException {
         List<String> lines = new ArrayList<>();
         boolean retained = false;
         for (String line : rules.read()) {
             String user = user(line);
-            retained = user == null ? retained : users.contains(user);
+            retained = user == null ? retained : users.test(user);
             if (retained) {
                 lines.add(line);
             }
         }
-        // The passwords first: should only one of both be written, nobody gets in who shall not.
-        reloadIsDue |= write(
-                passwords,
-                passwords.read().stream()
-                        .filter(line -> users.contains(MosquittoPassword.user(line)))
-                        .toList());
-        reloadIsDue |= write(rules, lines);
-        reloadIfDue();
+        return lines;
+    }
+
+    @Override
+    public synchronized Optional<String> origin() throws IOException {
+        return SectionNotes.of(passwords.read()).origin();
+    }
+
+    @Override
+    public synchronized void noteOrigin(String topic) throws IOException {
+        List<String> before = passwords.read();
+        write(passwords, SectionNotes.of(before).with(topic).before(passwordsOf(before, any -> true)));
     }
 
     /** The user with which a line of the rules begins; null if it begins none. */
@@ -165,9 +210,21 @@ public final class MosquittoFiles implements MqttAccounts {
 
     private void reload() throws IOException {
         awaitLastReload();
+        // A file, because a command that fills a pipe waits for a reader.
+        Path output = Files.createTempFile("furrow-mqtt-reload", ".out");
+        try {
+            reload(output);
+        } finally {
+            Files.delete(output);
+        }
+        reloaded = System.nanoTime();
+        LOG.debug("asked the MQTT broker to reload its files");
+    }
+
+    private void reload(Path output) throws IOException {
         Process process = new ProcessBuilder("sh", "-c", reload)
                 .redirectErrorStream(true)
-                .redirectOutput(ProcessBuilder.Redirect.PIPE)
+                .redirectOutput(output.toFile())
                 .start();
         process.getOutputStream().close();
         try {
@@ -182,12 +239,13 @@ public final class MosquittoFiles implements MqttAccounts {
             throw new IOException("interrupted while the command of --mqtt-reload ran", e);
         }
         if (process.exitValue() != 0) {
-            String said = new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
-            throw new IOException(
-                    "the command of --mqtt-reload ended with %d: %s".formatted(process.exitValue(), said.strip()));
+            try (InputStream said = Files.newInputStream(output)) {
+                throw new IOException("the command of --mqtt-reload ended with %d: %s"
+                        .formatted(
+                                process.exitValue(),
+                                new String(said.readNBytes(MAX_SAID), StandardCharsets.UTF_8).strip()));
+            }
         }
-        reloaded = System.nanoTime();
-        LOG.debug("asked the MQTT broker to reload its files");
     }
 
     private void awaitLastReload() throws IOException {

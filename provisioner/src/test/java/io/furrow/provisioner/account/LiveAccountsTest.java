@@ -3,6 +3,7 @@ package io.furrow.provisioner.account;
 import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 import java.util.concurrent.atomic.AtomicLong;
 
 import org.junit.jupiter.api.BeforeEach;
@@ -26,7 +27,7 @@ class LiveAccountsTest {
 
     @BeforeEach
     void letADeviceIn() {
-        accounts.replace(List.of(MqttAccount.device(SECRET, "hoeing", "d")));
+        accounts.replace(List.of(MqttAccount.device(SECRET, "hoeing", "d")), Set.of());
     }
 
     @Test
@@ -82,7 +83,7 @@ class LiveAccountsTest {
     void forgetsAnAccountThatIsRemoved() {
         login(DEVICE.user(), DEVICE.password());
 
-        accounts.replace(List.of());
+        accounts.replace(List.of(), Set.of());
 
         assertThat(accounts.reports()).isEmpty();
     }

@@ -27,7 +27,7 @@ class MosquittoFilesTest {
 
     @Test
     void writesAPasswordAndRulesForEachAccount() throws IOException {
-        files(null).replace(List.of(gateway, device));
+        files(null).replace(List.of(gateway, device), Set.of());
 
         String key = Wanted.SECRET.apiKey("hoeing");
         assertThat(Files.readAllLines(rules()))
@@ -47,10 +47,10 @@ class MosquittoFilesTest {
     void leavesUsersOfOthersAndThePermissionsAsTheyAre() throws IOException {
         Files.write(passwords(), List.of("agent:$7$101$c2FsdA==$aGFzaA=="));
         Files.setPosixFilePermissions(passwords(), PosixFilePermissions.fromString("rw-r--r--"));
-        files(null).replace(List.of(gateway, device));
+        files(null).replace(List.of(gateway, device), Set.of());
         Files.writeString(passwords(), Files.readString(passwords()) + "late:$7$101$c2FsdA==$aGFzaA==\n");
 
-        files(null).replace(List.of(gateway));
+        files(null).replace(List.of(gateway), Set.of());
 
         assertThat(Files.readAllLines(passwords()))
                 .hasSize(5)
@@ -66,7 +66,7 @@ class MosquittoFilesTest {
         Files.setPosixFilePermissions(real, PosixFilePermissions.fromString("rw-r--r--"));
         Files.createSymbolicLink(passwords(), real);
 
-        files(null).replace(List.of(gateway));
+        files(null).replace(List.of(gateway), Set.of());
 
         assertThat(passwords()).isSymbolicLink();
         assertThat(Files.readAllLines(real)).anyMatch(line -> MosquittoPassword.isOf(line, gateway.login()));
@@ -77,15 +77,15 @@ class MosquittoFilesTest {
     @Test
     void touchesNothingAndTellsNobodyWhereNothingChanges() throws IOException {
         MosquittoFiles files = files(count());
-        files.replace(List.of(gateway, device));
+        files.replace(List.of(gateway, device), Set.of());
         byte[] before = Files.readAllBytes(passwords());
         assertThat(calls()).isEqualTo(1);
 
-        files.replace(List.of(gateway, device));
+        files.replace(List.of(gateway, device), Set.of());
         assertThat(Files.readAllBytes(passwords())).isEqualTo(before);
         assertThat(calls()).isEqualTo(1);
 
-        files.replace(List.of(device));
+        files.replace(List.of(device), Set.of());
         assertThat(calls()).isEqualTo(2);
     }
 
@@ -93,10 +93,10 @@ class MosquittoFilesTest {
     @Test
     void letsTheBrokerReadTheFilesBeforeItTellsItAgain() throws IOException {
         MosquittoFiles files = files(count());
-        files.replace(List.of(gateway, device));
+        files.replace(List.of(gateway, device), Set.of());
         FileTime first = Files.getLastModifiedTime(directory.resolve("calls"));
 
-        files.retain(Set.of(device.login().user()));
+        files.retain(Set.of(device.login().user()), any -> true);
 
         assertThat(calls()).isEqualTo(2);
         assertThat(Files.getLastModifiedTime(directory.resolve("calls")).toInstant())
@@ -105,12 +105,12 @@ class MosquittoFilesTest {
 
     @Test
     void tellsTheBrokerOnceAfterAStartWhatAProcessThatDiedMayNotHaveTold() throws IOException {
-        files(null).replace(List.of(device));
+        files(null).replace(List.of(device), Set.of());
         byte[] before = Files.readAllBytes(passwords());
         MosquittoFiles started = files(count());
 
-        started.retain(Set.of(device.login().user()));
-        started.retain(Set.of(device.login().user()));
+        started.retain(Set.of(device.login().user()), any -> true);
+        started.retain(Set.of(device.login().user()), any -> true);
 
         assertThat(calls()).isEqualTo(1);
         assertThat(Files.readAllBytes(passwords())).isEqualTo(before);
@@ -118,10 +118,10 @@ class MosquittoFilesTest {
 
     @Test
     void makesAPasswordAnewThatIsNotOfTheSecret() throws IOException {
-        files(null).replace(List.of(device));
+        files(null).replace(List.of(device), Set.of());
         Files.writeString(passwords(), Files.readString(passwords()).replaceAll("\\$7\\$101\\$.", "\\$7\\$101\\$!"));
 
-        files(null).replace(List.of(device));
+        files(null).replace(List.of(device), Set.of());
 
         assertThat(Files.readAllLines(passwords())).anyMatch(line -> MosquittoPassword.isOf(line, device.login()));
     }
@@ -131,14 +131,21 @@ class MosquittoFilesTest {
         Path ready = directory.resolve("ready");
         MosquittoFiles files = files("PASSWORD=of-an-administrator; echo not yet; test -e " + ready);
 
-        assertThatThrownBy(() -> files.replace(List.of(device)))
+        assertThatThrownBy(() -> files.replace(List.of(device), Set.of()))
                 .isInstanceOf(IOException.class)
                 .hasMessage("the command of --mqtt-reload ended with 1: not yet");
-        assertThatThrownBy(() -> files.replace(List.of(device))).isInstanceOf(IOException.class);
+        assertThatThrownBy(() -> files.replace(List.of(device), Set.of())).isInstanceOf(IOException.class);
         Files.createFile(ready);
-        files.replace(List.of(device));
+        files.replace(List.of(device), Set.of());
         Files.delete(ready);
-        files.replace(List.of(device));
+        files.replace(List.of(device), Set.of());
+    }
+
+    @Test
+    void waitsForNoCommandThatTalks() throws IOException {
+        files("yes | head -c 200000").replace(List.of(device), Set.of());
+        assertThatThrownBy(() -> files("yes | head -c 200000; exit 3").replace(List.of(device), Set.of()))
+                .hasMessageStartingWith("the command of --mqtt-reload ended with 3: y");
     }
 
     @Test
@@ -148,7 +155,7 @@ class MosquittoFilesTest {
         Files.write(rules(), List.of("  user   " + gateway.login().user(), "topic readwrite #"));
         List<String> before = Files.readAllLines(passwords());
 
-        Map<String, String> refused = files(null).replace(List.of(gateway, device, other()));
+        Map<String, String> refused = files(null).replace(List.of(gateway, device, other()), Set.of());
 
         assertThat(refused).containsOnlyKeys(user, gateway.login().user());
         assertThat(refused.get(user))
@@ -162,7 +169,8 @@ class MosquittoFilesTest {
 
         Files.write(passwords(), List.of());
         Files.write(rules(), List.of());
-        assertThat(files(null).replace(List.of(gateway, device, other()))).isEmpty();
+        assertThat(files(null).replace(List.of(gateway, device, other()), Set.of()))
+                .isEmpty();
     }
 
     @Test
@@ -170,9 +178,9 @@ class MosquittoFilesTest {
         Files.write(passwords(), List.of("agent:$7$101$c2FsdA==$aGFzaA=="));
         Files.write(rules(), List.of("user agent", "topic readwrite #"));
         MosquittoFiles files = files(count());
-        files.replace(List.of(gateway, device, other()));
+        files.replace(List.of(gateway, device, other()), Set.of());
 
-        files.retain(Set.of(device.login().user(), "somebody"));
+        files.retain(Set.of(device.login().user(), "somebody"), any -> true);
 
         assertThat(Files.readAllLines(passwords()))
                 .filteredOn(line -> line.contains(":$7$"))
@@ -186,7 +194,7 @@ class MosquittoFilesTest {
                 .hasSize(7);
         assertThat(calls()).isEqualTo(2);
 
-        files.retain(Set.of(device.login().user()));
+        files.retain(Set.of(device.login().user()), any -> true);
         assertThat(calls()).isEqualTo(2);
     }
 

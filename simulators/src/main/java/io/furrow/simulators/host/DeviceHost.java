@@ -127,7 +127,7 @@ public final class DeviceHost implements AutoCloseable {
             now.run(this::isClosing);
             return true;
         } catch (RuntimeException e) { // restarted whatever the cause
-            lastFailure = e.toString();
+            lastFailure = FailureText.of(e);
             LOG.error("the host of devices failed and restarts", e);
             return false;
         }

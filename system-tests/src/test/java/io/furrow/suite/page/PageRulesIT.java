@@ -154,6 +154,23 @@ class PageRulesIT {
                         "pb-14 at 10.002, 0 places");
     }
 
+    @Test
+    void showsAFieldFromTheTimeOnFromWhichItIsOne() {
+        assertThat(run("""
+                const { store } = await import('/core/store.js');
+                const begin = Date.parse('2026-03-01T08:00:00Z');
+                const at = (time) => {
+                  store.now = () => time;
+                  store.tick();
+                  return String(store.fields.has('pb-field'));
+                };
+                store.now = () => begin - 1000;
+                store.takeField({ key: 'pb-field@2026-03-01T08:00:00.000Z', value: { properties: {}, geometry: { type: 'Polygon', coordinates: [] } } });
+                const shown = [String(store.fields.has('pb-field')), at(begin - 1), at(begin)];
+                delete store.now;
+                return shown;""")).containsExactly("false", "false", "true");
+    }
+
     /** At the end of summer time the hour from two to three comes twice. */
     @Test
     void writesTimesOnTheAxisAcrossTheEndOfSummerTime() {

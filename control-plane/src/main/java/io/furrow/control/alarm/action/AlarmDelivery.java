@@ -33,6 +33,7 @@ import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.manager.StateJson;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.RestartingWorker;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -150,7 +151,7 @@ public final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebal
         try {
             webhook.post(post.id(), post.alarm()).thenAccept(answer -> done.add(new Done(post, answer)));
         } catch (RuntimeException e) { // an alarm that cannot be posted must not block the others
-            done.add(new Done(post, Webhook.Answer.failed(e.toString())));
+            done.add(new Done(post, Webhook.Answer.failed(FailureText.of(e))));
         }
     }
 

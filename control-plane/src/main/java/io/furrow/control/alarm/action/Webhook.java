@@ -22,6 +22,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.control.alarm.Alarm;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 /**
  * Posts alarms to a URL as JSON: the record of {@code service.alarms} with {@code id}, signed if there is a secret.
@@ -185,7 +186,7 @@ public final class Webhook {
                 failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
         return cause instanceof java.util.concurrent.CancellationException
                 ? "no complete response within %d s".formatted(TIMEOUT.toSeconds())
-                : cause.toString();
+                : FailureText.of(cause);
     }
 
     private static byte[] body(String id, Alarm alarm) {

@@ -11,18 +11,25 @@ import org.apache.kafka.streams.kstream.Named;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 import org.apache.kafka.streams.processor.api.Record;
 
+import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmManager;
+import io.furrow.control.alarm.Cause;
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.ObserverProcessor;
 import io.furrow.control.manager.ObserverProcessor.Observer;
 import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.record.RecordScope;
 import io.furrow.control.manager.record.StoredRecords;
+import io.furrow.model.control.AlarmKind;
+import io.furrow.model.control.Fault;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Adds the processors that raise alarms from results of analytics and from the statuses of missions. */
+/** Adds the processors that raise alarms from results of analytics, from the statuses of missions and from faults of Furrow itself. */
 public final class AnalyticsAlarms {
+    /** Three times the interval at which it is repeated. */
+    private static final Duration FAULT_HOLDS = Duration.ofMinutes(3);
+
     private AnalyticsAlarms() {}
 
     /**
@@ -72,6 +79,20 @@ public final class AnalyticsAlarms {
             };
         };
         send(clocks, opening, types, "clocks");
+    }
+
+    /** @param faults the records of {@code service.faults}, in a single partition */
+    public static void addFaults(KStream<String, byte[]> faults, Types types) {
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
+            AlarmCommandHandler alarms = AlarmManager.handler(context, outbox);
+            return (record, now) -> {
+                if (record.key() != null && record.value() != null) {
+                    String text = Fault.read(record.value()).text();
+                    alarms.raise(new Cause(AlarmKind.FAULT, record.key(), text, List.of(), FAULT_HOLDS), now);
+                }
+            };
+        };
+        send(faults, opening, types, "faults");
     }
 
     /** @param statuses the records of {@code service.missions.status}, in a single partition */

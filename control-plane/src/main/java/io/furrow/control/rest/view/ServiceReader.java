@@ -37,6 +37,7 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.RequestFingerprint;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -107,7 +108,7 @@ public final class ServiceReader implements AutoCloseable {
                 LOG.debug("the view of the control plane's topics was woken up", e);
             } catch (RuntimeException e) { // of Kafka, or of ours: without a view nothing can be read
                 LOG.warn("the view of the control plane's topics failed and begins anew", e);
-                failure = e.toString();
+                failure = FailureText.of(e);
                 view.clear();
                 pause();
             }

@@ -22,6 +22,11 @@ public interface ContextBrokerApi {
     /** The update as one element of a batch, UTF-8 JSON. */
     byte[] render(Update update);
 
+    /** The attributes without a value, which {@link #render} leaves out because they have to be deleted instead. */
+    default List<String> cleared(Update update) {
+        return List.of();
+    }
+
     /** Writes elements from {@link #render}, all of one scope. */
     BrokerRequest write(FiwareScope scope, List<byte[]> elements);
 

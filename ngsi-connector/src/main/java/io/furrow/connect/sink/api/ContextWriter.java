@@ -106,8 +106,10 @@ public final class ContextWriter implements AutoCloseable {
             deleteOlder(deletion, apart, fates);
         }
         EntityWriter.Result result = writer.write(plan.updates(), apart);
-        result.written().forEach(this::remember);
-        fates.written += result.written().size();
+        for (Update written : result.written()) {
+            clear(written, fates);
+            remember(written);
+        }
         fates.anyTaken |= !result.written().isEmpty();
         if (result.failure() != null) {
             fail(result.failure());
@@ -153,6 +155,24 @@ public final class ContextWriter implements AutoCloseable {
         }
         known.outlive(deletion.key(), deletion.time());
         fates.deleted++;
+    }
+
+    /** The values are written: what a context broker refuses to delete is no reason not to go on. */
+    private void clear(Update written, Fates fates) throws BrokerAwayException, WrongSettingException {
+        for (String name : api.cleared(written)) {
+            if (known.of(written.key()).has(written.type(), name)) {
+                Outcome outcome = client.send(api.delete(written.key(), new EntityTimes.Name(written.type(), name)));
+                if (outcome instanceof Outcome.Away) {
+                    fail(outcome);
+                } else if (!(outcome instanceof Outcome.Done || outcome instanceof Outcome.Absent)) {
+                    String words = outcome instanceof Outcome.Refused refusal ? refusal.words() : outcome.toString();
+                    Change newest = written.changes().get(written.changes().size() - 1);
+                    fates.refused.add(new RefusedChange(newest, "'%s' keeps its value: %s".formatted(name, words)));
+                    return;
+                }
+            }
+        }
+        fates.written++;
     }
 
     private void delete(List<Change> deletions, boolean apart, Fates fates)

@@ -23,6 +23,10 @@ public final class EntityTimes {
         return found < 0 ? Change.NO_TIME : times[found];
     }
 
+    boolean has(String type, String name) {
+        return find(type, name) >= 0;
+    }
+
     public long deletedAt() {
         return deletedAt;
     }

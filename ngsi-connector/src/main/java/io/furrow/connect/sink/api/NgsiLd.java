@@ -59,6 +59,14 @@ public record NgsiLd(String context) implements ContextBrokerApi {
     }
 
     @Override
+    public List<String> cleared(Update update) {
+        return update.attributes().entrySet().stream()
+                .filter(each -> NgsiLdForm.isNull(each.getValue()))
+                .map(Map.Entry::getKey)
+                .toList();
+    }
+
+    @Override
     public BrokerRequest write(FiwareScope scope, List<byte[]> elements) {
         byte[] body = NgsiV2.joined(START, elements, END);
         return scoped(BrokerRequest.post(scope, "/ngsi-ld/v1/entityOperations/upsert?options=update", body));

@@ -18,7 +18,8 @@ import io.furrow.connect.sink.Update;
  * An NGSI-v2 entity as NGSI-LD. An id that is no URI becomes {@code urn:ngsi-ld:<type>:<id>}. An attribute of type
  * {@code Relationship} becomes a Relationship; {@code geo:json}, or {@code geo:point} ("latitude, longitude"), a GeoProperty;
  * all others a Property, dates with {@code @type}. Metadata {@code unitCode} stays a member, all other metadata become
- * Properties of the Property. What is null is left out: NGSI-LD has no null.
+ * Properties of the Property. What is null is left out: NGSI-LD has no null, and brokers understand {@code urn:ngsi-ld:null} in a
+ * merge of one entity only. In an upsert Scorpio stores that text, Stellio refuses it.
  */
 final class NgsiLdForm {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
@@ -51,10 +52,10 @@ final class NgsiLdForm {
 
     /** Null if the value is. */
     private static ObjectNode attribute(String name, JsonNode attribute) {
-        JsonNode value = attribute.path("value");
-        if (value.isNull() || value.isMissingNode()) {
+        if (isNull(attribute)) {
             return null;
         }
+        JsonNode value = attribute.path("value");
         String type = attribute.path("type").asText();
         ObjectNode written = NODES.objectNode();
         Optional<JsonNode> geometry = geometry(type, value);
@@ -67,6 +68,10 @@ final class NgsiLdForm {
         }
         metadata(attribute.path("metadata"), written);
         return written;
+    }
+
+    static boolean isNull(JsonNode attribute) {
+        return attribute.path("value").isNull() || attribute.path("value").isMissingNode();
     }
 
     private static JsonNode object(String name, JsonNode value) {

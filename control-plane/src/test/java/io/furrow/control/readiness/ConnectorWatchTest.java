@@ -1,0 +1,160 @@
+package io.furrow.control.readiness;
+
+import java.io.IOException;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.time.Clock;
+import java.time.Instant;
+import java.time.ZoneOffset;
+import java.util.concurrent.atomic.AtomicReference;
+
+import com.sun.net.httpserver.HttpServer;
+import org.apache.kafka.clients.producer.MockProducer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.RestartingWorker;
+import io.furrow.model.control.Fault;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class ConnectorWatchTest {
+    private static final String TRACE =
+            "org.apache.kafka.connect.errors.ConnectException: Exiting\\n\\tat a.B.c(B.java:1)\\nCaused by: "
+                    + "io.furrow.connect.sink.api.WrongSettingException: http://orion:1026 answers 401; check the token\\n\\tat a.B.d(B.java:2)";
+
+    private final AtomicReference<String> answer = new AtomicReference<>();
+    private final MockProducer<String, byte[]> producer =
+            new MockProducer<>(true, null, new StringSerializer(), new ByteArraySerializer());
+    private Instant now = Instant.parse("2026-03-01T08:00:00Z");
+    private HttpServer connect;
+    private ConnectorWatch watch;
+
+    @BeforeEach
+    void start() throws IOException {
+        connect = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+        connect.createContext("/connectors", exchange -> {
+            byte[] body = answer.get().getBytes(StandardCharsets.UTF_8);
+            boolean isAsked = "expand=status".equals(exchange.getRequestURI().getQuery());
+            exchange.sendResponseHeaders(isAsked ? 200 : 404, body.length);
+            exchange.getResponseBody().write(body);
+            exchange.close();
+        });
+        connect.start();
+        watch = new ConnectorWatch(
+                URI.create("http://127.0.0.1:" + connect.getAddress().getPort() + "/"), producer, new Clock() {
+                    @Override
+                    public Instant instant() {
+                        return now;
+                    }
+
+                    @Override
+                    public ZoneOffset getZone() {
+                        return ZoneOffset.UTC;
+                    }
+
+                    @Override
+                    public Clock withZone(java.time.ZoneId zone) {
+                        return this;
+                    }
+                });
+    }
+
+    @AfterEach
+    void stop() {
+        connect.stop(0);
+    }
+
+    @Test
+    void showsConnectorsAndReportsATaskThatFailedOnceAMinute() throws Exception {
+        answer.set(connectors("RUNNING", ""));
+        watch.ask();
+        assertThat(watch.statuses()).extracting(PartStatus::name).containsExactly("connect", "connector sink");
+        assertThat(watch.statuses()).extracting(PartStatus::state).containsOnly(PartStatus.State.UP);
+        assertThat(producer.history()).isEmpty();
+
+        answer.set(connectors("FAILED", ",\"trace\":\"" + TRACE + "\""));
+        watch.ask();
+        now = now.plusSeconds(50);
+        watch.ask();
+        assertThat(watch.statuses().get(1))
+                .returns(PartStatus.State.DOWN, PartStatus::state)
+                .returns("task 0 failed: http://orion:1026 answers 401; check the token", PartStatus::detail);
+        assertThat(producer.history()).singleElement().satisfies(record -> {
+            assertThat(record.topic()).isEqualTo(Topics.FAULTS);
+            assertThat(record.key()).isEqualTo("connector sink");
+            assertThat(Fault.read(record.value()).text())
+                    .startsWith(
+                            "connector sink: task 0 failed: http://orion:1026 answers 401; check the token. Correct that")
+                    .endsWith("/connectors/sink/restart?includeTasks=true&onlyFailed=true\"");
+        });
+        now = now.plusSeconds(10);
+        watch.ask();
+        assertThat(producer.history()).hasSize(2);
+
+        answer.set(connectors("RUNNING", ""));
+        now = now.plusSeconds(60);
+        watch.ask();
+        assertThat(producer.history()).hasSize(2);
+    }
+
+    @Test
+    void saysOfWhatIsPausedAndOfAConnectThatDoesNotAnswer() throws Exception {
+        answer.set(connectors("PAUSED", ""));
+        watch.ask();
+        assertThat(watch.statuses().get(1).detail()).isEqualTo("task 0 is paused");
+        assertThat(producer.history()).isEmpty();
+
+        answer.set("{\"sink\":{\"status\":{\"connector\":{\"state\":\"RUNNING\"},\"tasks\":[]}}}");
+        watch.ask();
+        assertThat(watch.statuses().get(1).detail()).isEqualTo("has no task");
+
+        answer.set("<html>");
+        watch.ask();
+        now = now.plusSeconds(30);
+        assertThat(watch.statuses())
+                .singleElement()
+                .returns("connect", PartStatus::name)
+                .returns(PartStatus.State.DOWN, PartStatus::state);
+    }
+
+    /** Everybody may read the page. */
+    @Test
+    void namesNoClassOnThePage() throws Exception {
+        Readiness readiness = new Readiness(Clock.systemUTC());
+        URI nowhere = URI.create("http://127.0.0.1:1/");
+        ConnectorWatch away = new ConnectorWatch(nowhere, producer, Clock.systemUTC());
+        away.ask();
+        readiness.showAll(away::statuses);
+        try (Probe probe = Probe.http("contextBroker", nowhere);
+                RestartingWorker worker = new RestartingWorker("worker", Clock.systemUTC())
+                        .start(
+                                self -> {
+                                    throw new IllegalStateException("disk full");
+                                },
+                                () -> "")) {
+            readiness.show(probe::status);
+            readiness.show(worker::status);
+            await().until(() -> readiness.readiness().toString().contains("disk full")
+                    && !probe.status().detail().contains("not asked yet"));
+            assertThat(readiness.readiness().toString())
+                    .contains("connection refused")
+                    .doesNotContain("Exception", "java.");
+        }
+    }
+
+    private static String connectors(String state, String more) {
+        return ("{'sink':{'status':{'name':'sink','type':'sink','connector':{'state':'RUNNING','worker_id':'w'},"
+                        + "'tasks':[{'id':0,'state':'%s','worker_id':'w'%s}]}}}")
+                .replace('\'', '"')
+                .formatted(state, more);
+    }
+}

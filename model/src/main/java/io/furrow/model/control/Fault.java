@@ -1,0 +1,28 @@
+package io.furrow.model.control;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * A record of {@code service.faults}, under the name of a part of Furrow: it does not do its work, or needs somebody. Repeated every
+ * minute while that lasts; without repetition it is over.
+ *
+ * @param text what happened, to what, and what to do
+ */
+public record Fault(String text) {
+    /** @throws UnreadableException if the value is no object with a {@code text} */
+    public static Fault read(byte[] value) throws UnreadableException {
+        JsonNode text = NgsiJson.read(value).path("text");
+        if (!text.isTextual()) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "the fault has no member 'text' with a text");
+        }
+        return new Fault(text.textValue());
+    }
+
+    public byte[] toBytes() {
+        return NgsiJson.write(NgsiJson.mapper().createObjectNode().put("text", text));
+    }
+}

@@ -1,0 +1,216 @@
+package io.furrow.provisioner;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Instant;
+import java.util.List;
+import java.util.Properties;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.provisioner.Provisioning.Outcome;
+import io.furrow.provisioner.Removals.Origin;
+import io.furrow.provisioner.account.MosquittoFiles;
+import io.furrow.provisioner.account.MqttAccounts;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** A Kafka that is empty, or not the one for which devices were provisioned. */
+class LostKafkaTest extends ProvisioningFixture {
+    private static final Origin EMPTY = new Origin("topic-2", false);
+
+    @TempDir
+    Path directory;
+
+    @Test
+    void keepsTheAccountsAndDevicesThatAnotherKafkaWanted() throws Exception {
+        provisionTen();
+
+        provisioning = provisioning(files(false), new Origin("topic-2", true));
+        Outcome outcome = provisioning.step();
+
+        assertThat(users()).hasSize(10);
+        assertThat(agent.deviceIds()).hasSize(10);
+        assertThat(agent.apiKeys()).containsExactly(KEY);
+        assertThat(outcome.done()).isTrue();
+        assertThat(outcome.kept().text())
+                .contains("10 MQTT accounts, 10 devices and 1 service groups of the IoT Agent stay")
+                .contains("urn:ngsi-ld:Thermometer:hoeing-1", "Check --kafka", "--forget-devices");
+        assertThat(outcome.kept().summary()).doesNotContain("hoeing");
+    }
+
+    @Test
+    void keepsTheDevicesOfTheAgentWhereNoFileSaysForWhichKafkaTheyAre() throws Exception {
+        provisionTen();
+
+        provisioning = provisioning(settings(SecretSource.of(Wanted.SECRET), false), EMPTY);
+        assertThat(provisioning.step().kept().devices()).hasSize(10);
+        assertThat(agent.deviceIds()).hasSize(10);
+
+        provisioning = provisioning(settings(SecretSource.of(Wanted.SECRET), false), SAME);
+        assertThat(provisioning.step()).isEqualTo(DONE);
+        assertThat(agent.deviceIds()).isEmpty();
+    }
+
+    @Test
+    void addsAndRemovesDevicesOfItsOwnBesideThoseThatItKeeps() throws Exception {
+        provisionTen();
+        provisioning = provisioning(files(false), EMPTY);
+        WantedDevice known = Wanted.thermometer("hoeing", 1);
+        WantedDevice fresh = Wanted.thermometer("weeding", 1);
+
+        want(known);
+        want(fresh);
+        assertThat(provisioning.step().kept().devices()).hasSize(9);
+        assertThat(users()).hasSize(11);
+        assertThat(agent.deviceIds()).hasSize(11);
+
+        want(Wanted.stopped(known));
+        want(Wanted.stopped(fresh));
+        assertThat(provisioning.step().kept().devices()).hasSize(9);
+        assertThat(users()).hasSize(9);
+        assertThat(agent.deviceIds()).hasSize(9).doesNotContain(known.device(), fresh.device());
+        assertThat(agent.apiKeys()).containsExactly(KEY);
+    }
+
+    @Test
+    void leavesADeviceInItsMissionThatAnotherKafkaWants() throws Exception {
+        String id = "d";
+        WantedDevice there = Wanted.device("Thermometer", "hoeing", id, 1);
+        want(there);
+        provisioning(files(false), SAME).step();
+        WantedDevice moved = Wanted.device("Thermometer", "weeding", id, 1);
+        wanted.take(there.version().key(), null);
+        want(moved);
+        provisioning = provisioning(files(false), EMPTY);
+
+        for (int steps = 0; steps < 3; steps++) {
+            Outcome outcome = provisioning.step();
+            assertThat(outcome.refused().get(moved.version().key())).contains("of mission 'hoeing'", "check --kafka");
+            assertThat(outcome.kept().devices()).containsExactly(id);
+            provisioning.lookAgain();
+        }
+        assertThat(agent.devices.get(id).path("apikey").asText()).isEqualTo(KEY);
+    }
+
+    @Test
+    void isTheFarmsAgainOnceItWantsAllThatIsThere() throws Exception {
+        provisionTen();
+        wantTen();
+        assertThat(provisioning(files(false), EMPTY).step()).isEqualTo(DONE);
+        assertThat(Files.readString(passwords())).contains("the topic topic-2").doesNotContain("topic-1");
+
+        wanted.clear();
+        assertThat(provisioning(files(false), EMPTY).step()).isEqualTo(DONE);
+        assertThat(users()).isEmpty();
+        assertThat(agent.deviceIds()).isEmpty();
+    }
+
+    @Test
+    void removesThemWhereItIsTold() throws Exception {
+        provisionTen();
+
+        assertThat(provisioning(files(true), EMPTY).step()).isEqualTo(DONE);
+
+        assertThat(users()).isEmpty();
+        assertThat(agent.deviceIds()).isEmpty();
+        assertThat(agent.apiKeys()).isEmpty();
+    }
+
+    /** The thief has the login of generation 0, the device that of generation 1. */
+    @Test
+    void doesNotAcceptALoginAgainThatWasRevoked() throws Exception {
+        WantedDevice device = Wanted.thermometer("hoeing", 1);
+        want(device);
+        provisioning = provisioning(files(false), SAME);
+        provisioning.step();
+        want(device.withGeneration(1));
+        provisioning.step();
+
+        wanted.clear();
+        want(device);
+        provisioning = provisioning(files(false), EMPTY);
+        assertThat(provisioning.step().refused().get(device.version().key()))
+                .contains("was revoked", "rotate the device's credentials 1 times");
+        assertThat(users()).containsExactly(user(device, 1));
+
+        want(device.withGeneration(1));
+        assertThat(provisioning.step()).isEqualTo(DONE);
+        want(Wanted.stopped(device).withGeneration(1));
+        provisioning.step();
+        assertThat(users()).isEmpty();
+        wanted.clear();
+        want(device);
+        assertThat(provisioning(files(true), new Origin("topic-3", false))
+                        .step()
+                        .refused())
+                .as("though no account of it was left")
+                .isNotEmpty();
+        assertThat(users()).isEmpty();
+    }
+
+    @Test
+    void removesOnlyAccountsOfAKeyWhoseTimeIsOver() throws Exception {
+        provisionTen();
+        FarmSecret rotated =
+                Wanted.SECRET.rotated(Instant.now(), Instant.EPOCH, false).at(Instant.now());
+
+        Outcome outcome =
+                provisioning(files(SecretSource.of(rotated), false), EMPTY).step();
+
+        assertThat(users()).isEmpty();
+        assertThat(outcome.kept().devices()).hasSize(10);
+    }
+
+    private static String user(WantedDevice device, int generation) {
+        return Wanted.SECRET.device("hoeing", device.device(), generation).user();
+    }
+
+    private void wantTen() {
+        for (int i = 1; i <= 10; i++) {
+            want(Wanted.thermometer("hoeing", i));
+        }
+    }
+
+    /** By another Kafka than {@link #EMPTY}; nothing is wanted afterwards. */
+    private void provisionTen() throws Exception {
+        wantTen();
+        provisioning = provisioning(files(false), SAME);
+        assertThat(provisioning.step()).isEqualTo(DONE);
+        assertThat(users()).hasSize(10);
+        wanted.clear();
+    }
+
+    private ProvisioningSettings files(boolean forgets) {
+        return files(SecretSource.of(Wanted.SECRET), forgets);
+    }
+
+    private ProvisioningSettings files(SecretSource secret, boolean forgets) {
+        List<MqttAccounts> files = List.of(new MosquittoFiles(passwords(), directory.resolve("rules"), null));
+        return new ProvisioningSettings(
+                new Properties(),
+                Wanted.SCOPE,
+                secret,
+                AgentSettings.at(agent.uri()),
+                files,
+                false,
+                ConnectionSources.NONE,
+                forgets);
+    }
+
+    private Path passwords() {
+        return directory.resolve("passwords");
+    }
+
+    private List<String> users() throws IOException {
+        return Files.readAllLines(passwords()).stream()
+                .filter(line -> line.contains(":$7$"))
+                .map(line -> line.substring(0, line.indexOf(':')))
+                .toList();
+    }
+}
