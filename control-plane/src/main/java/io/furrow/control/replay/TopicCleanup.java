@@ -3,16 +3,21 @@ package io.furrow.control.replay;
 import java.time.Clock;
 import java.time.Duration;
 import java.util.List;
+import java.util.Map;
 import java.util.Properties;
 import java.util.Set;
 import java.util.concurrent.ExecutionException;
 
 import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.ListOffsetsResult.ListOffsetsResultInfo;
+import org.apache.kafka.clients.admin.OffsetSpec;
+import org.apache.kafka.clients.admin.TopicDescription;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.Producer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.KafkaFuture;
+import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
@@ -20,18 +25,24 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.CommittedReader.RecordAction;
 import io.furrow.kafka.PartStatus;
 import io.furrow.kafka.RestartingWorker;
 import io.furrow.model.topic.Topics;
 
+import static java.util.stream.Collectors.toMap;
+
 /**
- * Deletes the topic of a replay, and those of what was found in it, a grace period after the replay was over, then its status. Several
+ * Deletes the topic of a replay, and those of what was found in it, a grace period after the replay was over, then its status; and the
+ * topic of a mission or domain a day after it was deleted, where nothing of the last day is in it and no replay reads it. Several
  * instances may do so.
  */
-public final class ReplayCleanup implements AutoCloseable {
-    private static final Logger LOG = LoggerFactory.getLogger(ReplayCleanup.class);
+public final class TopicCleanup implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(TopicCleanup.class);
     private static final Duration MAX_INTERVAL = Duration.ofSeconds(10);
     private static final Duration MIN_INTERVAL = Duration.ofMillis(100);
+    /** Consumers may have a night, and devices that were away what they kept. */
+    private static final Duration GRACE_OF_MISSIONS = Duration.ofDays(1);
 
     private final Properties client;
     private final Duration grace;
@@ -39,39 +50,49 @@ public final class ReplayCleanup implements AutoCloseable {
     private final RestartingWorker worker;
     private volatile long deleted;
 
-    private ReplayCleanup(Properties client, Duration grace, Clock clock) {
+    private TopicCleanup(Properties client, Duration grace, Clock clock) {
         this.client = client;
         this.grace = grace;
         this.clock = clock;
-        this.worker = new RestartingWorker("replay-cleanup", clock);
+        this.worker = new RestartingWorker("topic-cleanup", clock);
     }
 
     /** The topics of the control plane are there already. */
-    public static ReplayCleanup start(Properties client, ReplaySettings settings, Clock clock) {
-        ReplayCleanup cleanup = new ReplayCleanup(client, settings.grace(), clock);
-        cleanup.worker.start(cleanup::run, () -> cleanup.deleted + " topics of replays deleted");
+    public static TopicCleanup start(Properties client, ReplaySettings settings, Clock clock) {
+        TopicCleanup cleanup = new TopicCleanup(client, settings.grace(), clock);
+        cleanup.worker.start(cleanup::run, () -> cleanup.deleted + " topics of replays, missions and domains deleted");
         return cleanup;
     }
 
     private void run(RestartingWorker running) throws InterruptedException {
         FinishedReplays remains = new FinishedReplays();
+        DeletedNames names = new DeletedNames();
+        RecordAction<String, RuntimeException> taking = record -> {
+            if (record.topic().equals(Topics.MISSIONS) || record.topic().equals(Topics.DOMAINS)) {
+                names.take(record);
+            } else {
+                remains.take(record);
+            }
+        };
         try (Admin admin = Admin.create(client);
-                CommittedReader<String> topics = CommittedReader.open(client, Topics.REPLAYS, Topics.REPLAYS_STATUS);
+                CommittedReader<String> topics = CommittedReader.open(
+                        client, Topics.REPLAYS, Topics.REPLAYS_STATUS, Topics.MISSIONS, Topics.DOMAINS);
                 Producer<String, byte[]> producer =
                         new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
             while (!running.isClosing()) {
-                topics.readToEnd(remains::take);
+                topics.readToEnd(taking);
                 for (FinishedReplays.Remains due : remains.overBy(clock.millis() - grace.toMillis())) {
-                    topics.readToEnd(remains::take); // it may be wanted again since
+                    topics.readToEnd(taking); // it may be wanted again since
                     if (remains.overBy(clock.millis() - grace.toMillis()).contains(due)) {
                         remove(due, admin, producer);
                     }
                 }
+                removeMissions(names, remains, admin);
                 running.succeeded();
                 running.pause(interval());
             }
         } catch (ExecutionException e) {
-            throw new KafkaException("topics of a replay cannot be deleted", e.getCause());
+            throw new KafkaException("topics of replays and missions cannot be deleted", e.getCause());
         }
     }
 
@@ -91,15 +112,53 @@ public final class ReplayCleanup implements AutoCloseable {
                     .filter(name -> name.equals(remains.topic()) || name.startsWith(remains.topic() + "."))
                     .sorted()
                     .toList();
-            for (KafkaFuture<Void> each :
-                    admin.deleteTopics(all).topicNameValues().values()) {
-                await(each);
-            }
-            deleted += all.size();
+            delete(all, admin);
             LOG.info("replay {} was over for {}; deleted {}", remains.replay(), grace, all);
         }
         producer.send(new ProducerRecord<>(Topics.REPLAYS_STATUS, remains.replay(), null));
         producer.flush();
+    }
+
+    private void removeMissions(DeletedNames names, FinishedReplays replays, Admin admin)
+            throws ExecutionException, InterruptedException {
+        long moment = clock.millis() - GRACE_OF_MISSIONS.toMillis();
+        List<String> due = names.by(moment);
+        Set<String> there =
+                due.isEmpty() ? Set.of() : admin.listTopics().names().get();
+        for (String topic : due) {
+            boolean exists = there.contains(topic);
+            if (exists && (replays.isUsed(topic) || newest(topic, admin) > moment)) {
+                continue;
+            }
+            if (exists) {
+                delete(List.of(topic), admin);
+                LOG.info(
+                        "what {} belonged to was deleted more than {} ago; deleted the topic",
+                        topic,
+                        GRACE_OF_MISSIONS);
+            }
+            names.forget(topic);
+        }
+    }
+
+    /** The greatest event time on the topic; negative if it is empty. */
+    private static long newest(String topic, Admin admin) throws ExecutionException, InterruptedException {
+        TopicDescription described =
+                admin.describeTopics(List.of(topic)).allTopicNames().get().get(topic);
+        Map<TopicPartition, OffsetSpec> asked = described.partitions().stream()
+                .collect(toMap(each -> new TopicPartition(topic, each.partition()), each -> OffsetSpec.maxTimestamp()));
+        return admin.listOffsets(asked).all().get().values().stream()
+                .mapToLong(ListOffsetsResultInfo::timestamp)
+                .max()
+                .orElse(-1);
+    }
+
+    private void delete(List<String> topics, Admin admin) throws ExecutionException, InterruptedException {
+        for (KafkaFuture<Void> each :
+                admin.deleteTopics(topics).topicNameValues().values()) {
+            await(each);
+        }
+        deleted += topics.size();
     }
 
     private static void await(KafkaFuture<Void> deletion) throws ExecutionException, InterruptedException {
