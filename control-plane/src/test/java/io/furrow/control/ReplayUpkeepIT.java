@@ -5,12 +5,14 @@ import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
 import java.time.Instant;
+import java.time.InstantSource;
 import java.time.ZoneOffset;
 import java.util.ArrayList;
 import java.util.Date;
 import java.util.List;
 import java.util.Properties;
 import java.util.Set;
+import java.util.concurrent.atomic.AtomicReference;
 import java.util.stream.Stream;
 
 import com.mongodb.client.MongoClients;
@@ -162,7 +164,7 @@ class ReplayUpkeepIT {
         long now = System.currentTimeMillis();
         for (String mission : List.of("weeding", "mowing", "sowing", "played")) {
             send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(StandardCharsets.UTF_8));
-            long reported = mission.equals("sowing") ? now + 1_000 : now - 1_000;
+            long reported = mission.equals("sowing") ? now + Duration.ofMinutes(30).toMillis() : now - 1_000;
             producer.send(new ProducerRecord<>("data.farm.realtime." + mission, 0, reported, "d", new byte[1]))
                     .get();
         }
@@ -186,16 +188,17 @@ class ReplayUpkeepIT {
                 WantedReplay.started("played", "data.played.replay.0000000a", plan, 1, 0, 1)
                         .toBytes());
 
-        opened(TopicCleanup.start(
-                client,
-                ReplaySettings.DEFAULT.withGrace(Duration.ofSeconds(1)),
-                Clock.fixed(Instant.ofEpochMilli(now).plus(Duration.ofDays(1)), ZoneOffset.UTC)));
+        AtomicReference<Instant> clock =
+                new AtomicReference<>(Instant.ofEpochMilli(now).plus(Duration.ofDays(1)));
+        InstantSource time = clock::get;
+        TopicCleanup cleanup = opened(TopicCleanup.start(
+                client, ReplaySettings.DEFAULT.withGrace(Duration.ofSeconds(1)), time.withZone(ZoneOffset.UTC)));
+        await().until(() -> cleanup.status().lastSuccess() != null);
+        assertThat(names()).as("it may be written to now").contains("data.farm.realtime.weeding");
+        clock.set(clock.get().plus(Duration.ofMinutes(15)));
         await().until(() -> !names().contains("data.farm.realtime.weeding"));
-        TopicCleanup again = opened(TopicCleanup.start(
-                client,
-                ReplaySettings.DEFAULT,
-                Clock.fixed(Instant.ofEpochMilli(now).plus(Duration.ofDays(1)), ZoneOffset.UTC)));
-        await().until(() -> again.status().lastSuccess() != null);
+        Instant later = clock.updateAndGet(instant -> instant.plusMillis(1));
+        await().until(() -> later.equals(cleanup.status().lastSuccess()));
 
         assertThat(names())
                 .contains(

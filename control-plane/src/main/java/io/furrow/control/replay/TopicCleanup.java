@@ -2,16 +2,17 @@ package io.furrow.control.replay;
 
 import java.time.Clock;
 import java.time.Duration;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Properties;
 import java.util.Set;
 import java.util.concurrent.ExecutionException;
+import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.ListOffsetsResult.ListOffsetsResultInfo;
 import org.apache.kafka.clients.admin.OffsetSpec;
-import org.apache.kafka.clients.admin.TopicDescription;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.Producer;
 import org.apache.kafka.clients.producer.ProducerRecord;
@@ -34,8 +35,8 @@ import static java.util.stream.Collectors.toMap;
 
 /**
  * Deletes the topic of a replay, and those of what was found in it, a grace period after the replay was over, then its status; and the
- * topic of a mission or domain a day after it was deleted, where nothing of the last day is in it and no replay reads it. Several
- * instances may do so.
+ * topic of a mission or domain a day after it was deleted, where nothing of the last day is in it, nothing was written lately and no
+ * replay reads it. Several instances may do so.
  */
 public final class TopicCleanup implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(TopicCleanup.class);
@@ -43,11 +44,16 @@ public final class TopicCleanup implements AutoCloseable {
     private static final Duration MIN_INTERVAL = Duration.ofMillis(100);
     /** Consumers may have a night, and devices that were away what they kept. */
     private static final Duration GRACE_OF_MISSIONS = Duration.ofDays(1);
+    /** A job asks after minutes of quiet whether a topic is there still, before it writes what a device had kept for long. */
+    private static final long QUIET_MILLIS = Duration.ofMinutes(15).toMillis();
 
     private final Properties client;
     private final Duration grace;
     private final Clock clock;
     private final RestartingWorker worker;
+    /** What the topics that are due held when that last changed. */
+    private final Map<String, Content> contents = new HashMap<>();
+
     private volatile long deleted;
 
     private TopicCleanup(Properties client, Duration grace, Clock clock) {
@@ -127,7 +133,7 @@ public final class TopicCleanup implements AutoCloseable {
                 due.isEmpty() ? Set.of() : admin.listTopics().names().get();
         for (String topic : due) {
             boolean exists = there.contains(topic);
-            if (exists && (replays.isUsed(topic) || newest(topic, admin) > moment)) {
+            if (exists && (replays.isUsed(topic) || !isQuiet(topic, moment, admin))) {
                 continue;
             }
             if (exists) {
@@ -138,19 +144,47 @@ public final class TopicCleanup implements AutoCloseable {
                         GRACE_OF_MISSIONS);
             }
             names.forget(topic);
+            contents.remove(topic);
         }
     }
 
-    /** The greatest event time on the topic; negative if it is empty. */
-    private static long newest(String topic, Admin admin) throws ExecutionException, InterruptedException {
-        TopicDescription described =
-                admin.describeTopics(List.of(topic)).allTopicNames().get().get(topic);
-        Map<TopicPartition, OffsetSpec> asked = described.partitions().stream()
-                .collect(toMap(each -> new TopicPartition(topic, each.partition()), each -> OffsetSpec.maxTimestamp()));
-        return admin.listOffsets(asked).all().get().values().stream()
+    /**
+     * A topic at a moment.
+     *
+     * @param records ever written
+     * @param newest event time, epoch ms; negative if it is empty
+     * @param since when it was seen so first, epoch ms
+     */
+    private record Content(long records, long newest, long since) {}
+
+    private boolean isQuiet(String topic, long moment, Admin admin) throws ExecutionException, InterruptedException {
+        List<TopicPartition> partitions =
+                admin.describeTopics(List.of(topic)).allTopicNames().get().get(topic).partitions().stream()
+                        .map(each -> new TopicPartition(topic, each.partition()))
+                        .toList();
+        long records = offsets(partitions, OffsetSpec.latest(), admin)
+                .mapToLong(ListOffsetsResultInfo::offset)
+                .sum();
+        long newest = offsets(partitions, OffsetSpec.maxTimestamp(), admin)
                 .mapToLong(ListOffsetsResultInfo::timestamp)
                 .max()
                 .orElse(-1);
+        Content now = contents.compute(
+                topic,
+                (same, before) -> before != null && before.records() == records
+                        ? before
+                        : new Content(records, newest, clock.millis()));
+        return now.newest() <= moment && clock.millis() - now.since() >= QUIET_MILLIS;
+    }
+
+    private static Stream<ListOffsetsResultInfo> offsets(List<TopicPartition> partitions, OffsetSpec which, Admin admin)
+            throws ExecutionException, InterruptedException {
+        return admin
+                .listOffsets(partitions.stream().collect(toMap(each -> each, each -> which)))
+                .all()
+                .get()
+                .values()
+                .stream();
     }
 
     private void delete(List<String> topics, Admin admin) throws ExecutionException, InterruptedException {

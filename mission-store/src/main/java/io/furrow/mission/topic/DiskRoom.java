@@ -14,7 +14,7 @@ import io.furrow.mission.RecordingGoneException;
  * @param reserved bytes that stay free
  */
 record DiskRoom(Path folder, long reserved, FreeBytes free) {
-    private static final long LEAST = 1L << 30;
+    private static final long MIN_FREE_BYTES = 1L << 30;
     private static final int MEBIBYTE = 1 << 20;
 
     /** How many bytes can be written at this moment. */
@@ -24,7 +24,7 @@ record DiskRoom(Path folder, long reserved, FreeBytes free) {
 
     static DiskRoom of(Path folder) throws IOException {
         FileStore disk = Files.getFileStore(folder);
-        return new DiskRoom(folder, Math.max(LEAST, disk.getTotalSpace() / 10), disk::getUsableSpace);
+        return new DiskRoom(folder, Math.max(MIN_FREE_BYTES, disk.getTotalSpace() / 10), disk::getUsableSpace);
     }
 
     /** @throws RecordingGoneException if there is no room for so many bytes more: to try again would fill the disk again */
