@@ -1,6 +1,9 @@
 package io.furrow.ingest.latest;
 
 import java.nio.charset.StandardCharsets;
+import java.util.Collections;
+import java.util.Comparator;
+import java.util.List;
 import java.util.Map;
 import java.util.SortedMap;
 import java.util.TreeMap;
@@ -22,16 +25,23 @@ import io.furrow.model.ngsi.NgsiJson;
  */
 public record KnownEntity(
         long time, boolean deleted, String type, Map<String, KnownAttribute> attributes, long received) {
+    /** A device that makes up names of attributes would otherwise fill the memory, and no topic would take the record. */
+    private static final int MAX_ATTRIBUTES = 1000;
+
     static final KnownEntity NEVER_SEEN = new KnownEntity(Long.MIN_VALUE, false, "", Map.of(), Long.MIN_VALUE);
 
-    /** After a change: the same object where the event brings nothing that is not known newer. */
+    /**
+     * After a change: the same object where the event brings nothing that is not known newer. Of more attributes than are kept, and
+     * than the event brings, those that were reported longest ago go.
+     */
     KnownEntity with(Entity reported, long eventTime, long eventReceived) {
         if (deleted && eventTime <= time) {
             return this;
         }
         Map<String, KnownAttribute> merged = new TreeMap<>(deleted ? Map.of() : attributes);
         boolean news = eventTime >= time;
-        for (Map.Entry<String, JsonNode> attribute : reported.attributes()) {
+        List<Map.Entry<String, JsonNode>> changes = reported.attributes();
+        for (Map.Entry<String, JsonNode> attribute : changes) {
             KnownAttribute known = merged.get(attribute.getKey());
             if (known == null || known.time() <= eventTime) {
                 merged.put(
@@ -40,6 +50,12 @@ public record KnownEntity(
                                 eventTime, new String(NgsiJson.write(attribute.getValue()), StandardCharsets.UTF_8)));
                 news = true;
             }
+        }
+        while (merged.size() > Math.max(MAX_ATTRIBUTES, changes.size())) {
+            merged.remove(Collections.min(
+                            merged.entrySet(),
+                            Comparator.comparingLong(each -> each.getValue().time()))
+                    .getKey());
         }
         return news
                 ? new KnownEntity(
