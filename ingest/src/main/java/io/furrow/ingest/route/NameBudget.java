@@ -29,7 +29,7 @@ public final class NameBudget implements Serializable {
     /** A name that nobody knows is looked for on the topics at most this often. */
     private static final long READ_EVERY = Duration.ofSeconds(1).toMillis();
 
-    private static final Managed NOT_MANAGED = new Managed("", Long.MAX_VALUE);
+    private static final Managed OF_ANY_DOMAIN = new Managed("", Long.MAX_VALUE);
 
     private final TopicSnapshot domainsTopic;
     private final TopicSnapshot missionsTopic;
@@ -94,7 +94,7 @@ public final class NameBudget implements Serializable {
 
     /** An event of before the mission was created may be of an earlier one of this name. */
     private boolean isOfAnother(String domain, String mission, long time) {
-        Managed known = missions.getOrDefault(mission, NOT_MANAGED);
+        Managed known = missions.getOrDefault(mission, OF_ANY_DOMAIN);
         return time >= known.created() && !known.domain().equals(domain) && domains.containsKey(domain);
     }
 
@@ -108,7 +108,10 @@ public final class NameBudget implements Serializable {
             return domains.containsKey(name.domain());
         }
         Managed known = missions.get(name.mission());
-        return known != null && (name.domain().isEmpty() || known.domain().equals(name.domain()));
+        return known != null
+                && (name.domain().isEmpty()
+                        || known.domain().isEmpty()
+                        || known.domain().equals(name.domain()));
     }
 
     private void admit(Name name, long now) throws IOException, UnreadableException {
@@ -168,7 +171,7 @@ public final class NameBudget implements Serializable {
             return new Managed(
                     json.path("domain").asText(), json.path("created").asLong());
         } catch (UnreadableException e) {
-            return NOT_MANAGED;
+            return OF_ANY_DOMAIN;
         }
     }
 }
