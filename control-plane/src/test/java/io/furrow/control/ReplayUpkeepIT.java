@@ -1,13 +1,18 @@
 package io.furrow.control;
 
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
+import java.time.Instant;
+import java.time.InstantSource;
+import java.time.ZoneOffset;
 import java.util.ArrayList;
 import java.util.Date;
 import java.util.List;
 import java.util.Properties;
 import java.util.Set;
+import java.util.concurrent.atomic.AtomicReference;
 import java.util.stream.Stream;
 
 import com.mongodb.client.MongoClients;
@@ -26,8 +31,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.replay.RecordingWatch;
-import io.furrow.control.replay.ReplayCleanup;
 import io.furrow.control.replay.ReplaySettings;
+import io.furrow.control.replay.TopicCleanup;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.model.control.CommandResult;
@@ -136,12 +141,12 @@ class ReplayUpkeepIT {
         send(Topics.REPLAYS_STATUS, "b.0000000b", over()); // of before it was started again
         send(Topics.REPLAYS, "a.0000000a", null);
 
-        ReplayCleanup early = opened(
-                ReplayCleanup.start(client, ReplaySettings.DEFAULT.withGrace(Duration.ofHours(1)), Clock.systemUTC()));
+        TopicCleanup early = opened(
+                TopicCleanup.start(client, ReplaySettings.DEFAULT.withGrace(Duration.ofHours(1)), Clock.systemUTC()));
         await().until(() -> early.status().lastSuccess() != null);
         assertThat(names()).containsAll(gone);
         for (int i = 0; i < 2; i++) {
-            opened(ReplayCleanup.start(client, ReplaySettings.DEFAULT.withGrace(Duration.ZERO), Clock.systemUTC()));
+            opened(TopicCleanup.start(client, ReplaySettings.DEFAULT.withGrace(Duration.ZERO), Clock.systemUTC()));
         }
 
         await().until(() -> names().stream().noneMatch(gone::contains));
@@ -149,6 +154,58 @@ class ReplayUpkeepIT {
         await().until(() -> !statuses.newest().containsKey("a.0000000a"));
         assertThat(names()).containsAll(stay);
         assertThat(statuses.newest()).containsOnlyKeys("b.0000000b");
+    }
+
+    @Test
+    void deletesTheTopicOfADeletedMissionADayLaterWhereNothingNewIsInIt() throws Exception {
+        kafka.createTopics(Stream.of("weeding", "mowing", "sowing", "played", "own")
+                .map(mission -> new NewTopic("data.farm.realtime." + mission, 2, (short) 1))
+                .toList());
+        long now = System.currentTimeMillis();
+        for (String mission : List.of("weeding", "mowing", "sowing", "played")) {
+            send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(StandardCharsets.UTF_8));
+            long reported = mission.equals("sowing") ? now + Duration.ofMinutes(30).toMillis() : now - 1_000;
+            producer.send(new ProducerRecord<>("data.farm.realtime." + mission, 0, reported, "d", new byte[1]))
+                    .get();
+        }
+        for (String mission : List.of("weeding", "sowing", "played")) {
+            producer.send(new ProducerRecord<>(Topics.MISSIONS, 0, Long.valueOf(now - 1), mission, (byte[]) null))
+                    .get();
+        }
+        ReplayPlan plan = new ReplayPlan(
+                new ReplayPlan.Source("data.farm.realtime.played", null),
+                null,
+                null,
+                false,
+                List.of(),
+                null,
+                ReplayPlan.Stamps.ORIGINAL,
+                null,
+                List.of());
+        send(
+                Topics.REPLAYS,
+                "played.0000000a",
+                WantedReplay.started("played", "data.played.replay.0000000a", plan, 1, 0, 1)
+                        .toBytes());
+
+        AtomicReference<Instant> clock =
+                new AtomicReference<>(Instant.ofEpochMilli(now).plus(Duration.ofDays(1)));
+        InstantSource time = clock::get;
+        TopicCleanup cleanup = opened(TopicCleanup.start(
+                client, ReplaySettings.DEFAULT.withGrace(Duration.ofSeconds(1)), time.withZone(ZoneOffset.UTC)));
+        await().until(() -> cleanup.status().lastSuccess() != null);
+        assertThat(names()).as("it may be written to now").contains("data.farm.realtime.weeding");
+        clock.set(clock.get().plus(Duration.ofMinutes(15)));
+        await().until(() -> !names().contains("data.farm.realtime.weeding"));
+        Instant later = clock.updateAndGet(instant -> instant.plusMillis(1));
+        await().until(() -> later.equals(cleanup.status().lastSuccess()));
+
+        assertThat(names())
+                .contains(
+                        "data.farm.realtime.mowing",
+                        "data.farm.realtime.sowing",
+                        "data.farm.realtime.played",
+                        "data.farm.realtime.own");
     }
 
     private Set<String> names() throws Exception {

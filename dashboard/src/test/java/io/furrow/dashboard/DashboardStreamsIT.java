@@ -4,6 +4,7 @@ import java.io.InputStream;
 import java.net.URI;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
+import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.stream.LongStream;
@@ -110,6 +111,31 @@ class DashboardStreamsIT extends DashboardFixture {
         assertThat(client.records()).hasSize(1);
         assertThat(client.records().get(0).at("/value/n").asInt()).isEqualTo(4);
         assertThat(client.records().get(0).at("/headers/replay-epoch").asText()).isEqualTo("1");
+    }
+
+    @Test
+    void knowsTheLastHourOfATopicThatIsNotCompactedHoweverMuchIsBeforeIt() throws Exception {
+        kafka.createTopics(topics(Topics.COLLISION));
+        long now = System.currentTimeMillis();
+        for (int i = 0; i < 100_000; i++) {
+            long then = now - Duration.ofHours(2).toMillis() + i;
+            producer.send(new ProducerRecord<>(
+                    Topics.COLLISION, 0, then, "pair-" + i % 50, "{\"phase\":\"ongoing\"}".getBytes(UTF_8)));
+        }
+        send(Topics.COLLISION, "pair-of-now", "{\"phase\":\"started\"}");
+        List<SocketClient> clients = new ArrayList<>();
+        for (int i = 0; i < 5; i++) {
+            clients.add(SocketClient.open(http, socket(Topics.COLLISION + "?format=record&prime=true", VERA)));
+        }
+        clients.add(SocketClient.open(http, socket(TOPIC + "?format=record&prime=true", VERA)));
+
+        for (SocketClient client : clients) {
+            await().atMost(Duration.ofSeconds(5)).until(() -> client.frames().contains("{\"primed\":true}"));
+        }
+        assertThat(clients.subList(0, 5))
+                .allSatisfy(client -> assertThat(client.records())
+                        .extracting(record -> record.path("key").asText())
+                        .containsExactly("pair-of-now"));
     }
 
     private static void replayed(String topic, String key, String value, int epoch, String kind) throws Exception {

@@ -17,12 +17,16 @@ import io.furrow.model.topic.Topics;
  * @param devices the records of {@code service.devices}
  * @param devicesAtStart those that are known before the first event
  * @param latestAtStart what {@code data.latest} holds before the first event
+ * @param domains those of the control plane
+ * @param missions those of the control plane
  */
 record IngestInputs(
         DataStream<TopicRecord> records,
         DataStream<TopicRecord> devices,
         TopicSnapshot devicesAtStart,
-        TopicSnapshot latestAtStart) {
+        TopicSnapshot latestAtStart,
+        TopicSnapshot domains,
+        TopicSnapshot missions) {
     /** The topics that the options name. */
     static IngestInputs ofKafka(StreamExecutionEnvironment env, IngestOptions options) {
         DataStream<TopicRecord> records = AdvanceQuietInput.of(
@@ -44,6 +48,8 @@ record IngestInputs(
                 records,
                 devices,
                 new KafkaTopicSnapshot(options, options.devices()),
-                new KafkaTopicSnapshot(options, Topics.LATEST));
+                new KafkaTopicSnapshot(options, Topics.LATEST),
+                new KafkaTopicSnapshot(options, Topics.DOMAINS),
+                new KafkaTopicSnapshot(options, Topics.MISSIONS));
     }
 }

@@ -17,6 +17,7 @@ import io.furrow.flink.time.KeyedLatenessOperator;
 import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
 import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.route.AssignMission;
+import io.furrow.ingest.route.NameBudget;
 import io.furrow.ingest.route.RecognizeEvents;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.ingest.route.StampIngest;
@@ -61,7 +62,10 @@ public final class IngestJob {
                         "Assign domain and mission",
                         TypeInformation.of(ReportedEvent.class),
                         new KeyedTimelessBroadcastOperator<>(
-                                new AssignMission(in.devicesAtStart(), options.assignment()),
+                                new AssignMission(
+                                        in.devicesAtStart(),
+                                        options.assignment(),
+                                        new NameBudget(in.domains(), in.missions(), options.newNames())),
                                 List.of(AssignMission.DEVICES)))
                 .uid("assign-domain-and-mission");
 
@@ -90,7 +94,7 @@ public final class IngestJob {
         branches.listImages(moved);
         branches.keepCatalog(events);
         branches.keepMissions(events);
-        branches.setAside(Part.ROUTES, recognized, devices);
+        branches.setAside(Part.ROUTES, recognized, devices, assigned);
         branches.setAside(Part.IMAGES, moved);
         branches.writeDead();
     }

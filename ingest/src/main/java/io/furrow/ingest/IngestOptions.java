@@ -62,6 +62,16 @@ public final class IngestOptions extends JobOptions {
     private String defaultMission;
 
     @Option(
+            names = "--new-names",
+            paramLabel = "N",
+            defaultValue = "100",
+            description =
+                    "How many new names of domains and missions events may bring per subtask and hour, beside those of"
+                            + " service.domains and service.missions: each makes topics and a collection that stay. What is beyond"
+                            + " is a dead letter, unknown-mission, and the event goes on without the name. Default: ${DEFAULT-VALUE}.")
+    private int newNames;
+
+    @Option(
             names = "--repeat-window",
             paramLabel = "DURATION",
             defaultValue = "2min",
@@ -224,6 +234,14 @@ public final class IngestOptions extends JobOptions {
     AssignMission.Rule assignment() {
         return new AssignMission.Rule(
                 deviceHistory, defaultDomain().orElse(""), defaultMission().orElse(""));
+    }
+
+    /** Of domains and missions, per subtask and hour. */
+    int newNames() {
+        if (newNames < 0) {
+            throw refused("--new-names " + newNames + " is below 0", null);
+        }
+        return newNames;
     }
 
     public boolean writesRoutes() {

@@ -182,7 +182,16 @@ class ImageStageJobTest {
                 .setParallelism(1);
 
         CollectedOutput out = new CollectedOutput();
-        IngestJob.define(new IngestInputs(source, noDevices, KnownDevices.of(), TopicSnapshot.NONE), out, options);
+        IngestJob.define(
+                new IngestInputs(
+                        source,
+                        noDevices,
+                        KnownDevices.of(),
+                        TopicSnapshot.NONE,
+                        TopicSnapshot.NONE,
+                        TopicSnapshot.NONE),
+                out,
+                options);
         return out.run();
     }
 

@@ -95,6 +95,22 @@ class IngestJobTest {
     }
 
     @Test
+    void makesATopicOfSoManyMissionsOnlyAndLosesNoEvent() throws Exception {
+        TopicRecord[] reported = new TopicRecord[500];
+        for (int i = 0; i < reported.length; i++) {
+            reported[i] = record("e" + i, thermometer("t", "farm", "run-" + i));
+        }
+
+        List<String> topics = run(options("--new-names", "50"), reported).stream()
+                .map(TopicRecord::topic)
+                .toList();
+
+        assertThat(topics.stream().distinct()).hasSize(1 + 49 + 1);
+        assertThat(topics.stream().filter("data.farm.realtime"::equals)).hasSize(500);
+        assertThat(topics.stream().filter("data.raw.dead"::equals)).hasSize(451);
+    }
+
+    @Test
     void takesNoReplay() {
         assertThatThrownBy(
                         () -> options("--input", "data.hoeing.replay.0a1b2c3d").inputTopics())

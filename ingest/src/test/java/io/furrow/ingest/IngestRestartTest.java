@@ -141,7 +141,13 @@ class IngestRestartTest {
                     records.keyBy(record -> new String(record.key(), StandardCharsets.UTF_8));
             CollectedOutput out = new CollectedOutput();
             IngestJob.define(
-                    new IngestInputs(asInPartitions, devices, KnownDevices.of(), TopicSnapshot.NONE),
+                    new IngestInputs(
+                            asInPartitions,
+                            devices,
+                            KnownDevices.of(),
+                            TopicSnapshot.NONE,
+                            TopicSnapshot.NONE,
+                            TopicSnapshot.NONE),
                     out,
                     (IngestOptions) options);
             return out.all();

@@ -39,7 +39,11 @@ final class IngestRun {
                 .setParallelism(1);
 
         CollectedOutput out = new CollectedOutput();
-        IngestJob.define(new IngestInputs(source, deviceRecords, devices, TopicSnapshot.NONE), out, options);
+        IngestJob.define(
+                new IngestInputs(
+                        source, deviceRecords, devices, TopicSnapshot.NONE, TopicSnapshot.NONE, TopicSnapshot.NONE),
+                out,
+                options);
         return out.run();
     }
 }

@@ -78,7 +78,7 @@ public final class DeadLettersCommand {
                             split = ",",
                             hideParamSyntax = true,
                             description =
-                                    "Only those that one of these set aside. Default: all but ingest-images, missions, "
+                                    "Only those that one of these set aside. Default: all but routes, ingest-images, missions, "
                                             + "temperature, collision and presence: the event went on, to feed it again would double it.")
                     Set<String> stages,
             @Option(names = "--again", description = "Also those that this command has sent back before.")

@@ -34,11 +34,11 @@ import io.furrow.model.event.Original;
  */
 public final class Redrive {
     /**
-     * Who sets aside a copy: the event continued without its image, to its topics though not to MongoDB, or to the other jobs.
+     * Who sets aside a copy: the event continued without its image or its mission, to its topics though not to MongoDB, or to the other jobs.
      * Fed again it would be there twice, so these letters must be asked for by name.
      */
     public static final Set<String> WENT_ON =
-            Set.of("ingest-images", "missions", "temperature", "collision", "presence");
+            Set.of("routes", "ingest-images", "missions", "temperature", "collision", "presence");
 
     static final Duration TIMEOUT = Duration.ofSeconds(30);
     /** Of a transaction with large originals. A broker's own limit is 15 minutes, if not set otherwise. */

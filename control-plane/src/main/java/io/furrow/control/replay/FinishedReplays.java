@@ -68,11 +68,16 @@ final class FinishedReplays {
         return over.entrySet().stream()
                 .filter(each -> each.getValue() <= moment && !wanted.containsKey(each.getKey()))
                 .map(each -> new Remains(each.getKey(), topicOf(each.getKey())))
-                .filter(each -> wanted.values().stream().noneMatch(other -> uses(other, each.topic())))
+                .filter(each -> !isUsed(each.topic()))
                 .filter(each -> over.entrySet().stream()
                         .noneMatch(other -> other.getValue() > moment
                                 && topicOf(other.getKey()).equals(each.topic())))
                 .toList();
+    }
+
+    /** Whether a replay that is wanted plays on the topic, or from it. */
+    boolean isUsed(String topic) {
+        return wanted.values().stream().anyMatch(replay -> uses(replay, topic));
     }
 
     /** Plays on it, or from it or from what was found in it. */

@@ -25,20 +25,26 @@ import io.furrow.model.topic.Topics;
 /**
  * What was known of the keys of a topic before a stream began. Of {@code data.raw} and the topics of domains and missions it is what
  * {@code data.latest} has of their entities, of a replay the newest of each entity in its newest epoch, of any other topic the
- * newest of each key.
+ * newest of each key; where the topic is not compacted, of the last hour.
  */
 public final class KnownState {
     private static final Pattern LIVE = Pattern.compile("data\\.[^.]+\\.realtime(\\.[^.]+)?");
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
+    /** What is older is history, not state: such a topic may hold a week of records each second. */
+    private static final Duration NOT_COMPACTED = Duration.ofHours(1);
+
     private static final String EPOCH = "replay-epoch";
     private static final String KIND = "replay-kind";
 
     private final Properties client;
     private final ProxyLimits limits;
+    private final Predicate<String> compacted;
 
-    public KnownState(Properties client, ProxyLimits limits) {
+    /** @param compacted whether a topic is */
+    public KnownState(Properties client, ProxyLimits limits, Predicate<String> compacted) {
         this.client = client;
         this.limits = limits;
+        this.compacted = compacted;
     }
 
     /** @throws Problem where it takes too long, or is too much */
@@ -50,6 +56,10 @@ public final class KnownState {
         String source = live ? Topics.LATEST : topic;
         long begun = System.nanoTime();
         try (CommittedReader<byte[]> reader = CommittedReader.openBytes(settings(), source)) {
+            // a replay's records bear times of then
+            if (!live && !Topics.isOfReplay(source) && !compacted.test(source)) {
+                reader.seekToTime(System.currentTimeMillis() - NOT_COMPACTED.toMillis());
+            }
             reader.readToEnd(record -> {
                 if (reader.isBeforeEnd(record) && isOfNewestEpoch(record, epoch, newest)) {
                     put(record, newest, wanted);

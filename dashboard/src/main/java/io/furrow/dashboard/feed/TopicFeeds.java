@@ -3,6 +3,7 @@ package io.furrow.dashboard.feed;
 import java.time.Duration;
 import java.util.Collection;
 import java.util.HashMap;
+import java.util.List;
 import java.util.Map;
 import java.util.Properties;
 import java.util.Set;
@@ -15,6 +16,10 @@ import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.DescribeClusterOptions;
 import org.apache.kafka.clients.admin.OffsetSpec;
 import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.config.ConfigResource;
+import org.apache.kafka.common.config.TopicConfig;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.proxy.ProxyLimits;
@@ -22,6 +27,7 @@ import io.furrow.dashboard.proxy.StreamCounters;
 
 /** The feeds of the topics that have streams; a topic without one is not read. */
 public final class TopicFeeds implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(TopicFeeds.class);
     /** Without an answer for this long, Kafka is unavailable. */
     static final Duration AWAY_AFTER = Duration.ofSeconds(6);
 
@@ -90,6 +96,26 @@ public final class TopicFeeds implements AutoCloseable {
         } catch (ExecutionException | TimeoutException e) {
             throw new Problem(
                     503, "kafka-away", "Kafka does not say how long its topics are; check --kafka and that it runs");
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new Problem(503, "stopping", "the dashboard stops");
+        }
+    }
+
+    /** Whether the newest record of each key stays for good; also true where that may not be read. */
+    public boolean isCompacted(String topic) {
+        ConfigResource resource = new ConfigResource(ConfigResource.Type.TOPIC, topic);
+        try {
+            return admin.describeConfigs(List.of(resource))
+                    .all()
+                    .get(TIMEOUT_SECONDS, TimeUnit.SECONDS)
+                    .get(resource)
+                    .get(TopicConfig.CLEANUP_POLICY_CONFIG)
+                    .value()
+                    .contains(TopicConfig.CLEANUP_POLICY_COMPACT);
+        } catch (ExecutionException | TimeoutException e) {
+            LOG.debug("the configuration of {} cannot be read", topic, e);
+            return true;
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
             throw new Problem(503, "stopping", "the dashboard stops");

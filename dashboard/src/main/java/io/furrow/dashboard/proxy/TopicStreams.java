@@ -21,6 +21,7 @@ import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Users;
 import io.furrow.dashboard.feed.FeedRecord;
 import io.furrow.dashboard.feed.KnownState;
+import io.furrow.dashboard.feed.KnownStateReader;
 import io.furrow.dashboard.feed.TopicFeeds;
 import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.model.text.FailureText;
@@ -35,10 +36,11 @@ public final class TopicStreams implements AutoCloseable {
     private static final Duration MAX_BY_PROXY = Duration.ofHours(1);
 
     private static final int BEGINNERS = 4;
+    private static final String STOPS = "the dashboard stops";
     private static final int UNAUTHORIZED = 401;
 
     private final TopicFeeds feeds;
-    private final KnownState known;
+    private final KnownStateReader known;
     private final TopicWriter writer;
     private final Users users;
     private final StreamQuota quota;
@@ -51,10 +53,11 @@ public final class TopicStreams implements AutoCloseable {
     private final ScheduledExecutorService clock = Executors.newScheduledThreadPool(2, daemon("streams-clock"));
 
     private final ExecutorService beginners = Executors.newFixedThreadPool(BEGINNERS, daemon("streams-begin"));
+    private final ExecutorService endings = Executors.newSingleThreadExecutor(daemon("streams-end"));
 
     public TopicStreams(Properties client, TopicRules rules, ProxyLimits limits, Users users) {
         this.feeds = new TopicFeeds(client, limits, counters);
-        this.known = new KnownState(client, limits);
+        this.known = new KnownStateReader(new KnownState(client, limits, feeds::isCompacted)::read);
         this.writer = new TopicWriter(client, rules);
         this.users = users;
         this.rules = rules;
@@ -172,22 +175,39 @@ public final class TopicStreams implements AutoCloseable {
                         return;
                     }
                     if (request.prime()) {
-                        List<FeedRecord> records = known.read(request.topic());
-                        outbox.prime(records);
-                        stream.flush();
+                        known.read(request.topic())
+                                .whenComplete((records, failure) -> prime(request, stream, outbox, records, failure));
                     }
-                } catch (Problem e) {
-                    stream.end(e.getMessage());
-                } catch (KafkaException e) {
-                    LOG.warn("topic {} cannot be read", request.topic(), e);
-                    stream.end("topic '%s' cannot be read (%s)".formatted(request.topic(), FailureText.of(e)));
+                } catch (Problem | KafkaException e) {
+                    fail(request, stream, e);
+                } catch (RejectedExecutionException e) {
+                    stream.end(STOPS);
                 } catch (InterruptedException e) {
                     Thread.currentThread().interrupt();
                 }
             });
         } catch (RejectedExecutionException e) {
-            stream.end("the dashboard stops");
+            stream.end(STOPS);
         }
+    }
+
+    private static void prime(
+            StreamRequest request, OpenStream stream, Outbox outbox, List<FeedRecord> records, Throwable failure) {
+        if (failure != null) {
+            fail(request, stream, failure);
+            return;
+        }
+        outbox.prime(records);
+        stream.flush();
+    }
+
+    private static void fail(StreamRequest request, OpenStream stream, Throwable failure) {
+        if (failure instanceof Problem) {
+            stream.end(failure.getMessage());
+            return;
+        }
+        LOG.warn("topic {} cannot be read", request.topic(), failure);
+        stream.end("topic '%s' cannot be read (%s)".formatted(request.topic(), FailureText.of(failure)));
     }
 
     void end(String topic, OpenStream stream, StreamCounters.Closing reason) {
@@ -195,7 +215,7 @@ public final class TopicStreams implements AutoCloseable {
         counters.closed(reason);
         quota.give(stream.credentials().client());
         try {
-            beginners.execute(() -> feeds.remove(topic, stream));
+            endings.execute(() -> feeds.remove(topic, stream));
         } catch (RejectedExecutionException e) {
             LOG.debug("closed already", e);
         }
@@ -230,13 +250,15 @@ public final class TopicStreams implements AutoCloseable {
     public void close() {
         for (OpenStream stream : streams) {
             if (stream instanceof TopicSocket socket) {
-                socket.end(TopicSocket.GOING_AWAY, "the dashboard stops", StreamCounters.Closing.STOPPING);
+                socket.end(TopicSocket.GOING_AWAY, STOPS, StreamCounters.Closing.STOPPING);
             } else {
-                stream.end("the dashboard stops");
+                stream.end(STOPS);
             }
         }
         clock.shutdownNow();
         beginners.shutdownNow();
+        endings.shutdownNow();
+        known.close();
         try {
             beginners.awaitTermination(Duration.ofSeconds(2).toMillis(), TimeUnit.MILLISECONDS);
         } catch (InterruptedException e) {

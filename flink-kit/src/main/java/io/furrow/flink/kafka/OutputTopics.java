@@ -28,14 +28,17 @@ import io.furrow.flink.job.TopicOptions;
 import io.furrow.model.text.FailureText;
 
 /**
- * The topics that a subtask writes to: made where they are not there, and how large a record each takes. Asks once per topic;
- * an unreachable broker is asked again for a minute. Nobody waits for what others ask about another topic.
+ * The topics that a subtask writes to: made where they are not there, and how large a record each takes. Asks once per topic, and
+ * again after a pause in which somebody may have deleted it; an unreachable broker is asked again for a minute. Nobody waits for what others ask about another topic.
  */
 final class OutputTopics implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(OutputTopics.class);
     private static final Duration TIMEOUT = Duration.ofMinutes(1);
     /** A limit is asked for again at most this often, however many records are too large. */
     private static final long ANEW_NANOS = Duration.ofSeconds(10).toNanos();
+
+    /** A producer that writes to a deleted topic waits for a minute and fails; the control plane deletes none that was written to since. */
+    private static final long UNUSED_NANOS = Duration.ofMinutes(5).toNanos();
 
     private static final Duration UNHEARD_OF = Duration.ofMillis(50);
     private static final Limit NO_LIMIT = new Limit(Long.MAX_VALUE, 0);
@@ -47,6 +50,8 @@ final class OutputTopics implements AutoCloseable {
     private final TopicOptions.Settings settings;
     private final LongSupplier nanoTime;
     private final Map<String, Limit> known = new ConcurrentHashMap<>();
+    /** When a record for each topic came last. */
+    private final Map<String, Long> used = new ConcurrentHashMap<>();
     /** For each topic what whoever asks about it holds meanwhile. */
     private final Map<String, Object> locks = new ConcurrentHashMap<>();
 
@@ -68,6 +73,11 @@ final class OutputTopics implements AutoCloseable {
 
     /** Bytes of the largest record that the topic, which is there afterwards, takes; no limit where it may not be read. */
     long limit(String topic) throws IOException, InterruptedException {
+        long now = nanoTime.getAsLong();
+        Long before = used.put(topic, now);
+        if (before != null && now - before >= UNUSED_NANOS) {
+            known.remove(topic);
+        }
         if (!known.containsKey(topic)) {
             require(topic);
         }

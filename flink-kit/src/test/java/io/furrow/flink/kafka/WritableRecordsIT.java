@@ -246,6 +246,22 @@ class WritableRecordsIT {
         }
     }
 
+    @Test
+    void makeATopicAgainThatWasDeletedWhileNothingWasWrittenToIt() throws Exception {
+        TopicRecord record = record("deleted", new byte[1]);
+        AtomicLong nanos = new AtomicLong();
+        try (WritableRecords records = writable(new Properties(), nanos::get)) {
+            records.of(record);
+            admin.deleteTopics(List.of("deleted")).all().get();
+            await().until(() -> !admin.listTopics().names().get().contains("deleted"));
+
+            nanos.addAndGet(Duration.ofMinutes(5).toNanos());
+            records.of(record);
+
+            assertThat(admin.listTopics().names().get()).contains("deleted");
+        }
+    }
+
     private static WritableRecords writable(Properties producer) {
         return writable(producer, System::nanoTime);
     }

@@ -135,12 +135,9 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
             mailbox.execute(() -> goOn(waiting, Moved.unannounced(event.record())), "pass an event");
             return;
         }
-        long deadline = getProcessingTimeService().getCurrentProcessingTime()
-                + settings.timeout().plus(HANGING).toMillis();
-        waiting.until(getProcessingTimeService()
-                .registerTimer(deadline, time -> fail(event, new IOException("the store does not answer"))));
         StoreRetries attempts = new StoreRetries(mover, settings.timeout(), counts::retried);
         threads.execute(() -> {
+            send(() -> expectAnswer(waiting));
             try {
                 Moved moved = attempts.move(event);
                 send(() -> goOn(waiting, moved));
@@ -150,6 +147,14 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
                 Thread.currentThread().interrupt(); // the task is being closed
             }
         });
+    }
+
+    /** The time of an image begins when a thread takes it: how long it waited for one says nothing of the store. */
+    private void expectAnswer(Waiting waiting) {
+        long deadline = getProcessingTimeService().getCurrentProcessingTime()
+                + settings.timeout().plus(HANGING).toMillis();
+        waiting.until(getProcessingTimeService()
+                .registerTimer(deadline, time -> fail(waiting.event(), new IOException("the store does not answer"))));
     }
 
     /** Has the task's own thread do something. */

@@ -10,7 +10,7 @@ import io.furrow.ingest.route.ReportedEvent;
  * An event that waits for the store, or a watermark that waits for the events before it.
  */
 final class Waiting {
-    private final ReportedEvent event;
+    private ReportedEvent event;
     private final ThrowingRunnable<Exception> mark;
     private Future<?> deadline;
     private boolean passed;
@@ -30,6 +30,7 @@ final class Waiting {
         return new Waiting(null, mark, true);
     }
 
+    /** Null once it has passed: what waits behind another entity's image must not keep its own in memory. */
     ReportedEvent event() {
         return event;
     }
@@ -40,6 +41,7 @@ final class Waiting {
 
     void pass() {
         passed = true;
+        event = null;
         if (deadline != null) {
             deadline.cancel(false);
         }

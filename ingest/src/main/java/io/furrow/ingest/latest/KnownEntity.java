@@ -1,6 +1,8 @@
 package io.furrow.ingest.latest;
 
 import java.nio.charset.StandardCharsets;
+import java.util.Collections;
+import java.util.Comparator;
 import java.util.Map;
 import java.util.SortedMap;
 import java.util.TreeMap;
@@ -20,11 +22,15 @@ import io.furrow.model.ngsi.SlicedEntity;
  */
 public record KnownEntity(
         long time, boolean deleted, String type, Map<String, KnownAttribute> attributes, long received) {
+    /** A device that makes up names of attributes would otherwise fill the memory, and no topic would take the record. */
+    private static final int MAX_ATTRIBUTES = 1000;
+
     static final KnownEntity NEVER_SEEN = new KnownEntity(Long.MIN_VALUE, false, "", Map.of(), Long.MIN_VALUE);
 
     /**
      * After a change: the same object where the event brings nothing that is not known newer. Else this one is of no more use, as
-     * the other takes over its attributes.
+     * the other takes over its attributes. Of more attributes than are kept, and than the event brings, those that were reported
+     * longest ago go.
      */
     KnownEntity with(SlicedEntity reported, long eventTime, long eventReceived) {
         if (deleted && eventTime <= time) {
@@ -33,12 +39,19 @@ public record KnownEntity(
         Map<String, KnownAttribute> merged =
                 deleted ? new TreeMap<>() : attributes instanceof TreeMap ? attributes : new TreeMap<>(attributes);
         boolean news = eventTime >= time;
-        for (Map.Entry<String, String> attribute : reported.attributes().entrySet()) {
+        Map<String, String> changes = reported.attributes();
+        for (Map.Entry<String, String> attribute : changes.entrySet()) {
             KnownAttribute known = merged.get(attribute.getKey());
             if (known == null || known.time() <= eventTime) {
                 merged.put(attribute.getKey(), new KnownAttribute(eventTime, attribute.getValue()));
                 news = true;
             }
+        }
+        while (merged.size() > Math.max(MAX_ATTRIBUTES, changes.size())) {
+            merged.remove(Collections.min(
+                            merged.entrySet(),
+                            Comparator.comparingLong(each -> each.getValue().time()))
+                    .getKey());
         }
         return news
                 ? new KnownEntity(

@@ -7,6 +7,13 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Future;
+import java.util.concurrent.LinkedBlockingQueue;
+import java.util.concurrent.ThreadPoolExecutor;
+import java.util.concurrent.TimeUnit;
 import java.util.function.LongConsumer;
 
 import com.mongodb.MongoBulkWriteException;
@@ -31,14 +38,19 @@ import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 
 /**
- * Sends documents in unordered bulks of upserts by {@code _id}: sent again they change nothing. What the server refuses is
+ * Sends documents in unordered bulks of upserts by {@code _id}: sent again they change nothing. Collections are written side by
+ * side, each by one bulk at a time. What the server refuses is
  * found and given back, the rest is written; while the server is unavailable the rest is tried again. What it does not take for a
  * reason that is not known to be the document's is tried again for long, before it counts as refused.
  */
-final class BulkSender {
+final class BulkSender implements AutoCloseable {
     private static final BulkWriteOptions UNORDERED = new BulkWriteOptions().ordered(false);
     /** A server that breaks off as often at the same documents, and answers in between, does so because of them. */
     private static final int BREAKS = 3;
+    /** Most of their time these threads wait for the server; a client has at most 100 connections. */
+    private static final int MAX_THREADS = 64;
+
+    private static final int IDLE_SECONDS = 10;
 
     private static final ReplaceOptions UPSERT = new ReplaceOptions().upsert(true);
 
@@ -50,7 +62,8 @@ final class BulkSender {
     /** Codes of which documents were given up while others were taken. */
     private final Set<Integer> learned = new HashSet<>();
 
-    private final Set<Integer> doubted = new HashSet<>();
+    private final Set<Integer> doubted = ConcurrentHashMap.newKeySet();
+    private final ExecutorService threads = threads();
 
     /** @param retried is called with how many documents are sent once more */
     BulkSender(MissionCollections collections, MongoAccess.Waits waits, LongConsumer retried) {
@@ -74,13 +87,33 @@ final class BulkSender {
                     .computeIfAbsent(document.collection(), ignored -> new ArrayList<>())
                     .add(document);
         }
-        List<Refusal> refused = new ArrayList<>();
         Doubt doubt = new Doubt(waits.unknown(), learned); // one for all: a checkpoint waits for them together
-        for (Map.Entry<String, List<MissionDocument>> part : byCollection.entrySet()) {
-            send(part.getKey(), part.getValue(), doubt, refused);
-        }
+        List<Refusal> refused = send(byCollection, doubt);
         judge(byCollection.keySet(), documents.size(), refused.size(), doubt);
         return refused;
+    }
+
+    private List<Refusal> send(Map<String, List<MissionDocument>> byCollection, Doubt doubt)
+            throws IOException, InterruptedException {
+        List<Future<List<Refusal>>> answers = new ArrayList<>();
+        byCollection.forEach((collection, documents) -> answers.add(threads.submit(() -> {
+            List<Refusal> refused = new ArrayList<>();
+            send(collection, documents, doubt, refused);
+            return refused;
+        })));
+        List<Refusal> refused = new ArrayList<>();
+        try {
+            for (Future<List<Refusal>> answer : answers) {
+                refused.addAll(answer.get());
+            }
+            return refused;
+        } catch (ExecutionException e) {
+            throw e.getCause() instanceof IOException known
+                    ? known
+                    : new IOException("documents could not be written", e.getCause());
+        } finally {
+            answers.forEach(answer -> answer.cancel(true));
+        }
     }
 
     /** Where none at all was taken, no document is at fault, unless its code is known for that. */
@@ -122,15 +155,19 @@ final class BulkSender {
             } catch (MongoException | BsonSerializationException | BsonInvalidOperationException e) {
                 breaks += e instanceof MongoSocketException && collections.serverAnswers() ? 1 : 0;
                 // What fails before is the making of indexes: another writer may be making them at this moment.
-                MongoFailure failure = prepared ? failure(e, doubt, open.size()) : failureToPrepare(e);
+                MongoFailure failure = prepared ? failure(e, collection, doubt, open.size()) : failureToPrepare(e);
                 if (failure == MongoFailure.REFUSED || prepared && breaks == BREAKS) {
                     findRefused(collection, open, e, doubt, refused);
                     return;
                 }
                 pause(failure == MongoFailure.AWAY, left, e);
             }
-            retried.accept(open.size());
+            countRetried(open.size());
         }
+    }
+
+    private synchronized void countRetried(int documents) {
+        retried.accept(documents);
     }
 
     private static void pause(boolean isAway, RetryTimer left, Exception why) throws IOException, InterruptedException {
@@ -149,7 +186,7 @@ final class BulkSender {
     }
 
     /** Of all documents together; what is in doubt long enough is refused. */
-    private MongoFailure failure(Exception e, Doubt doubt, int documents) throws IOException {
+    private MongoFailure failure(Exception e, String collection, Doubt doubt, int documents) throws IOException {
         if (!(e instanceof MongoException known)) {
             return MongoFailure.REFUSED; // the driver found that it is no document
         }
@@ -161,8 +198,8 @@ final class BulkSender {
         if (failure != MongoFailure.UNKNOWN && !ofCommand) {
             return failure;
         }
-        doubt(known.getCode(), known.getMessage(), doubt);
-        if (!doubt.isOver(known.getCode())) {
+        doubt(collection, known.getCode(), known.getMessage(), doubt);
+        if (!doubt.isOver(collection, known.getCode())) {
             return MongoFailure.UNKNOWN;
         }
         if (documents == 1) {
@@ -207,9 +244,9 @@ final class BulkSender {
             }
             if (failure == MongoFailure.UNKNOWN && !attempted) {
                 attempted = true; // however many documents it fails for
-                doubt(error.getCode(), error.getMessage(), doubt);
+                doubt(document.collection(), error.getCode(), error.getMessage(), doubt);
             }
-            boolean givenUp = failure == MongoFailure.UNKNOWN && doubt.isOver(error.getCode());
+            boolean givenUp = failure == MongoFailure.UNKNOWN && doubt.isOver(document.collection(), error.getCode());
             if (givenUp) {
                 doubt.giveUp(error.getCode());
             }
@@ -226,8 +263,8 @@ final class BulkSender {
         return new Answer(open, away);
     }
 
-    private void doubt(int code, String message, Doubt doubt) {
-        doubt.failed();
+    private void doubt(String collection, int code, String message, Doubt doubt) {
+        doubt.failed(collection);
         if (doubted.add(code)) {
             LOG.warn(
                     "MongoDB does not take documents, code {}: {}. They are tried again for {} s, then they are dead letters",
@@ -251,5 +288,21 @@ final class BulkSender {
                     Filters.eq(EventDocumentCodec.ID, document.id()), new RawBsonDocument(document.bson()), UPSERT));
         }
         return upserts;
+    }
+
+    private static ExecutorService threads() {
+        ThreadPoolExecutor threads = new ThreadPoolExecutor(
+                MAX_THREADS, MAX_THREADS, IDLE_SECONDS, TimeUnit.SECONDS, new LinkedBlockingQueue<>(), work -> {
+                    Thread thread = new Thread(work, "missions to MongoDB");
+                    thread.setDaemon(true);
+                    return thread;
+                });
+        threads.allowCoreThreadTimeOut(true);
+        return threads;
+    }
+
+    @Override
+    public void close() {
+        threads.shutdownNow();
     }
 }

@@ -31,7 +31,7 @@ final class ExpiredDocumentsPurger implements AutoCloseable {
     private final ScheduledExecutorService thread;
 
     private ExpiredDocumentsPurger(MongoAccess access, Retention retention) {
-        client = access.open(); // its own, because collections remember by thread what they have made
+        client = access.open();
         collections = new MissionCollections(client, retention, Clock.systemUTC());
         thread = Executors.newSingleThreadScheduledExecutor(work -> {
             Thread made = new Thread(work, "purge of missions");

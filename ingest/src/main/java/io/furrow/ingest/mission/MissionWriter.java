@@ -1,6 +1,7 @@
 package io.furrow.ingest.mission;
 
 import java.io.IOException;
+import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.IdentityHashMap;
@@ -21,13 +22,16 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Gathers documents into bulks; one bulk is under way while the next is gathered. A checkpoint waits until all that came before
- * it is written, or was refused and has its dead letter.
+ * Gathers documents into bulks; one bulk is under way while the next is gathered, which does not wait until it is full: little
+ * is left when a checkpoint comes. A checkpoint waits until all that came before it is written, or was refused and has its dead
+ * letter.
  */
 @SuppressWarnings("try") // close() may be interrupted, as a sink writer's may
 final class MissionWriter implements SinkWriter<MissionDocument> {
     private static final int MAX_DOCUMENTS = 1_000;
     private static final int MAX_BYTES = 8 * 1024 * 1024;
+    /** Gathered for so long before it is sent to a server that is waiting for it: each bulk has a disk of the server's synced. */
+    private static final long GATHERING_NANOS = Duration.ofMillis(100).toNanos();
 
     private final BulkSender sender;
     private final SinkWriter<TopicRecord> deadLetters;
@@ -38,6 +42,7 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
 
     private List<MissionDocument> gathered = new ArrayList<>();
     private long gatheredBytes;
+    private long gatheredSince;
     private List<MissionDocument> sent = List.of();
     private Future<List<BulkSender.Refusal>> underWay = CompletableFuture.completedFuture(List.of());
 
@@ -56,9 +61,13 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
 
     @Override
     public void write(MissionDocument document, Context context) throws IOException, InterruptedException {
+        if (gathered.isEmpty()) {
+            gatheredSince = System.nanoTime();
+        }
         gathered.add(document);
         gatheredBytes += document.bson().length;
-        if (gathered.size() >= MAX_DOCUMENTS || gatheredBytes >= MAX_BYTES) {
+        boolean full = gathered.size() >= MAX_DOCUMENTS || gatheredBytes >= MAX_BYTES;
+        if (full || underWay.isDone() && System.nanoTime() - gatheredSince >= GATHERING_NANOS) {
             sendGathered();
         }
     }
@@ -118,6 +127,7 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
     @Override
     public void close() throws Exception {
         thread.shutdownNow();
+        sender.close();
         try {
             deadLetters.close();
         } finally {

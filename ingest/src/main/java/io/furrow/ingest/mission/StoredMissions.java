@@ -155,23 +155,24 @@ public final class StoredMissions implements AutoCloseable {
      */
     public long importFrom(String mission, InputStream in, String source, LongConsumer told)
             throws IOException, InterruptedException {
-        BulkSender sender = new BulkSender(collections, WAITS, ignored -> {});
-        String collection = collection(mission);
-        List<MissionDocument> bulk = new ArrayList<>(BATCH);
-        BufferedReader lines = new BufferedReader(new InputStreamReader(in, StandardCharsets.UTF_8));
-        long count = 0;
-        for (String line = lines.readLine(); line != null; line = lines.readLine()) {
-            count++;
-            bulk.add(document(collection, line, source + ", line " + count));
-            if (bulk.size() == BATCH) {
-                send(sender, bulk, source);
+        try (BulkSender sender = new BulkSender(collections, WAITS, ignored -> {})) {
+            String collection = collection(mission);
+            List<MissionDocument> bulk = new ArrayList<>(BATCH);
+            BufferedReader lines = new BufferedReader(new InputStreamReader(in, StandardCharsets.UTF_8));
+            long count = 0;
+            for (String line = lines.readLine(); line != null; line = lines.readLine()) {
+                count++;
+                bulk.add(document(collection, line, source + ", line " + count));
+                if (bulk.size() == BATCH) {
+                    send(sender, bulk, source);
+                }
+                if (count % TELL_EVERY == 0) {
+                    told.accept(count);
+                }
             }
-            if (count % TELL_EVERY == 0) {
-                told.accept(count);
-            }
+            send(sender, bulk, source);
+            return count;
         }
-        send(sender, bulk, source);
-        return count;
     }
 
     private static MissionDocument document(String collection, String line, String where) throws IOException {

@@ -16,12 +16,16 @@ import org.apache.flink.util.Collector;
 import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.device.DeviceLookup;
 import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.record.DeadLetters;
 import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * Assigns each event to a domain and a mission: as its attributes say, else as {@code service.devices} said of the
  * entity at the event's time, else as configured. A deletion, which names nothing, goes where the entity's newest
- * event went; one that names no type ends all entities of the id.
+ * event went; one that names no type ends all entities of the id. What an event names beyond the {@link NameBudget} goes to a
+ * dead letter, and the event on without it.
  *
  * <p>State: the newest route per entity, by type; every device's versions, the same at each subtask. Cleared: the route by the
  * deletion, versions when they ended longer ago than they are kept. Late: an event is assigned as of its own time, and does
@@ -38,6 +42,8 @@ public final class AssignMission
             new ByType.Descriptor<>("route", KnownRoute.class, KnownRoute::type);
 
     private static final long serialVersionUID = 1L;
+    /** In dead letters: the event went on. */
+    private static final String STAGE = "routes";
 
     /**
      * What is configured.
@@ -49,9 +55,12 @@ public final class AssignMission
 
     private final DeviceLookup<DeviceHistory> devices;
     private final Rule rule;
+    private final NameBudget names;
     private transient ByType<KnownRoute> routes;
+    private transient DeadCounters dead;
 
-    public AssignMission(TopicSnapshot devicesAtStart, Rule rule) {
+    public AssignMission(TopicSnapshot devicesAtStart, Rule rule, NameBudget names) {
+        this.names = names;
         this.devices = new DeviceLookup<>(devicesAtStart, rule.kept(), new DeviceHistory.Form());
         this.rule = rule;
     }
@@ -61,6 +70,8 @@ public final class AssignMission
     public void open(OpenContext context) throws IOException {
         routes = ROUTE.of(getRuntimeContext());
         devices.open();
+        names.open();
+        dead = new DeadCounters(getRuntimeContext().getMetricGroup());
     }
 
     @Override
@@ -74,9 +85,10 @@ public final class AssignMission
     }
 
     private ReportedEvent assigned(ReportedEvent event, ReadOnlyContext context) throws Exception {
-        ReportedEvent assigned =
+        ReportedEvent complete =
                 event.domain().isEmpty() || event.mission().isEmpty() ? completed(event, context) : event;
         KnownRoute known = routes.get(event.type());
+        ReportedEvent assigned = admitted(event, complete, known, context);
         if (known == null || known.time() <= event.time()) {
             routes.put(
                     event.type(),
@@ -84,6 +96,30 @@ public final class AssignMission
                             event.type(), assigned.domain(), assigned.mission(), event.time(), event.received()));
         }
         return assigned;
+    }
+
+    /** Without the names that the event bears and that are not admitted. */
+    private ReportedEvent admitted(
+            ReportedEvent event, ReportedEvent assigned, KnownRoute known, ReadOnlyContext context) throws IOException {
+        String domain = assigned.domain();
+        boolean inUse = known != null && known.domain().equals(domain);
+        long now = context.currentProcessingTime();
+        String admitted = "";
+        try {
+            if (!event.domain().isEmpty() && !inUse) {
+                names.checkDomain(domain, now);
+            }
+            admitted = domain;
+            if (!event.mission().isEmpty()) {
+                boolean same = inUse && known.mission().equals(event.mission());
+                names.checkMission(domain, event.mission(), same, event.time(), now);
+            }
+            return assigned;
+        } catch (UnreadableException e) {
+            dead.count(e.reason());
+            context.output(DeadLetters.TAG, DeadLetters.of(event.record(), e, STAGE));
+            return event.belongingTo(admitted, "");
+        }
     }
 
     private void deleted(ReportedEvent event, ReadOnlyContext context, Collector<ReportedEvent> out) throws Exception {

@@ -39,6 +39,7 @@ public final class GatedStore implements FileSystemFactory {
         /** Writes to paths that hold this wait until it is opened. */
         synchronized void close(String part) {
             closedFor = part;
+            notifyAll();
         }
 
         synchronized void open() {

@@ -37,7 +37,14 @@ abstract class MoveImagesHarness {
     @BeforeEach
     void open() throws Exception {
         gate = GatedStore.below(folder);
-        harness = harness(1 << 20, 1, 0);
+        use(harness(1 << 20, 4, 1, 0));
+    }
+
+    void use(KeyedOneInputStreamOperatorTestHarness<String, ReportedEvent, ReportedEvent> other) throws Exception {
+        if (harness != null) {
+            harness.close();
+        }
+        harness = other;
         harness.open();
     }
 
@@ -56,9 +63,15 @@ abstract class MoveImagesHarness {
     }
 
     KeyedOneInputStreamOperatorTestHarness<String, ReportedEvent, ReportedEvent> harness(
-            long inFlight, int parallelism, int subtask) throws Exception {
+            long inFlight, int threads, int parallelism, int subtask) throws Exception {
         ImageSettings settings = new ImageSettings(
-                GatedStore.uri(folder), Set.of("Image"), 100_000, 4, inFlight, Duration.ofSeconds(1), Storing.ALL);
+                GatedStore.uri(folder),
+                Set.of("Image"),
+                100_000,
+                threads,
+                inFlight,
+                Duration.ofSeconds(1),
+                Storing.ALL);
         return new KeyedOneInputStreamOperatorTestHarness<>(
                 ImageStage.operator(settings, TypeInformation.of(ReportedEvent.class)),
                 ReportedEvent::identity,

@@ -1,5 +1,6 @@
 package io.furrow.ingest.image;
 
+import java.lang.ref.WeakReference;
 import java.util.ArrayList;
 import java.util.List;
 
@@ -77,7 +78,7 @@ class MoveImagesSlowStoreTest extends MoveImagesHarness {
 
         List<String> events = new ArrayList<>();
         for (int subtask = 0; subtask < 2; subtask++) { // and at another parallelism
-            harness = harness(1 << 20, 2, subtask);
+            harness = harness(1 << 20, 4, 2, subtask);
             harness.initializeState(
                     AbstractStreamOperatorTestHarness.repartitionOperatorState(state, 720, 1, 2, subtask));
             harness.open();
@@ -132,9 +133,44 @@ class MoveImagesSlowStoreTest extends MoveImagesHarness {
     void failsWhenTheStoreHangs() throws Exception {
         gate.close("/c1");
         harness.processElement(Pictures.camera("c1", T, Pictures.png(1)), T);
+        await(() -> harness.getProcessingTimeService().getNumActiveTimers() == 1);
 
         assertThatThrownBy(() -> harness.setProcessingTime(60_000 + 1_000 + 1))
                 .hasStackTraceContaining("the store does not answer");
         fail();
+    }
+
+    @Test
+    void blamesTheStoreForNoImageThatWaitsForAThread() throws Exception {
+        use(harness(1 << 20, 1, 1, 0));
+        gate.close("/c");
+        harness.processElement(Pictures.camera("c1", T, Pictures.png(1)), T);
+        harness.processElement(Pictures.camera("c2", T, Pictures.png(2)), T);
+        await(() -> harness.getProcessingTimeService().getNumActiveTimers() == 1);
+
+        harness.setProcessingTime(60_000);
+        gate.close("/c2");
+        await(() -> emitted().size() == 1 && harness.getProcessingTimeService().getNumActiveTimers() == 1);
+        harness.setProcessingTime(60_000 + 60_000);
+
+        gate.open();
+        await(() -> emitted().size() == 2);
+        assertClean();
+    }
+
+    @Test
+    void holdsNoImageThatHasPassedAnotherWhichHangs() throws Exception {
+        gate.close("/c1");
+        harness.processElement(Pictures.camera("c1", T, Pictures.png(1)), T);
+        ReportedEvent event = Pictures.camera("c2", T + 1, Pictures.png(2));
+        WeakReference<byte[]> image = new WeakReference<>(event.record().value());
+        harness.processElement(event, T + 1);
+        event = null;
+        await(() -> emitted().size() == 1);
+
+        await(() -> {
+            System.gc();
+            return image.refersTo(null);
+        });
     }
 }

@@ -96,9 +96,7 @@ class MoveImagesTest extends MoveImagesHarness {
 
     @Test
     void takesNoMoreThanItMayHold() throws Exception {
-        harness.close();
-        harness = harness(4_000, 1, 0);
-        harness.open();
+        use(harness(4_000, 4, 1, 0));
         for (int i = 0; i < 50; i++) { // each about 2 kB: the operator must let go before it takes another
             harness.processElement(Pictures.camera("c" + i, T, Pictures.png(i)), T);
             assertThat(((MoveImages) harness.getOperator()).bytesInFlight()).isLessThanOrEqualTo(4_000);

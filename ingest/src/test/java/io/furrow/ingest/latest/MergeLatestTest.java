@@ -69,6 +69,21 @@ class MergeLatestTest {
     }
 
     @Test
+    void forgetsTheOldestOfMoreAttributesThanADeviceHas() throws Exception {
+        report(100, robot().number("speed", 1));
+        for (int run = 0; run < 1_010; run++) {
+            report(200 + run, robot().number("run-" + run, run));
+        }
+
+        Entity newest = Entity.parse(last().value());
+        assertThat(newest.attributes()).hasSize(1_000);
+        assertThat(newest.number("speed")).isEmpty();
+        assertThat(newest.number("run-9")).isEmpty();
+        assertThat(newest.number("run-10")).contains(10.0);
+        assertThat(newest.number("run-1009")).contains(1009.0);
+    }
+
+    @Test
     void takesTheLaterToComeOfTwoOfOneTime() throws Exception {
         report(100, robot().number("speed", 1));
         report(100, robot().number("speed", 2));

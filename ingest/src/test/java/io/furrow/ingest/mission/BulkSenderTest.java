@@ -131,8 +131,8 @@ class BulkSenderTest {
     @Test
     void takesAFailureToMakeAnIndexForNoFaultOfADocument() throws Exception {
         AtomicInteger refusals = new AtomicInteger(3); // another writer drops the index that this one is about to drop
-        collections =
-                new MissionCollections(RefusingIndexes.of(client, refusals), Retention.FOR_EVER, Clock.systemUTC());
+        collections = new MissionCollections(
+                InterceptedMongo.refusingIndexes(client, refusals), Retention.FOR_EVER, Clock.systemUTC());
 
         assertThat(sender().send(documents(0, 1))).isEmpty();
 

@@ -4,6 +4,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.concurrent.atomic.AtomicInteger;
 
 import de.bwaldvogel.mongo.MongoServer;
@@ -18,6 +19,9 @@ final class FaultyMongo extends MemoryBackend {
     private final AtomicInteger attempts = new AtomicInteger();
     private final MongoServer server;
     private volatile Fault ofWrites = new Fault(0, 0);
+    private final Map<String, Object> expireAfter = new ConcurrentHashMap<>();
+    private final List<String> indexCommands = new CopyOnWriteArrayList<>();
+    private volatile int ofAlterations;
 
     private record Fault(int code, int firstAttempts) {}
 
@@ -41,6 +45,21 @@ final class FaultyMongo extends MemoryBackend {
         ofWrites = new Fault(code, firstAttempts);
     }
 
+    /** Every command to alter an index fails. */
+    void failAlterations(int code) {
+        ofAlterations = code;
+    }
+
+    /** What was altered or removed of indexes, in order; of a collection as {@link #expireAfter}. */
+    List<String> indexCommands() {
+        return indexCommands;
+    }
+
+    /** The retention that an index on event time has in seconds; null if none. */
+    Object expireAfter(String collection) {
+        return expireAfter.get(collection);
+    }
+
     /** How many writes there were. */
     int attempts() {
         return attempts.get();
@@ -49,6 +68,12 @@ final class FaultyMongo extends MemoryBackend {
     @Override
     public Document handleMessage(MongoMessage message) {
         Document command = message.getDocument();
+        if (command.containsKey("collMod") || command.containsKey("dropIndexes")) {
+            return changeIndex(command, message);
+        }
+        if (command.containsKey("createIndexes") && isConflict(command)) {
+            return error(85).append("ok", 0.0);
+        }
         if (!command.containsKey("update")) {
             return super.handleMessage(message);
         }
@@ -59,6 +84,30 @@ final class FaultyMongo extends MemoryBackend {
         List<Object> errors = refused(command, attempt);
         Document answer = super.handleMessage(message);
         return errors.isEmpty() ? answer : answer.append("writeErrors", errors);
+    }
+
+    private Document changeIndex(Document command, MongoMessage message) {
+        if (command.containsKey("dropIndexes")) {
+            indexCommands.add("dropIndexes");
+            expireAfter.remove(String.valueOf(command.get("dropIndexes")));
+            return super.handleMessage(message);
+        }
+        indexCommands.add("collMod");
+        if (ofAlterations != 0) {
+            return error(ofAlterations).append("ok", 0.0);
+        }
+        expireAfter.put(
+                String.valueOf(command.get("collMod")), ((Document) command.get("index")).get("expireAfterSeconds"));
+        return new Document("ok", 1.0);
+    }
+
+    /** Whether an index on event time is there with another retention, as MongoDB looks at it. */
+    private boolean isConflict(Document command) {
+        Document index = (Document) ((List<?>) command.get("indexes")).get(0);
+        Object seconds = index.getOrDefault("expireAfterSeconds", "none");
+        return index.get("name").equals("event-time")
+                && !seconds.equals(expireAfter.computeIfAbsent(
+                        String.valueOf(command.get("createIndexes")), collection -> seconds));
     }
 
     /** Takes what is refused out of the command. */

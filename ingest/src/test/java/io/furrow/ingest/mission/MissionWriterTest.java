@@ -26,6 +26,7 @@ import io.furrow.model.event.DeadLetter;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
 
 class MissionWriterTest {
     private final CollectedDeadLetters dead = new CollectedDeadLetters();
@@ -44,8 +45,12 @@ class MissionWriterTest {
         client = new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=2000", MongoAccess.Waits.of(Duration.ZERO))
                 .open();
         collections = new MissionCollections(client, Retention.FOR_EVER, Clock.systemUTC());
-        writer = new MissionWriter(
-                new BulkSender(collections, MongoAccess.Waits.of(Duration.ofMillis(100)), ignored -> {}),
+        writer = writer(collections);
+    }
+
+    private MissionWriter writer(MissionCollections to) {
+        return new MissionWriter(
+                new BulkSender(to, MongoAccess.Waits.of(Duration.ofMillis(100)), ignored -> {}),
                 dead,
                 client,
                 UnregisteredMetricsGroup.createSinkWriterMetricGroup());
@@ -96,6 +101,29 @@ class MissionWriterTest {
 
         assertThatThrownBy(() -> writer.flush(false)).hasMessageContaining("MongoDB did not take documents");
         assertThat(dead.flushed).isFalse();
+    }
+
+    @Test
+    void sendsWhatIsGatheredWithoutACheckpointToAServerThatIsIdle() {
+        await().until(() -> {
+            writer.write(Events.document("m", 1), null);
+            return collections.get("mission_m").countDocuments() == 1;
+        });
+    }
+
+    @Test
+    void letsACheckpointPassInTheTimeOfAFewAnswersHoweverManyMissionsThereAre() throws Exception {
+        MongoClient slow = InterceptedMongo.answeringAfter(client, Duration.ofMillis(50));
+        writer = writer(new MissionCollections(slow, Retention.FOR_EVER, Clock.systemUTC()));
+        // A machine that is busy itself may need more than once.
+        await().until(() -> {
+            for (int i = 0; i < 1_050; i++) { // one bulk is under way, and the next is gathered
+                writer.write(Events.document("m" + i % 50, i), null);
+            }
+            long begin = System.nanoTime();
+            writer.flush(false);
+            return System.nanoTime() - begin <= Duration.ofMillis(200).toNanos();
+        });
     }
 
     private static final class CollectedDeadLetters implements SinkWriter<TopicRecord> {

@@ -17,6 +17,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
@@ -28,7 +29,11 @@ import static org.assertj.core.api.Assertions.assertThat;
 class AssignMissionTest {
     private static final AssignMission.Rule RULE = new AssignMission.Rule(Duration.ofMillis(1000), "home", "");
 
+    private static final int BUDGET = 20;
+
     private final ArrayList<TopicRecord> onTheTopic = new ArrayList<>();
+    private final ArrayList<TopicRecord> domains = new ArrayList<>();
+    private final ArrayList<TopicRecord> missions = new ArrayList<>();
     private KeyedTwoInputStreamOperatorTestHarness<String, ReportedEvent, DeviceChange, ReportedEvent> operator;
 
     @BeforeEach
@@ -158,11 +163,104 @@ class AssignMissionTest {
                 .containsExactly("farm/weeding", "home/", "home/");
     }
 
+    @Test
+    void takesSoManyNewMissionsInAnHourAndTheRestOfTheirEventsWithoutThem() throws Exception {
+        for (int run = 0; run < 100; run++) {
+            report("robot", 100 + run, "home", "run-" + run);
+        }
+
+        assertThat(routes()).hasSize(100);
+        assertThat(routes().stream().filter("home/"::equals)).hasSize(100 - (BUDGET - 1)); // the domain is new, too
+        assertThat(letters())
+                .hasSize(100 - (BUDGET - 1))
+                .first()
+                .satisfies(letter -> assertThat(letter.headers())
+                        .containsEntry("dead-reason", "unknown-mission")
+                        .containsEntry("dead-stage", "routes")
+                        .containsEntry(
+                                "dead-message",
+                                "mission run-19 is not known, and 20 new names were taken within the hour;"
+                                        + " see --new-names"));
+
+        operator.setProcessingTime(3_600_000);
+        report("robot", 300, "home", "run-later");
+        assertThat(routes()).endsWith("home/run-later");
+    }
+
+    @Test
+    void takesWhatTheControlPlaneKnowsBeyondTheBudgetAlsoWhereItIsNew() throws Exception {
+        useUpTheBudget();
+        domains.add(managed("north", "{}"));
+        missions.add(managed("weeding", "{'domain':'north'}"));
+        operator.setProcessingTime(1_000);
+
+        report("robot", 500, "north", "weeding");
+        report("robot", 501, "", "weeding");
+        report("robot", 502, "south", "weeding");
+
+        assertThat(routes()).endsWith("north/weeding", "home/", "/");
+    }
+
+    @Test
+    void takesWhatAnEntityReportedForBeforeARestartBeyondTheBudget() throws Exception {
+        report("robot", 100, "own", "mowing");
+        OperatorSubtaskState state = operator.snapshot(1, 1);
+        operator.close();
+        create();
+        operator.initializeState(state);
+        operator.open();
+        useUpTheBudget();
+
+        report("robot", 500, "own", "mowing");
+
+        assertThat(routes()).endsWith("own/mowing");
+    }
+
+    @Test
+    void letsNoEventIntoTheMissionOfAnotherDomain() throws Exception {
+        operator.close();
+        domains.add(managed("north", "{}"));
+        domains.add(managed("south", "{}"));
+        missions.add(managed("weeding", "{'domain':'north','created':400}"));
+        create();
+        operator.open();
+
+        report("robot", 500, "south", "weeding");
+        report("robot", 399, "south", "weeding"); // of an earlier mission of this name
+        report("robot", 500, "west", "weeding"); // not of this control plane
+
+        assertThat(routes()).containsExactly("south/", "south/weeding", "west/weeding");
+        assertThat(letters())
+                .extracting(letter -> letter.headers().get("dead-message"))
+                .containsExactly("mission weeding belongs to domain north, the event to domain south");
+    }
+
+    private void useUpTheBudget() throws Exception {
+        for (int i = 0; i < BUDGET; i++) {
+            report("other", 100 + i, "", "run-" + i);
+        }
+    }
+
+    private List<TopicRecord> letters() {
+        List<TopicRecord> letters = new ArrayList<>();
+        operator.getSideOutput(DeadLetters.TAG).forEach(record -> letters.add(record.getValue()));
+        return letters;
+    }
+
+    private static TopicRecord managed(String name, String json) {
+        byte[] value = json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        return new TopicRecord("service", 0, 0, 0, name.getBytes(StandardCharsets.UTF_8), value, Map.of());
+    }
+
     private void create() throws Exception {
         List<TopicRecord> records = List.copyOf(onTheTopic);
         operator = new KeyedTwoInputStreamOperatorTestHarness<>(
                 new CoBroadcastWithKeyedOperator<>(
-                        new AssignMission(new OnTheTopic(records), RULE), List.of(AssignMission.DEVICES)),
+                        new AssignMission(
+                                new OnTheTopic(records),
+                                RULE,
+                                new NameBudget(new OnTheTopic(domains), new OnTheTopic(missions), BUDGET)),
+                        List.of(AssignMission.DEVICES)),
                 ReportedEvent::identity,
                 null,
                 Types.STRING);

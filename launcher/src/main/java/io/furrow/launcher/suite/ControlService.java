@@ -19,8 +19,8 @@ import io.furrow.control.readiness.HealthServer;
 import io.furrow.control.readiness.Probe;
 import io.furrow.control.readiness.Readiness;
 import io.furrow.control.replay.RecordingWatch;
-import io.furrow.control.replay.ReplayCleanup;
 import io.furrow.control.replay.ReplaySettings;
+import io.furrow.control.replay.TopicCleanup;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.kafka.PartStatus;
@@ -108,8 +108,8 @@ public final class ControlService implements AutoCloseable {
                     parts.add("recording watch", RecordingWatch.start(settings.client(), replays, Clock.systemUTC()));
             readiness.require(recordings::status);
         }
-        ReplayCleanup cleanup =
-                parts.add("replay cleanup", ReplayCleanup.start(settings.client(), replays, Clock.systemUTC()));
+        TopicCleanup cleanup =
+                parts.add("topic cleanup", TopicCleanup.start(settings.client(), replays, Clock.systemUTC()));
         readiness.require(cleanup::status);
     }
 

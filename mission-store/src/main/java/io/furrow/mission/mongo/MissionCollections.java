@@ -4,12 +4,12 @@ import java.time.Clock;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.Date;
-import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
 import java.util.TreeMap;
+import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Supplier;
 import java.util.stream.StreamSupport;
@@ -35,7 +35,7 @@ import io.furrow.model.topic.TopicName;
 /**
  * The collections {@code mission_<mission>} of the database {@code persistence}, each with an index on event time and one on
  * entity and event time. Retention is the server's business where it removes expired documents itself; {@link #purge} does it
- * where it does not.
+ * where it does not. Several threads may use it.
  */
 public final class MissionCollections {
     private static final Logger LOG = LoggerFactory.getLogger(MissionCollections.class);
@@ -46,15 +46,23 @@ public final class MissionCollections {
     /** An index of the same name with other options, and one of the same keys under another name. */
     private static final Set<Integer> OTHER_OPTIONS = Set.of(85, 86);
 
+    /**
+     * The server alters no index, or not this one: no right, no such field, name or command; before MongoDB 5.1 one that removes
+     * nothing so far.
+     */
+    private static final Set<Integer> NOT_ALTERABLE = Set.of(2, 9, 13, 27, 59, 72, 115, 238, 40415);
+    /** The most that a server takes; an index that removes documents cannot be told to remove none. */
+    private static final long FOR_EVER_SECONDS = Integer.MAX_VALUE;
+
     private static final Duration PREPARED_FOR = Duration.ofMinutes(1);
 
     private final MongoDatabase database;
     private final Retention retention;
     private final Clock clock;
     /** When the indexes of a collection were made. */
-    private final Map<String, Instant> prepared = new HashMap<>();
+    private final Map<String, Instant> prepared = new ConcurrentHashMap<>();
 
-    private Boolean expires;
+    private volatile Boolean expires;
 
     /** @param retention null to leave that of each collection as it is */
     public MissionCollections(MongoClient client, Retention retention, Clock clock) {
@@ -135,10 +143,35 @@ public final class MissionCollections {
             if (!OTHER_OPTIONS.contains(e.getErrorCode())) {
                 throw e;
             }
-            if (retention != null) {
-                collection.dropIndex(keys); // the retention has changed
+            if (retention != null && !isAltered(collection, options)) {
+                collection.dropIndex(keys);
                 collection.createIndex(keys, options);
             }
+        }
+    }
+
+    /** Whether the server keeps the index with another retention: to build it anew takes hours where a mission is large. */
+    private boolean isAltered(MongoCollection<?> collection, IndexOptions options) {
+        if (!BY_TIME.equals(options.getName())) {
+            return false;
+        }
+        Long seconds = options.getExpireAfter(TimeUnit.SECONDS);
+        Document index = new Document("name", BY_TIME)
+                .append("expireAfterSeconds", seconds == null ? FOR_EVER_SECONDS : seconds);
+        try {
+            database.runCommand(
+                    new Document("collMod", collection.getNamespace().getCollectionName()).append("index", index));
+            return true;
+        } catch (MongoCommandException e) {
+            if (!NOT_ALTERABLE.contains(e.getErrorCode())) {
+                throw e;
+            }
+            LOG.info(
+                    "The server builds the index {} of {} anew: {}",
+                    BY_TIME,
+                    collection.getNamespace(),
+                    e.getMessage());
+            return false;
         }
     }
 
@@ -149,7 +182,7 @@ public final class MissionCollections {
             Object seconds = index.get("expireAfterSeconds");
             indexes.put(
                     index.getString("name"),
-                    seconds instanceof Number number
+                    seconds instanceof Number number && number.longValue() < FOR_EVER_SECONDS
                             ? Optional.of(Duration.ofSeconds(number.longValue()))
                             : Optional.empty());
         }

@@ -21,8 +21,10 @@ import io.furrow.mission.RecordingInterruptedException;
  */
 final class EventSorter {
     private static final int MERGED_AT_ONCE = 64;
+    /** Room is looked for before each so many bytes that are merged. */
+    private static final long STEP_BYTES = 8L * 1024 * 1024;
 
-    private final Path folder;
+    private final DiskRoom room;
     private final long mostBytes;
     private final List<SortedEvent> events = new ArrayList<>();
     private long bytes;
@@ -35,11 +37,11 @@ final class EventSorter {
     }
 
     /**
-     * @param folder for its files, which stay
+     * @param room for its files, which stay
      * @param mostBytes of events that are held in memory, about
      */
-    EventSorter(Path folder, long mostBytes) {
-        this.folder = folder;
+    EventSorter(DiskRoom room, long mostBytes) {
+        this.room = room;
         this.mostBytes = mostBytes;
     }
 
@@ -52,6 +54,7 @@ final class EventSorter {
     }
 
     private void writeRun() throws IOException {
+        room.require(bytes);
         events.sort(SortedEvent.ORDER);
         Path run = nextFile();
         try (DataOutputStream out = SortedRun.create(run)) {
@@ -66,7 +69,7 @@ final class EventSorter {
     }
 
     private Path nextFile() {
-        return folder.resolve("run-" + files++);
+        return room.folder().resolve("run-" + files++);
     }
 
     /** Writes the lines of all events. */
@@ -98,7 +101,7 @@ final class EventSorter {
     }
 
     /** Deletes what it has merged. */
-    private static void merge(List<Path> some, Output output) throws IOException {
+    private void merge(List<Path> some, Output output) throws IOException {
         PriorityQueue<SortedRun> heads = new PriorityQueue<>(Comparator.comparing(SortedRun::peek, SortedEvent.ORDER));
         List<SortedRun> open = new ArrayList<>();
         try {
@@ -120,13 +123,19 @@ final class EventSorter {
         }
     }
 
-    private static void merge(PriorityQueue<SortedRun> heads, Output output) throws IOException {
+    private void merge(PriorityQueue<SortedRun> heads, Output output) throws IOException {
         SortedEvent last = null;
+        long allowed = 0;
         while (!heads.isEmpty()) {
             RecordingInterruptedException.check();
             SortedRun run = heads.remove();
             SortedEvent next = run.peek();
             if (last == null || !next.at().equals(last.at())) {
+                if (allowed < next.bytes()) {
+                    allowed = Math.max(STEP_BYTES, next.bytes());
+                    room.require(allowed);
+                }
+                allowed -= next.bytes();
                 output.write(next);
                 last = next;
             }

@@ -31,7 +31,8 @@ import io.furrow.model.text.FailureText;
  * Topics of events, {@code data.*}, as recordings: the committed records between the beginning and the end that the topic has when
  * it is opened. Event time is the record's timestamp, the event id its header {@code ce_id}, or topic, partition and offset
  * if there is none; the value is an entity in normalized form, or null for a deletion. A record that holds none is skipped and
- * counted. Opening reads the whole topic and sorts it on disk, which has to hold it twice; the file is deleted when the recording is closed.
+ * counted. Opening reads the whole topic and sorts it on disk, which has to hold it twice and keeps some room for others; the file is
+ * deleted when the recording is closed.
  *
  * @param kafka settings of a consumer: {@code bootstrap.servers}, what security needs, and {@code default.api.timeout.ms}, how long an
  *     answer is waited for, 30 s unless said
@@ -53,12 +54,21 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
     /**
      * Opens a topic; empty if there is none.
      *
-     * @throws RecordingGoneException if it is no topic of events
+     * @throws RecordingGoneException if it is no topic of events, or larger than the disk
      * @throws RecordingInterruptedException if the thread is interrupted
      * @throws RecordingException if Kafka or the disk cannot be used now
      */
     @Override
     public Optional<Recording> open(String topic) throws RecordingException {
+        return open(topic, DiskRoom::of);
+    }
+
+    /** What room there is for the files in a folder. */
+    interface Room {
+        DiskRoom in(Path folder) throws IOException;
+    }
+
+    Optional<Recording> open(String topic, Room room) throws RecordingException {
         if (!topic.startsWith(EVENTS)) {
             throw new RecordingGoneException(
                     "Topic %s holds no events; name one that begins with %s".formatted(topic, EVENTS));
@@ -73,7 +83,7 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
                 return Optional.empty();
             }
             own = Files.createTempDirectory(Files.createDirectories(Path.of(folder)), "furrow-topic-");
-            opened = sorted(topic, new Sorted(consumer, partitions, own));
+            opened = sorted(topic, new Sorted(consumer, partitions, room.in(own)));
             return Optional.of(opened);
         } catch (RecordingException e) {
             throw e;
@@ -97,20 +107,20 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
     }
 
     /** What the records of a topic are sorted with. */
-    private record Sorted(KafkaConsumer<byte[], byte[]> consumer, List<TopicPartition> partitions, Path own) {}
+    private record Sorted(KafkaConsumer<byte[], byte[]> consumer, List<TopicPartition> partitions, DiskRoom room) {}
 
     private Recording sorted(String topic, Sorted sorted) throws IOException {
-        EventSorter sorter = new EventSorter(sorted.own(), SORTED_BYTES);
+        EventSorter sorter = new EventSorter(sorted.room(), SORTED_BYTES);
         TopicReader reader = new TopicReader(sorted.consumer(), sorted.partitions(), until, sorter);
         String timeout = kafka.getOrDefault(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, TIMEOUT_MILLIS);
         reader.read(Duration.ofMillis(Long.parseLong(timeout)));
-        Path lines = sorted.own().resolve("events.ndjson");
+        Path lines = sorted.room().folder().resolve("events.ndjson");
         sorter.writeLines(lines);
         List<Skipped> skipped = reader.skipped() == 0
                 ? List.of()
                 : List.of(new Skipped("records of " + topic, "the first is " + reader.example(), reader.skipped()));
         Recording events = new FileRecordings(lines.toString()).open(topic).orElseThrow();
-        return new TopicRecording(events, sorted.own(), skipped);
+        return new TopicRecording(events, sorted.room().folder(), skipped);
     }
 
     private Properties settings() {

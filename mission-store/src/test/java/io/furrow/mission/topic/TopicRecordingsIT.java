@@ -116,6 +116,20 @@ class TopicRecordingsIT {
     }
 
     @Test
+    void opensNoTopicThatIsLargerThanTheDiskAndLeavesNothingThere() throws Exception {
+        create("data.large");
+        try (KafkaProducer<String, String> producer = producer(Map.of())) {
+            send(producer, event("data.large", 3, 10, null, "{\"id\":\"t1\",\"type\":\"T\"}"));
+        }
+
+        assertThatThrownBy(() -> recordings(NEVER)
+                        .open("data.large", folder -> new DiskRoom(folder, 1_000_000, () -> 1_000_001)))
+                .isInstanceOf(RecordingGoneException.class)
+                .hasMessageContaining("do not fit into " + temporary);
+        assertThat(temporary).isEmptyDirectory();
+    }
+
+    @Test
     void readsWhatIsCommitted() throws Exception {
         create("data.committed");
         try (KafkaProducer<String, String> producer = producer(Map.of("transactional.id", "one"))) {

@@ -20,6 +20,8 @@ public enum Reason {
     NOT_AN_IMAGE,
     /** Of a time so long after it was received that a clock must be wrong. */
     FROM_THE_FUTURE,
+    /** Of a mission or domain that nobody knows, beyond what is taken of such, or of a mission of another domain. */
+    UNKNOWN_MISSION,
     /** Written, but refused by the server it was written to. */
     REFUSED,
     /** The reader failed at it: a fault of the program, which the log describes. */

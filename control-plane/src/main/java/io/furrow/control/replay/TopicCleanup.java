@@ -1,0 +1,217 @@
+package io.furrow.control.replay;
+
+import java.time.Clock;
+import java.time.Duration;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.Set;
+import java.util.concurrent.ExecutionException;
+import java.util.stream.Stream;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.ListOffsetsResult.ListOffsetsResultInfo;
+import org.apache.kafka.clients.admin.OffsetSpec;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.Producer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.KafkaFuture;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.CommittedReader.RecordAction;
+import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.RestartingWorker;
+import io.furrow.model.topic.Topics;
+
+import static java.util.stream.Collectors.toMap;
+
+/**
+ * Deletes the topic of a replay, and those of what was found in it, a grace period after the replay was over, then its status; and the
+ * topic of a mission or domain a day after it was deleted, where nothing of the last day is in it, nothing was written lately and no
+ * replay reads it. Several instances may do so.
+ */
+public final class TopicCleanup implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(TopicCleanup.class);
+    private static final Duration MAX_INTERVAL = Duration.ofSeconds(10);
+    private static final Duration MIN_INTERVAL = Duration.ofMillis(100);
+    /** Consumers may have a night, and devices that were away what they kept. */
+    private static final Duration GRACE_OF_MISSIONS = Duration.ofDays(1);
+    /** A job asks after minutes of quiet whether a topic is there still, before it writes what a device had kept for long. */
+    private static final long QUIET_MILLIS = Duration.ofMinutes(15).toMillis();
+
+    private final Properties client;
+    private final Duration grace;
+    private final Clock clock;
+    private final RestartingWorker worker;
+    /** What the topics that are due held when that last changed. */
+    private final Map<String, Content> contents = new HashMap<>();
+
+    private volatile long deleted;
+
+    private TopicCleanup(Properties client, Duration grace, Clock clock) {
+        this.client = client;
+        this.grace = grace;
+        this.clock = clock;
+        this.worker = new RestartingWorker("topic-cleanup", clock);
+    }
+
+    /** The topics of the control plane are there already. */
+    public static TopicCleanup start(Properties client, ReplaySettings settings, Clock clock) {
+        TopicCleanup cleanup = new TopicCleanup(client, settings.grace(), clock);
+        cleanup.worker.start(cleanup::run, () -> cleanup.deleted + " topics of replays, missions and domains deleted");
+        return cleanup;
+    }
+
+    private void run(RestartingWorker running) throws InterruptedException {
+        FinishedReplays remains = new FinishedReplays();
+        DeletedNames names = new DeletedNames();
+        RecordAction<String, RuntimeException> taking = record -> {
+            if (record.topic().equals(Topics.MISSIONS) || record.topic().equals(Topics.DOMAINS)) {
+                names.take(record);
+            } else {
+                remains.take(record);
+            }
+        };
+        try (Admin admin = Admin.create(client);
+                CommittedReader<String> topics = CommittedReader.open(
+                        client, Topics.REPLAYS, Topics.REPLAYS_STATUS, Topics.MISSIONS, Topics.DOMAINS);
+                Producer<String, byte[]> producer =
+                        new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
+            while (!running.isClosing()) {
+                topics.readToEnd(taking);
+                for (FinishedReplays.Remains due : remains.overBy(clock.millis() - grace.toMillis())) {
+                    topics.readToEnd(taking); // it may be wanted again since
+                    if (remains.overBy(clock.millis() - grace.toMillis()).contains(due)) {
+                        remove(due, admin, producer);
+                    }
+                }
+                removeMissions(names, remains, admin);
+                running.succeeded();
+                running.pause(interval());
+            }
+        } catch (ExecutionException e) {
+            throw new KafkaException("topics of replays and missions cannot be deleted", e.getCause());
+        }
+    }
+
+    /** A tenth of the grace period, within limits. */
+    private Duration interval() {
+        Duration tenth = grace.dividedBy(10);
+        Duration least = tenth.compareTo(MIN_INTERVAL) < 0 ? MIN_INTERVAL : tenth;
+        return least.compareTo(MAX_INTERVAL) > 0 ? MAX_INTERVAL : least;
+    }
+
+    /** The status last, so that what was not deleted is tried again. */
+    private void remove(FinishedReplays.Remains remains, Admin admin, Producer<String, byte[]> producer)
+            throws ExecutionException, InterruptedException {
+        if (Topics.isReplay(remains.topic())) {
+            Set<String> names = admin.listTopics().names().get();
+            List<String> all = names.stream()
+                    .filter(name -> name.equals(remains.topic()) || name.startsWith(remains.topic() + "."))
+                    .sorted()
+                    .toList();
+            delete(all, admin);
+            LOG.info("replay {} was over for {}; deleted {}", remains.replay(), grace, all);
+        }
+        producer.send(new ProducerRecord<>(Topics.REPLAYS_STATUS, remains.replay(), null));
+        producer.flush();
+    }
+
+    private void removeMissions(DeletedNames names, FinishedReplays replays, Admin admin)
+            throws ExecutionException, InterruptedException {
+        long moment = clock.millis() - GRACE_OF_MISSIONS.toMillis();
+        List<String> due = names.by(moment);
+        Set<String> there =
+                due.isEmpty() ? Set.of() : admin.listTopics().names().get();
+        for (String topic : due) {
+            boolean exists = there.contains(topic);
+            if (exists && (replays.isUsed(topic) || !isQuiet(topic, moment, admin))) {
+                continue;
+            }
+            if (exists) {
+                delete(List.of(topic), admin);
+                LOG.info(
+                        "what {} belonged to was deleted more than {} ago; deleted the topic",
+                        topic,
+                        GRACE_OF_MISSIONS);
+            }
+            names.forget(topic);
+            contents.remove(topic);
+        }
+    }
+
+    /**
+     * A topic at a moment.
+     *
+     * @param records ever written
+     * @param newest event time, epoch ms; negative if it is empty
+     * @param since when it was seen so first, epoch ms
+     */
+    private record Content(long records, long newest, long since) {}
+
+    private boolean isQuiet(String topic, long moment, Admin admin) throws ExecutionException, InterruptedException {
+        List<TopicPartition> partitions =
+                admin.describeTopics(List.of(topic)).allTopicNames().get().get(topic).partitions().stream()
+                        .map(each -> new TopicPartition(topic, each.partition()))
+                        .toList();
+        long records = offsets(partitions, OffsetSpec.latest(), admin)
+                .mapToLong(ListOffsetsResultInfo::offset)
+                .sum();
+        long newest = offsets(partitions, OffsetSpec.maxTimestamp(), admin)
+                .mapToLong(ListOffsetsResultInfo::timestamp)
+                .max()
+                .orElse(-1);
+        Content now = contents.compute(
+                topic,
+                (same, before) -> before != null && before.records() == records
+                        ? before
+                        : new Content(records, newest, clock.millis()));
+        return now.newest() <= moment && clock.millis() - now.since() >= QUIET_MILLIS;
+    }
+
+    private static Stream<ListOffsetsResultInfo> offsets(List<TopicPartition> partitions, OffsetSpec which, Admin admin)
+            throws ExecutionException, InterruptedException {
+        return admin
+                .listOffsets(partitions.stream().collect(toMap(each -> each, each -> which)))
+                .all()
+                .get()
+                .values()
+                .stream();
+    }
+
+    private void delete(List<String> topics, Admin admin) throws ExecutionException, InterruptedException {
+        for (KafkaFuture<Void> each :
+                admin.deleteTopics(topics).topicNameValues().values()) {
+            await(each);
+        }
+        deleted += topics.size();
+    }
+
+    private static void await(KafkaFuture<Void> deletion) throws ExecutionException, InterruptedException {
+        try {
+            deletion.get();
+        } catch (ExecutionException e) {
+            if (!(e.getCause() instanceof UnknownTopicOrPartitionException)) { // another instance was faster
+                throw e;
+            }
+        }
+    }
+
+    /** For a health page. */
+    public PartStatus status() {
+        return worker.status();
+    }
+
+    @Override
+    public void close() {
+        worker.close();
+    }
+}
