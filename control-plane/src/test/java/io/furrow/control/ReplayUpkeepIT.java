@@ -164,7 +164,8 @@ class ReplayUpkeepIT {
         long now = System.currentTimeMillis();
         for (String mission : List.of("weeding", "mowing", "sowing", "played")) {
             send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(StandardCharsets.UTF_8));
-            long reported = mission.equals("sowing") ? now + Duration.ofMinutes(30).toMillis() : now - 1_000;
+            long reported =
+                    mission.equals("sowing") ? now + Duration.ofMinutes(30).toMillis() : now - 1_000;
             producer.send(new ProducerRecord<>("data.farm.realtime." + mission, 0, reported, "d", new byte[1]))
                     .get();
         }

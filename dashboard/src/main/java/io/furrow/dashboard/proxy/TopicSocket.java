@@ -1,6 +1,7 @@
 package io.furrow.dashboard.proxy;
 
 import java.nio.ByteBuffer;
+import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.TimeUnit;
 
 import org.eclipse.jetty.websocket.api.Callback;
@@ -35,6 +36,9 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     private final Outbox outbox;
     private final long openedAt = System.nanoTime();
     private volatile User user;
+    /** Completes when the stream has begun and the messages before are written: whoever writes at once sees what becomes of it. */
+    private CompletableFuture<Void> written = new CompletableFuture<>();
+
     private Session session;
     private boolean sending;
     private boolean closed;
@@ -78,7 +82,8 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
             opened.disconnect();
             return;
         }
-        streams.begin(ticket.request(), this, outbox);
+        CompletableFuture<Void> first = written;
+        streams.begin(ticket.request(), this, outbox).thenAccept(first::complete);
     }
 
     @Override
@@ -166,6 +171,18 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     public void onWebSocketText(String message) {
         try {
             count();
+        } catch (Problem problem) {
+            refuse(problem);
+            return;
+        }
+        written = written.handle((before, failure) -> {
+            write(message);
+            return null;
+        });
+    }
+
+    private void write(String message) {
+        try {
             streams.writer().write(ticket.request().topic(), user, message).whenComplete((at, failure) -> {
                 if (failure instanceof Problem problem) {
                     refuse(problem);

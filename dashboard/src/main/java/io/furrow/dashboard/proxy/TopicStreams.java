@@ -4,6 +4,7 @@ import java.time.Duration;
 import java.util.List;
 import java.util.Properties;
 import java.util.Set;
+import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.ExecutorService;
@@ -158,8 +159,13 @@ public final class TopicStreams implements AutoCloseable {
         quota.take(client);
     }
 
-    /** Adds the stream to its topic, then reads what was known before, so that nothing lies between. */
-    void begin(StreamRequest request, OpenStream stream, Outbox outbox) {
+    /**
+     * Adds the stream to its topic, then reads what was known before, so that nothing lies between.
+     *
+     * @return completes when each record that is written from then on goes to the stream; never where it ends before
+     */
+    CompletableFuture<Void> begin(StreamRequest request, OpenStream stream, Outbox outbox) {
+        CompletableFuture<Void> begun = new CompletableFuture<>();
         if (streams.add(stream) && !(stream instanceof TopicSocket)) {
             counters.opened();
         }
@@ -174,6 +180,7 @@ public final class TopicStreams implements AutoCloseable {
                         feeds.remove(request.topic(), stream);
                         return;
                     }
+                    begun.complete(null);
                     if (request.prime()) {
                         known.read(request.topic())
                                 .whenComplete((records, failure) -> prime(request, stream, outbox, records, failure));
@@ -189,6 +196,7 @@ public final class TopicStreams implements AutoCloseable {
         } catch (RejectedExecutionException e) {
             stream.end(STOPS);
         }
+        return begun;
     }
 
     private static void prime(

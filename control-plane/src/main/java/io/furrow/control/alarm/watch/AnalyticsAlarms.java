@@ -1,5 +1,6 @@
 package io.furrow.control.alarm.watch;
 
+import java.time.Duration;
 import java.util.List;
 import java.util.function.BiFunction;
 import java.util.function.Function;
