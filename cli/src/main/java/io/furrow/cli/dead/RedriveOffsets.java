@@ -12,6 +12,7 @@ import java.util.Optional;
 import java.util.Properties;
 import java.util.Set;
 import java.util.concurrent.ExecutionException;
+import java.util.regex.Pattern;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
@@ -32,6 +33,7 @@ import io.furrow.kafka.CommittedReader;
 final class RedriveOffsets {
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
     private static final String LEFT = "|left|";
+    private static final Pattern IS_LEFT = Pattern.compile("\\|left\\|\\d+$");
 
     private final String topic;
     private final String prefix;
@@ -104,7 +106,7 @@ final class RedriveOffsets {
         }
         if (record.value() == null) {
             left.remove(key);
-        } else if (key.contains(LEFT)) {
+        } else if (IS_LEFT.matcher(key).find()) {
             left.add(key);
         } else {
             next.put(key, Long.parseLong(new String(record.value(), StandardCharsets.UTF_8)));
