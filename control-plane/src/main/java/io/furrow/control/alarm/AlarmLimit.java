@@ -98,9 +98,12 @@ final class AlarmLimit {
     }
 
     private static boolean isNews(Counted before, Counted now) {
-        boolean lastsLong = before.until() != null && now.until() != null && now.until() - now.seen() >= LONG;
-        boolean lastsOtherwise = !lastsLong && !Objects.equals(before.until(), now.until());
+        boolean lastsOtherwise = !(lastsLong(before) && lastsLong(now)) && !Objects.equals(before.until(), now.until());
         return lastsOtherwise || now.seen() - before.seen() >= SEEN_INTERVAL;
+    }
+
+    private static boolean lastsLong(Counted cause) {
+        return cause.until() != null && cause.until() - cause.seen() >= LONG;
     }
 
     /**
