@@ -13,6 +13,7 @@ import com.fasterxml.jackson.core.JsonToken;
 import io.furrow.model.position.LocationValue;
 import io.furrow.model.position.PositionReading;
 import io.furrow.model.position.PositionRules;
+import io.furrow.model.text.Utf8;
 import io.furrow.model.time.Instants;
 
 /**

@@ -19,6 +19,8 @@ import com.fasterxml.jackson.databind.ObjectMapper;
 import com.fasterxml.jackson.databind.cfg.JsonNodeFeature;
 import com.fasterxml.jackson.databind.json.JsonMapper;
 
+import io.furrow.model.text.Utf8;
+
 /**
  * The one JSON reader and writer: strict RFC 8259 (UTF-8, one document, no duplicate names, no NaN), nesting at most
  * {@value #MAX_NESTING}, strings at most 8 MiB, numbers at most 1000 characters, decimal numbers kept digit for digit.

@@ -1,11 +1,11 @@
-package io.furrow.model.ngsi;
+package io.furrow.model.text;
 
 /** Whether bytes are UTF-8 (RFC 3629). Jackson's own decoder takes overlong forms and code points beyond U+10FFFF. */
-final class Utf8 {
+public final class Utf8 {
     private Utf8() {}
 
     /** The position of the first byte that is not part of a UTF-8 sequence; -1 where all are. */
-    static int firstWrong(byte[] bytes) {
+    public static int firstWrong(byte[] bytes) {
         int i = 0;
         while (i < bytes.length) {
             if (bytes[i] >= 0) {

@@ -1,4 +1,4 @@
-package io.furrow.model.ngsi;
+package io.furrow.model.text;
 
 import java.nio.ByteBuffer;
 import java.nio.charset.CharacterCodingException;
