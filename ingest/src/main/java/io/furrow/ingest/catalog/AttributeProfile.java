@@ -2,8 +2,12 @@ package io.furrow.ingest.catalog;
 
 import java.util.Optional;
 
+import com.fasterxml.jackson.core.JsonToken;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.SlicedEntity;
+import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * What the values of an attribute are like.
@@ -33,36 +37,34 @@ public record AttributeProfile(
     private static final String MIXED = "mixed";
 
     /** One value; empty if it is null. */
-    static Optional<AttributeProfile> of(JsonNode attribute, long time) {
-        JsonNode value = attribute.path("value");
-        if (value.isMissingNode() || value.isNull()) {
+    static Optional<AttributeProfile> of(SlicedEntity.Slice attribute, long time) throws UnreadableException {
+        if (attribute.value() == JsonToken.VALUE_NULL) {
             return Optional.empty();
         }
-        boolean number = value.isNumber() && Double.isFinite(value.doubleValue());
+        boolean number = Double.isFinite(attribute.number());
         return Optional.of(new AttributeProfile(
-                attribute.path("type").asText(""),
-                unit(attribute.path("metadata")),
-                kind(value),
+                attribute.type(),
+                attribute.unit(),
+                kind(attribute),
                 1,
                 number ? 1 : 0,
-                number ? value.doubleValue() : Double.POSITIVE_INFINITY,
-                number ? value.doubleValue() : Double.NEGATIVE_INFINITY,
+                number ? attribute.number() : Double.POSITIVE_INFINITY,
+                number ? attribute.number() : Double.NEGATIVE_INFINITY,
                 time,
                 time));
     }
 
-    private static String unit(JsonNode metadata) {
-        JsonNode code = metadata.path("unitCode").path("value");
-        return code.isTextual()
-                ? code.textValue()
-                : metadata.path("unit").path("value").asText("");
-    }
-
-    private static String kind(JsonNode value) {
-        if (value.isObject() && value.has("url") && value.has("sha256")) {
-            return IMAGE;
-        }
-        return value.isNumber() ? "number" : value.isTextual() ? "text" : value.isBoolean() ? "boolean" : "structure";
+    private static String kind(SlicedEntity.Slice attribute) throws UnreadableException {
+        return switch (attribute.value()) {
+            case VALUE_NUMBER_INT, VALUE_NUMBER_FLOAT -> "number";
+            case VALUE_STRING -> "text";
+            case VALUE_TRUE, VALUE_FALSE -> "boolean";
+            case START_OBJECT -> {
+                JsonNode value = attribute.tree();
+                yield value.has("url") && value.has("sha256") ? IMAGE : "structure";
+            }
+            default -> "structure";
+        };
     }
 
     /** Both together; in any order the same. */

@@ -5,7 +5,6 @@ import java.util.HashMap;
 import java.util.Map;
 import java.util.TreeMap;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.ingest.route.EventEntity;
@@ -14,6 +13,7 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.SlicedEntity;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -51,21 +51,21 @@ public record CatalogEntry(
 
     /** One event. */
     static CatalogEntry of(ReportedEvent event) throws UnreadableException {
-        Entity entity = EventEntity.of(event.record()).entity();
+        SlicedEntity entity = EventEntity.of(event.record());
         Map<String, AttributeProfile> attributes = new HashMap<>();
         long images = 0;
         long imageBytes = 0;
-        for (Map.Entry<String, JsonNode> attribute : entity.attributes()) {
-            var profile = AttributeProfile.of(attribute.getValue(), event.time());
-            if (profile.isEmpty() || Entity.BUILT_INS.contains(attribute.getKey())) {
+        for (SlicedEntity.Slice attribute : entity.attributes()) {
+            var profile = AttributeProfile.of(attribute, event.time());
+            if (profile.isEmpty() || Entity.BUILT_INS.contains(attribute.name())) {
                 continue;
             }
             if (attributes.size() < MAX_ATTRIBUTES) {
-                attributes.put(attribute.getKey(), profile.get());
+                attributes.put(attribute.name(), profile.get());
             }
             if (profile.get().kind().equals(AttributeProfile.IMAGE)) {
                 images++;
-                imageBytes += attribute.getValue().path("value").path("bytes").asLong();
+                imageBytes += attribute.tree().path("bytes").asLong();
             }
         }
         return new CatalogEntry(

@@ -3,6 +3,7 @@ package io.furrow.ingest.latest;
 import java.nio.charset.StandardCharsets;
 import java.util.Collections;
 import java.util.Comparator;
+import java.util.List;
 import java.util.Map;
 import java.util.SortedMap;
 import java.util.TreeMap;
@@ -39,11 +40,11 @@ public record KnownEntity(
         Map<String, KnownAttribute> merged =
                 deleted ? new TreeMap<>() : attributes instanceof TreeMap ? attributes : new TreeMap<>(attributes);
         boolean news = eventTime >= time;
-        Map<String, String> changes = reported.attributes();
-        for (Map.Entry<String, String> attribute : changes.entrySet()) {
-            KnownAttribute known = merged.get(attribute.getKey());
+        List<SlicedEntity.Slice> changes = reported.attributes();
+        for (SlicedEntity.Slice attribute : changes) {
+            KnownAttribute known = merged.get(attribute.name());
             if (known == null || known.time() <= eventTime) {
-                merged.put(attribute.getKey(), new KnownAttribute(eventTime, attribute.getValue()));
+                merged.put(attribute.name(), new KnownAttribute(eventTime, attribute.json()));
                 news = true;
             }
         }
@@ -57,7 +58,7 @@ public record KnownEntity(
                 ? new KnownEntity(
                         Math.max(time, eventTime),
                         false,
-                        eventTime >= time ? reported.entity().type() : type,
+                        eventTime >= time ? reported.type() : type,
                         merged,
                         Math.max(received, eventReceived))
                 : this;

@@ -9,7 +9,6 @@ import org.apache.flink.util.Collector;
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.ingest.route.EventEntity;
 import io.furrow.mission.StoredEvent;
 import io.furrow.mission.mongo.EventDocumentCodec;
 import io.furrow.mission.mongo.MissionCollections;
@@ -40,11 +39,7 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
             return;
         }
         try {
-            out.collect(compose(
-                    event,
-                    event.record().value() == null
-                            ? null
-                            : EventEntity.of(event.record()).entity()));
+            out.collect(compose(event));
         } catch (UnreadableException e) {
             dead.count(e.reason(), event.domain(), event.mission());
             context.output(DeadLetters.TAG, DeadLetters.of(event.record(), e, STAGE));
@@ -55,16 +50,12 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
      * @throws UnreadableException for what is no event, or what no document can hold
      */
     public static MissionDocument compose(MissionEvent event) throws UnreadableException {
-        byte[] value = event.record().value();
-        return compose(event, value == null ? null : Entity.parse(value));
-    }
-
-    private static MissionDocument compose(MissionEvent event, Entity entity) throws UnreadableException {
         TopicRecord record = event.record();
         String id = record.headers().get(HeaderNames.CE_ID);
         if (id == null) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has no event id");
         }
+        Entity entity = record.value() == null ? null : Entity.parse(record.value());
         byte[] bson = EventDocumentCodec.write(new StoredEvent(
                 id,
                 record.timestamp(),

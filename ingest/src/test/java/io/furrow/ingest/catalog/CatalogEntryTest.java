@@ -10,7 +10,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.SlicedEntity;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -45,7 +45,9 @@ class CatalogEntryTest {
                     {"type":"String","value":{"url":"file:/x","sha256":"0","bytes":7}}       | image     | 0
                     """)
     void tellsKindsOfValuesApart(String attribute, String kind, long numbers) throws Exception {
-        AttributeProfile profile = AttributeProfile.of(NgsiJson.read(attribute.getBytes(StandardCharsets.UTF_8)), T)
+        byte[] entity = "{\"id\":\"t1\",\"a\":%s}".formatted(attribute).getBytes(StandardCharsets.UTF_8);
+        AttributeProfile profile = AttributeProfile.of(
+                        SlicedEntity.parse(entity).attributes().get(0), T)
                 .orElseThrow();
 
         assertThat(profile.kind()).isEqualTo(kind);

@@ -1,29 +1,42 @@
 package io.furrow.model.ngsi;
 
+import java.io.IOException;
 import java.nio.charset.StandardCharsets;
-import java.util.HashMap;
-import java.util.Map;
+import java.util.ArrayList;
+import java.util.List;
 
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 import com.fasterxml.jackson.core.StreamReadFeature;
-import com.fasterxml.jackson.databind.DeserializationFeature;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.ObjectReader;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * An entity, and each attribute as the JSON that it was read from, so that who writes it again need not compose it.
+ * An entity whose attributes are the JSON that they were read from, for readers that hand them on: they need no tree.
  *
- * @param attributes JSON by name; composed where the reported one is not normalized
+ * @param type {@code Thing} where none was reported
  */
-public record SlicedEntity(Entity entity, Map<String, String> attributes) {
-    /** Reads a value where it stands: what follows it belongs to the entity. */
-    private static final ObjectReader CHECKED = NgsiJson.mapper()
-            .reader()
-            .without(DeserializationFeature.FAIL_ON_TRAILING_TOKENS)
-            .without(StreamReadFeature.STRICT_DUPLICATE_DETECTION);
+public record SlicedEntity(String type, List<Slice> attributes) {
+    private static final ObjectReader READER =
+            NgsiJson.mapper().reader().without(StreamReadFeature.STRICT_DUPLICATE_DETECTION);
+    private static final int TYPICAL_ATTRIBUTES = 12;
+
+    /**
+     * An attribute.
+     *
+     * @param json normalized; as it was reported if it was so then
+     * @param type as reported, or as the context broker gives it
+     * @param unit metadata {@code unitCode}, else {@code unit}; empty without
+     * @param value its first token: a container's begin, or the value
+     * @param number the value as a double, possibly infinite; NaN of what is no number
+     */
+    public record Slice(String name, String json, String type, String unit, JsonToken value, double number) {
+        /** The value as a tree. */
+        public JsonNode tree() throws UnreadableException {
+            return NgsiJson.read(json.getBytes(StandardCharsets.UTF_8)).path("value");
+        }
+    }
 
     /**
      * Reads the UTF-8 JSON of a normalized entity.
@@ -36,40 +49,88 @@ public record SlicedEntity(Entity entity, Map<String, String> attributes) {
     }
 
     /**
-     * Reads what was read as an entity before: quicker, since it does not look for repeated names and wrong bytes again.
+     * Reads what was read as an entity before, and does not look again for what would be refused.
      *
      * @param normalized which {@link Entity#parse} takes, with whichever attributes
-     * @throws UnreadableException as that, but for those
      */
     public static SlicedEntity ofChecked(byte[] normalized) throws UnreadableException {
         return NgsiJson.understand(() -> {
-            ObjectNode entity = JsonNodeFactory.instance.objectNode();
-            Map<String, String> slices = new HashMap<>();
-            try (JsonParser parser = CHECKED.createParser(normalized)) {
-                if (parser.nextToken() != JsonToken.START_OBJECT) {
-                    throw new UnreadableException(Reason.NOT_AN_ENTITY, "an entity is a JSON object");
-                }
-                while (parser.nextToken() == JsonToken.FIELD_NAME) {
-                    String name = parser.currentName();
-                    parser.nextToken();
-                    int from = (int) parser.currentTokenLocation().getByteOffset();
-                    JsonNode reported = CHECKED.readTree(parser);
-                    int to = (int) parser.currentLocation().getByteOffset();
-                    if (reported.isTextual()) { // id or type
-                        entity.set(name, reported);
-                    } else {
-                        ObjectNode attribute = EntityForm.NORMALIZED.attribute(name, reported);
-                        entity.set(name, attribute);
-                        slices.put(
-                                name,
-                                attribute == reported
-                                        ? new String(normalized, from, to - from, StandardCharsets.UTF_8)
-                                        : new String(NgsiJson.write(attribute), StandardCharsets.UTF_8));
-                    }
-                }
+            try (JsonParser parser = READER.createParser(normalized)) {
+                return read(parser, normalized);
             }
-            EntityLimits.check(entity);
-            return new SlicedEntity(new Entity(entity), slices);
         });
+    }
+
+    private static SlicedEntity read(JsonParser parser, byte[] bytes) throws IOException, UnreadableException {
+        String type = "Thing";
+        List<Slice> attributes = new ArrayList<>(TYPICAL_ATTRIBUTES);
+        parser.nextToken();
+        while (parser.nextToken() == JsonToken.FIELD_NAME) {
+            String name = parser.currentName();
+            if (parser.nextToken() == JsonToken.START_OBJECT) {
+                attributes.add(slice(name, parser, bytes));
+            } else if (name.equals("type")) {
+                type = parser.getText();
+            }
+        }
+        return new SlicedEntity(type, attributes);
+    }
+
+    private static Slice slice(String name, JsonParser parser, byte[] bytes) throws IOException, UnreadableException {
+        int from = (int) parser.currentTokenLocation().getByteOffset();
+        String type = null;
+        String[] units = new String[2];
+        JsonToken value = null;
+        double number = Double.NaN;
+        boolean described = false;
+        int members = 0;
+        for (; parser.nextToken() == JsonToken.FIELD_NAME; members++) {
+            String member = parser.currentName();
+            JsonToken token = parser.nextToken();
+            if (member.equals("value")) {
+                value = token;
+                number = token.isNumeric() ? parser.getDoubleValue() : number;
+                parser.skipChildren();
+            } else if (member.equals("type") && token == JsonToken.VALUE_STRING) {
+                type = parser.getText();
+            } else if (member.equals("metadata") && token == JsonToken.START_OBJECT) {
+                described = true;
+                readUnits(parser, units);
+            } else {
+                parser.skipChildren();
+            }
+        }
+        int to = (int) parser.currentLocation().getByteOffset();
+        String json = new String(bytes, from, to - from, StandardCharsets.UTF_8);
+        if (type == null || !described || members != 3) {
+            ObjectNode attribute =
+                    EntityForm.NORMALIZED.attribute(name, NgsiJson.read(json.getBytes(StandardCharsets.UTF_8)));
+            type = attribute.path("type").textValue();
+            json = new String(NgsiJson.write(attribute), StandardCharsets.UTF_8);
+        }
+        return new Slice(
+                name, json, type, units[0] == null ? units[1] == null ? "" : units[1] : units[0], value, number);
+    }
+
+    /** @param units gets the text of {@code unitCode}, and what {@code unit} says */
+    private static void readUnits(JsonParser parser, String[] units) throws IOException {
+        while (parser.nextToken() == JsonToken.FIELD_NAME) {
+            String name = parser.currentName();
+            int which = name.equals("unitCode") ? 0 : name.equals("unit") ? 1 : -1;
+            if (parser.nextToken() != JsonToken.START_OBJECT || which < 0) {
+                parser.skipChildren();
+                continue;
+            }
+            while (parser.nextToken() == JsonToken.FIELD_NAME) {
+                boolean isValue = parser.currentName().equals("value");
+                JsonToken token = parser.nextToken();
+                boolean isTaken = token == JsonToken.VALUE_STRING
+                        || which == 1 && token.isScalarValue() && token != JsonToken.VALUE_NULL;
+                if (isValue && isTaken) {
+                    units[which] = parser.getText();
+                }
+                parser.skipChildren();
+            }
+        }
     }
 }

@@ -2,6 +2,7 @@ package io.furrow.model.ngsi;
 
 import java.util.Map;
 import java.util.Random;
+import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
@@ -13,16 +14,16 @@ import static org.assertj.core.api.Assertions.assertThatExceptionOfType;
 class SlicedEntityTest {
     private static final String STATION = """
             {"id":"s-ñ","Wind":{"type":"Number","value":1.50e1,"metadata":{"unitCode":{"type":"Text","value":"KMH"}}},
-             "type":"Station","Note":{"type":"Text","value":"caf\\u00e9 😀 \\"}]","metadata":{}},
+             "type":"Station","Depth":{"type":"Number","value":7,"metadata":{"unit":{"value":5},"at":{"value":[1]}}},"Note":{"type":"Text","value":"caf\\u00e9 😀 \\"}]","metadata":{}},
              "Rain" : {"value": {"sum":0.10,"parts":[1,{"a":2}]}},"Off":{"value":null}}
             """;
 
     @Test
     void holdsWhatIsNormalizedAsItWasReported() throws UnreadableException {
-        Map<String, String> attributes = SlicedEntity.parse(bytes(STATION)).attributes();
+        Map<String, String> attributes = jsonByName(SlicedEntity.parse(bytes(STATION)));
 
         assertThat(attributes)
-                .containsOnlyKeys("Wind", "Note", "Rain", "Off")
+                .containsOnlyKeys("Wind", "Depth", "Note", "Rain", "Off")
                 .containsEntry(
                         "Wind",
                         "{\"type\":\"Number\",\"value\":1.50e1,\"metadata\":{\"unitCode\":{\"type\":\"Text\",\"value\":\"KMH\"}}}")
@@ -31,7 +32,7 @@ class SlicedEntityTest {
 
     @Test
     void composesWhatIsNot() throws UnreadableException {
-        assertThat(SlicedEntity.parse(bytes(STATION)).attributes())
+        assertThat(jsonByName(SlicedEntity.parse(bytes(STATION))))
                 .containsEntry(
                         "Rain",
                         "{\"type\":\"StructuredValue\",\"value\":{\"sum\":0.10,\"parts\":[1,{\"a\":2}]},\"metadata\":{}}")
@@ -58,19 +59,41 @@ class SlicedEntityTest {
                         .isThrownBy(() -> SlicedEntity.parse(damaged));
             } else {
                 SlicedEntity sliced = SlicedEntity.parse(damaged);
-                assertThat(sliced.entity().json()).as(round).isEqualTo(whole.json());
-                for (Map.Entry<String, JsonNode> attribute : whole.attributes()) {
-                    assertThat(NgsiJson.read(bytes(sliced.attributes().get(attribute.getKey()))))
-                            .as(round)
-                            .isEqualTo(attribute.getValue());
-                }
+                assertThat(sliced.type()).as(round).isEqualTo(whole.type());
                 assertThat(sliced.attributes())
                         .as(round)
-                        .hasSize(whole.attributes().size());
+                        .extracting(SlicedEntity.Slice::name)
+                        .containsExactlyElementsOf(whole.attributes().stream()
+                                .map(Map.Entry::getKey)
+                                .toList());
+                for (SlicedEntity.Slice slice : sliced.attributes()) {
+                    assertAlike(slice, whole.json().get(slice.name()), round);
+                }
                 read++;
             }
         }
         assertThat(read).isGreaterThan(1000);
+    }
+
+    private static void assertAlike(SlicedEntity.Slice slice, JsonNode attribute, String round)
+            throws UnreadableException {
+        JsonNode value = attribute.get("value");
+        JsonNode code = attribute.path("metadata").path("unitCode").path("value");
+        String unit = code.isTextual()
+                ? code.textValue()
+                : attribute.path("metadata").path("unit").path("value").asText("");
+        assertThat(NgsiJson.read(bytes(slice.json()))).as(round).isEqualTo(attribute);
+        assertThat(slice.type()).as(round).isEqualTo(attribute.get("type").textValue());
+        assertThat(slice.unit()).as(round).isEqualTo(unit);
+        assertThat(slice.value()).as(round).isEqualTo(value.asToken());
+        Double number = value.isNumber() ? value.doubleValue() : Double.NaN;
+        assertThat(slice.number()).as(round).isEqualTo(number);
+        assertThat(slice.tree()).as(round).isEqualTo(value);
+    }
+
+    private static Map<String, String> jsonByName(SlicedEntity entity) {
+        return entity.attributes().stream()
+                .collect(Collectors.toMap(SlicedEntity.Slice::name, SlicedEntity.Slice::json));
     }
 
     private static Entity wholeOrNull(byte[] json) {
