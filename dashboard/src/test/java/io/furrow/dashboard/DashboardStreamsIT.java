@@ -115,17 +115,18 @@ class DashboardStreamsIT extends DashboardFixture {
 
     @Test
     void knowsTheLastHourOfATopicThatIsNotCompactedHoweverMuchIsBeforeIt() throws Exception {
-        kafka.createTopics(topics(Topics.COLLISION));
+        String topic = "data.history";
+        kafka.createTopics(topics(topic));
         long now = System.currentTimeMillis();
         for (int i = 0; i < 100_000; i++) {
             long then = now - Duration.ofHours(2).toMillis() + i;
-            producer.send(new ProducerRecord<>(
-                    Topics.COLLISION, 0, then, "pair-" + i % 50, "{\"phase\":\"ongoing\"}".getBytes(UTF_8)));
+            producer.send(
+                    new ProducerRecord<>(topic, 0, then, "pair-" + i % 50, "{\"phase\":\"ongoing\"}".getBytes(UTF_8)));
         }
-        send(Topics.COLLISION, "pair-of-now", "{\"phase\":\"started\"}");
+        send(topic, "pair-of-now", "{\"phase\":\"started\"}");
         List<SocketClient> clients = new ArrayList<>();
         for (int i = 0; i < 5; i++) {
-            clients.add(SocketClient.open(http, socket(Topics.COLLISION + "?format=record&prime=true", VERA)));
+            clients.add(SocketClient.open(http, socket(topic + "?format=record&prime=true", VERA)));
         }
         clients.add(SocketClient.open(http, socket(TOPIC + "?format=record&prime=true", VERA)));
 
