@@ -5,6 +5,7 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.flink.kafka.KafkaTopicSnapshot;
+import io.furrow.flink.kafka.TopicNames;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AdvanceQuietInput;
@@ -19,6 +20,7 @@ import io.furrow.model.topic.Topics;
  * @param latestAtStart what {@code data.latest} holds before the first event
  * @param domains those of the control plane
  * @param missions those of the control plane
+ * @param topics that there are
  */
 record IngestInputs(
         DataStream<TopicRecord> records,
@@ -26,7 +28,8 @@ record IngestInputs(
         TopicSnapshot devicesAtStart,
         TopicSnapshot latestAtStart,
         TopicSnapshot domains,
-        TopicSnapshot missions) {
+        TopicSnapshot missions,
+        TopicNames topics) {
     /** The topics that the options name. */
     static IngestInputs ofKafka(StreamExecutionEnvironment env, IngestOptions options) {
         DataStream<TopicRecord> records = AdvanceQuietInput.of(
@@ -50,6 +53,7 @@ record IngestInputs(
                 new KafkaTopicSnapshot(options, options.devices()),
                 new KafkaTopicSnapshot(options, Topics.LATEST),
                 new KafkaTopicSnapshot(options, Topics.DOMAINS),
-                new KafkaTopicSnapshot(options, Topics.MISSIONS));
+                new KafkaTopicSnapshot(options, Topics.MISSIONS),
+                TopicNames.ofKafka(options));
     }
 }

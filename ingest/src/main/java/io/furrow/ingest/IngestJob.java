@@ -65,7 +65,7 @@ public final class IngestJob {
                                 new AssignMission(
                                         in.devicesAtStart(),
                                         options.assignment(),
-                                        new NameBudget(in.domains(), in.missions(), options.newNames())),
+                                        new NameBudget(in.domains(), in.missions(), in.topics(), options.otherNames())),
                                 List.of(AssignMission.DEVICES)))
                 .uid("assign-domain-and-mission");
 

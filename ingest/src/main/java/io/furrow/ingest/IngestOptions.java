@@ -62,14 +62,14 @@ public final class IngestOptions extends JobOptions {
     private String defaultMission;
 
     @Option(
-            names = "--new-names",
+            names = "--other-names",
             paramLabel = "N",
-            defaultValue = "100",
+            defaultValue = "300",
             description =
-                    "How many new names of domains and missions events may bring per subtask and hour, beside those of"
-                            + " service.domains and service.missions: each makes topics and a collection that stay. What is beyond"
-                            + " is a dead letter, unknown-mission, and the event goes on without the name. Default: ${DEFAULT-VALUE}.")
-    private int newNames;
+                    "How many topics there may be of domains and missions that are not on service.domains and service.missions:"
+                            + " each has partitions and a collection that stay. A further name is a dead letter, unknown-mission, and"
+                            + " its event goes on without it. Default: ${DEFAULT-VALUE}.")
+    private int otherNames;
 
     @Option(
             names = "--repeat-window",
@@ -237,11 +237,11 @@ public final class IngestOptions extends JobOptions {
     }
 
     /** Of domains and missions, per subtask and hour. */
-    int newNames() {
-        if (newNames < 0) {
-            throw refused("--new-names " + newNames + " is below 0", null);
+    int otherNames() {
+        if (otherNames < 0) {
+            throw refused("--other-names " + otherNames + " is below 0", null);
         }
-        return newNames;
+        return otherNames;
     }
 
     public boolean writesRoutes() {

@@ -29,6 +29,7 @@ import picocli.CommandLine.ParameterException;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.kafka.TopicNames;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
@@ -189,7 +190,8 @@ class ImageStageJobTest {
                         KnownDevices.of(),
                         TopicSnapshot.NONE,
                         TopicSnapshot.NONE,
-                        TopicSnapshot.NONE),
+                        TopicSnapshot.NONE,
+                        TopicNames.NONE),
                 out,
                 options);
         return out.run();

@@ -101,7 +101,7 @@ class IngestJobTest {
             reported[i] = record("e" + i, thermometer("t", "farm", "run-" + i));
         }
 
-        List<String> topics = run(options("--new-names", "50"), reported).stream()
+        List<String> topics = run(options("--other-names", "50"), reported).stream()
                 .map(TopicRecord::topic)
                 .toList();
 

@@ -24,6 +24,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.kafka.TopicNames;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
@@ -147,7 +148,8 @@ class IngestRestartTest {
                             KnownDevices.of(),
                             TopicSnapshot.NONE,
                             TopicSnapshot.NONE,
-                            TopicSnapshot.NONE),
+                            TopicSnapshot.NONE,
+                            TopicNames.NONE),
                     out,
                     (IngestOptions) options);
             return out.all();

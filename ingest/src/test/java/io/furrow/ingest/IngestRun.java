@@ -11,6 +11,7 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.kafka.TopicNames;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.topic.Topics;
@@ -41,7 +42,13 @@ final class IngestRun {
         CollectedOutput out = new CollectedOutput();
         IngestJob.define(
                 new IngestInputs(
-                        source, deviceRecords, devices, TopicSnapshot.NONE, TopicSnapshot.NONE, TopicSnapshot.NONE),
+                        source,
+                        deviceRecords,
+                        devices,
+                        TopicSnapshot.NONE,
+                        TopicSnapshot.NONE,
+                        TopicSnapshot.NONE,
+                        TopicNames.NONE),
                 out,
                 options);
         return out.run();

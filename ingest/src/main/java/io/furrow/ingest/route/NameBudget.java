@@ -5,27 +5,32 @@ import java.io.Serializable;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.HashMap;
+import java.util.HashSet;
 import java.util.Map;
+import java.util.Set;
+import java.util.regex.Pattern;
+import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.flink.kafka.TopicNames;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
 
 /**
- * Admits the domains and missions that events name: those of {@code service.domains} and {@code service.missions} always, so
- * many others in an hour of processing time. An admitted name makes topics and a collection, which nobody removes.
+ * Admits the domains and missions that events name: those of {@code service.domains} and {@code service.missions} always, others
+ * while not more than so many of them have topics. An admitted name makes topics and a collection, which stay.
  *
- * <p>Not a part of the state: names that entities had before a restart are in use, see {@link AssignMission}. Admitted names are
- * forgotten when they were not used for a day.
+ * <p>Not a part of the state: which names were admitted say the topics that there are.
  */
 public final class NameBudget implements Serializable {
     private static final long serialVersionUID = 1L;
-    private static final long HOUR = Duration.ofHours(1).toMillis();
-    private static final long FORGOTTEN_AFTER = Duration.ofDays(1).toMillis();
+    /** A topic of a domain, or of a mission. */
+    private static final Pattern ROUTE = Pattern.compile("data\\.[^.]+\\.realtime(\\..+)?");
     /** A name that nobody knows is looked for on the topics at most this often. */
     private static final long READ_EVERY = Duration.ofSeconds(1).toMillis();
 
@@ -33,35 +38,43 @@ public final class NameBudget implements Serializable {
 
     private final TopicSnapshot domainsTopic;
     private final TopicSnapshot missionsTopic;
-    private final int perHour;
+    private final TopicNames topics;
+    private final int limit;
     private transient Map<String, Managed> domains;
     private transient Map<String, Managed> missions;
-    private transient Map<Name, Long> admitted;
+    /** Topics of other names that there are, and those that are about to be made. */
+    private transient Set<String> others;
+
+    private transient Set<String> admitted;
+
     private transient long readAt;
-    private transient long hour;
-    private transient int left;
 
     /**
      * @param domains what is on {@code service.domains}
      * @param missions what is on {@code service.missions}
-     * @param perHour other names that are admitted per hour
+     * @param topics that there are
+     * @param limit topics of other names
      */
-    public NameBudget(TopicSnapshot domains, TopicSnapshot missions, int perHour) {
+    public NameBudget(TopicSnapshot domains, TopicSnapshot missions, TopicNames topics, int limit) {
         this.domainsTopic = domains;
         this.missionsTopic = missions;
-        this.perHour = perHour;
+        this.topics = topics;
+        this.limit = limit;
     }
 
     /** @param mission empty for the domain itself */
-    private record Name(String domain, String mission) {}
+    private record Name(String domain, String mission) {
+        String topic() {
+            return mission.isEmpty() ? Topics.realtime(domain) : Topics.realtime(domain, mission);
+        }
+    }
 
     /** A mission of the control plane, or a domain, which has no domain itself. */
     private record Managed(String domain, long created) {}
 
     /** Reads what is known before the first event comes. */
     void open() throws IOException {
-        admitted = new HashMap<>();
-        left = perHour;
+        admitted = new HashSet<>();
         read(0);
     }
 
@@ -115,30 +128,29 @@ public final class NameBudget implements Serializable {
     }
 
     private void admit(Name name, long now) throws IOException, UnreadableException {
-        if (admitted.computeIfPresent(name, (same, used) -> now) != null) {
+        if (isThere(name)) {
             return;
         }
         if (isDue(now)) {
             read(now);
         }
-        if (isManaged(name)) {
+        if (isManaged(name) || isThere(name)) {
             return;
         }
-        if (now - hour >= HOUR) {
-            hour = now;
-            left = perHour;
-            admitted.values().removeIf(used -> now - used >= FORGOTTEN_AFTER);
-        }
-        if (left == 0) {
+        if (others.size() + admitted.size() >= limit) {
             throw new UnreadableException(
                     Reason.UNKNOWN_MISSION,
-                    "%s is not known, and %d new names were taken within the hour; see --new-names"
+                    ("%s is not known, and %d topics are there of names that are not known; delete those that are of no more use,"
+                                    + " or see --other-names")
                             .formatted(
                                     name.mission().isEmpty() ? "domain " + name.domain() : "mission " + name.mission(),
-                                    perHour));
+                                    others.size()));
         }
-        left--;
-        admitted.put(name, now);
+        admitted.add(name.topic());
+    }
+
+    private boolean isThere(Name name) {
+        return others.contains(name.topic()) || admitted.contains(name.topic());
     }
 
     private boolean isDue(long now) {
@@ -148,6 +160,12 @@ public final class NameBudget implements Serializable {
     private void read(long now) throws IOException {
         domains = read(domainsTopic);
         missions = read(missionsTopic);
+        others = topics.read().stream()
+                .filter(topic -> ROUTE.matcher(topic).matches())
+                .collect(Collectors.toCollection(HashSet::new));
+        admitted.removeAll(others);
+        domains.keySet().forEach(domain -> others.remove(Topics.realtime(domain)));
+        missions.forEach((mission, managed) -> others.remove(Topics.realtime(managed.domain(), mission)));
         readAt = now;
     }
 

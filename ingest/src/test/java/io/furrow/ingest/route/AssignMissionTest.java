@@ -3,8 +3,10 @@ package io.furrow.ingest.route;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
@@ -34,6 +36,7 @@ class AssignMissionTest {
     private final ArrayList<TopicRecord> onTheTopic = new ArrayList<>();
     private final ArrayList<TopicRecord> domains = new ArrayList<>();
     private final ArrayList<TopicRecord> missions = new ArrayList<>();
+    private final HashSet<String> topics = new HashSet<>();
     private KeyedTwoInputStreamOperatorTestHarness<String, ReportedEvent, DeviceChange, ReportedEvent> operator;
 
     @BeforeEach
@@ -164,7 +167,7 @@ class AssignMissionTest {
     }
 
     @Test
-    void takesSoManyNewMissionsInAnHourAndTheRestOfTheirEventsWithoutThem() throws Exception {
+    void takesSoManyOtherMissionsAndTheRestOfTheirEventsWithoutThem() throws Exception {
         for (int run = 0; run < 100; run++) {
             report("robot", 100 + run, "home", "run-" + run);
         }
@@ -176,13 +179,29 @@ class AssignMissionTest {
                 .first()
                 .satisfies(letter -> assertThat(letter.headers())
                         .containsEntry("dead-reason", "unknown-mission")
-                        .containsEntry("dead-stage", "routes")
+                        .containsEntry("dead-stage", "routes"));
+    }
+
+    @Test
+    void countsTheTopicsThatThereAreAlsoAfterARestart() throws Exception {
+        for (int run = 0; run < BUDGET; run++) {
+            topics.add("data.home.realtime.run-" + run);
+        }
+        operator.setProcessingTime(1_000);
+
+        report("robot", 100, "home", "run-3");
+        report("robot", 101, "", "run-new");
+        assertThat(letters())
+                .hasSize(2)
+                .first()
+                .satisfies(letter -> assertThat(letter.headers())
                         .containsEntry(
                                 "dead-message",
-                                "mission run-19 is not known, and 20 new names were taken within the hour;"
-                                        + " see --new-names"));
+                                "domain home is not known, and 20 topics are there of names that are not known; delete those that are"
+                                        + " of no more use, or see --other-names"));
 
-        operator.setProcessingTime(3_600_000);
+        topics.clear();
+        operator.setProcessingTime(2_000);
         report("robot", 300, "home", "run-later");
         assertThat(routes()).endsWith("home/run-later");
     }
@@ -259,7 +278,11 @@ class AssignMissionTest {
                         new AssignMission(
                                 new OnTheTopic(records),
                                 RULE,
-                                new NameBudget(new OnTheTopic(domains), new OnTheTopic(missions), BUDGET)),
+                                new NameBudget(
+                                        new OnTheTopic(domains),
+                                        new OnTheTopic(missions),
+                                        () -> Set.copyOf(topics),
+                                        BUDGET)),
                         List.of(AssignMission.DEVICES)),
                 ReportedEvent::identity,
                 null,
