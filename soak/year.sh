@@ -16,7 +16,8 @@ usage() {
     cat <<USAGE
 Usage: ./furrow soak year [OPTION VALUE]…
 Runs Mosquitto, stand-ins of Orion and IoT Agent in a process of their own, and ./furrow up beside them. Each day three missions of ten
-devices begin, report once a second, and end; they are deleted a week later. All year one device has a clock that is two hours slow, and one
+devices begin, report once a second, and end; they are deleted a week later, with topic and collection, for which the suite itself would
+take a day and a retention. All year one device has a clock that is two hours slow, and one
 names a new mission with each report. In the middle of the last day of a week the suite is restarted or killed; at the end of each fourth
 week the machine loses power: of half of Kafka's partitions an earlier state is put back that was not synced yet. A mission of the week is
 played back.

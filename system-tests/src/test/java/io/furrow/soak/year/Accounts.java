@@ -19,6 +19,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.bson.Document;
 
 import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -116,15 +117,14 @@ final class Accounts {
         int expected = 0;
         int unsynced = 0;
         try (KafkaConsumer<byte[], byte[]> consumer = consumer();
-                MongoClient mongo =
-                        MongoClients.create("mongodb://127.0.0.1:" + farm.up().port("mongo"))) {
+                MongoClient mongo = MongoClients.create(farm.mongo())) {
             for (DayMission mission : missions) {
                 Map<Report, Integer> topic = new HashMap<>();
                 consumer.assign(partitions(consumer, Topics.realtime(FarmYear.DOMAIN, mission.name())));
                 consumer.seekToBeginning(consumer.assignment());
                 drain(consumer, topic);
                 Map<Report, Integer> documents = new HashMap<>();
-                for (Document document : mongo.getDatabase("persistence")
+                for (Document document : mongo.getDatabase(MongoAccess.DATABASE)
                         .getCollection(MissionCollections.nameOf(mission.name()))
                         .find()) {
                     Document time = document.get("Time", Document.class);

@@ -11,12 +11,15 @@ import java.util.Locale;
 import java.util.Map;
 import java.util.Random;
 import java.util.TreeMap;
+import java.util.concurrent.ExecutionException;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
 import io.furrow.soak.control.Http;
 import io.furrow.soak.control.Until;
 import io.furrow.soak.devices.Verdicts;
@@ -123,7 +126,7 @@ public final class FarmYear {
     }
 
     /** @param until what was reported before belongs to them */
-    private void end(List<String> missions, long until) {
+    private void end(List<String> missions, long until) throws InterruptedException, ExecutionException {
         for (int mission = 0; mission < Fleet.MISSIONS; mission++) {
             fleet.end(mission);
         }
@@ -135,7 +138,9 @@ public final class FarmYear {
             kept.add(name);
         }
         while (kept.size() > KEPT_DAYS * Fleet.MISSIONS) {
-            ask("DELETE", "/api/missions/" + kept.remove(), null);
+            String old = kept.remove();
+            ask("DELETE", "/api/missions/" + old, null);
+            farm.forget(Topics.realtime(DOMAIN, old), MissionCollections.nameOf(old));
         }
     }
 

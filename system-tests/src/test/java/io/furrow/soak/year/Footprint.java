@@ -34,8 +34,7 @@ final class Footprint {
                     .mapToInt(topic -> topic.partitions().size())
                     .sum());
         }
-        try (MongoClient mongo =
-                MongoClients.create("mongodb://127.0.0.1:" + farm.up().port("mongo"))) {
+        try (MongoClient mongo = MongoClients.create(farm.mongo())) {
             double collections = 0;
             for (String database : mongo.listDatabaseNames()) {
                 for (String ignored : mongo.getDatabase(database).listCollectionNames()) {

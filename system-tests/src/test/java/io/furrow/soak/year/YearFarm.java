@@ -3,7 +3,14 @@ package io.furrow.soak.year;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Map;
+import java.util.concurrent.ExecutionException;
 
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.MongoClients;
+import org.apache.kafka.clients.admin.Admin;
+
+import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.soak.control.Mosquitto;
 import io.furrow.soak.devices.StandInProcess;
 import io.furrow.soak.devices.UpProcess;
@@ -44,6 +51,19 @@ final class YearFarm implements AutoCloseable {
 
     Tap tap() {
         return tap;
+    }
+
+    String mongo() {
+        return "mongodb://127.0.0.1:" + up.port("mongo");
+    }
+
+    /** Does what the control plane and a retention of missions do after more time than there is here. */
+    void forget(String topic, String collection) throws InterruptedException, ExecutionException {
+        try (Admin admin = Admin.create(Map.of("bootstrap.servers", up.kafka()));
+                MongoClient client = MongoClients.create(mongo())) {
+            admin.deleteTopics(List.of(topic)).all().get();
+            client.getDatabase(MongoAccess.DATABASE).getCollection(collection).drop();
+        }
     }
 
     /** Of the suite. */
