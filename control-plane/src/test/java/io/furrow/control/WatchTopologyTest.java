@@ -97,7 +97,7 @@ class WatchTopologyTest {
         farm.pass(Duration.ofSeconds(1));
         JsonNode closed = farm.newest(Topics.ALARMS);
         assertThat(closed.path("state").asText()).isEqualTo("closed");
-        assertThat(closed.path("reason").asText()).isEqualTo("the encounter has ended");
+        assertThat(closed.path("reason").asText()).isEqualTo("the encounter has ended, or is not reported any more");
     }
 
     /** Devices at the border of what is close: whoever is notified of alarms hears of one. */

@@ -150,10 +150,13 @@ final class Provisioning {
         }
         Kept kept = new Kept(accounts.kept(), keptDevices, keptGroups);
         boolean done = added && removed;
-        if (done && kept.isEmpty() && !settled) {
-            settled = true;
-            removals.allowAll();
+        if (done
+                && kept.isEmpty()
+                && !there.isEmpty()
+                && !settled) { // an agent that has nothing says nothing of this Kafka
             accounts.noteOrigin(origin.topic());
+            removals.allowAll();
+            settled = true;
         }
         return new Outcome(refused, stuck, kept.isEmpty() ? null : kept, done);
     }

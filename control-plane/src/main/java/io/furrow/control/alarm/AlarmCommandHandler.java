@@ -55,6 +55,15 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         }
     }
 
+    /** As {@link #raise}; an existing alarm gets the words of the cause. */
+    public void raiseReworded(Cause cause, long now) {
+        Alarm known = current(cause.kind(), cause.subject());
+        if (known != null) {
+            reworded(known, cause);
+        }
+        raise(cause, now);
+    }
+
     /** Closes the alarm of a kind and subject, if there is one. */
     public void end(AlarmKind kind, String subject, String reason, long now) {
         Alarm known = current(kind, subject);

@@ -77,7 +77,7 @@ final class AlarmLife {
         }
         if (alarm.until() != null && alarm.until() <= now) {
             String reason = alarm.kind() == AlarmKind.COLLISION
-                    ? "the encounter has ended"
+                    ? "the encounter has ended, or is not reported any more"
                     : "its cause was no longer observed";
             return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), reason, now);
         }

@@ -93,7 +93,7 @@ public final class TopicCleanup implements AutoCloseable {
                         remove(due, admin, producer);
                     }
                 }
-                removeMissions(names, remains, admin);
+                removeMissions(names, remains, admin, () -> topics.readToEnd(taking));
                 running.succeeded();
                 running.pause(interval());
             }
@@ -125,7 +125,8 @@ public final class TopicCleanup implements AutoCloseable {
         producer.flush();
     }
 
-    private void removeMissions(DeletedNames names, FinishedReplays replays, Admin admin)
+    /** @param refresh reads what was asked for since */
+    private void removeMissions(DeletedNames names, FinishedReplays replays, Admin admin, Runnable refresh)
             throws ExecutionException, InterruptedException {
         long moment = clock.millis() - GRACE_OF_MISSIONS.toMillis();
         List<String> due = names.by(moment);
@@ -134,6 +135,10 @@ public final class TopicCleanup implements AutoCloseable {
         for (String topic : due) {
             boolean exists = there.contains(topic);
             if (exists && (replays.isUsed(topic) || !isQuiet(topic, moment, admin))) {
+                continue;
+            }
+            refresh.run();
+            if (replays.isUsed(topic) || !names.by(moment).contains(topic)) { // it is wanted again
                 continue;
             }
             if (exists) {

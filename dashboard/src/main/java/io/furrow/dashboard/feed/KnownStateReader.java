@@ -56,7 +56,7 @@ public final class KnownStateReader implements AutoCloseable {
         }
         try {
             reading.complete(known.apply(topic));
-        } catch (RuntimeException e) {
+        } catch (RuntimeException | Error e) { // nobody else would hear of it, and the topic stay busy
             reading.completeExceptionally(e);
         }
         synchronized (this) {

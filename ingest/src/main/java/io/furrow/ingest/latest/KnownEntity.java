@@ -1,7 +1,6 @@
 package io.furrow.ingest.latest;
 
 import java.nio.charset.StandardCharsets;
-import java.util.Collections;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
@@ -48,11 +47,14 @@ public record KnownEntity(
                 news = true;
             }
         }
-        while (merged.size() > Math.max(MAX_ATTRIBUTES, changes.size())) {
-            merged.remove(Collections.min(
-                            merged.entrySet(),
-                            Comparator.comparingLong(each -> each.getValue().time()))
-                    .getKey());
+        int excess = merged.size() - Math.max(MAX_ATTRIBUTES, changes.size());
+        if (news && excess > 0) {
+            List<String> oldest = merged.entrySet().stream()
+                    .sorted(Comparator.comparingLong(each -> each.getValue().time()))
+                    .limit(excess)
+                    .map(Map.Entry::getKey)
+                    .toList();
+            oldest.forEach(merged::remove);
         }
         return news
                 ? new KnownEntity(

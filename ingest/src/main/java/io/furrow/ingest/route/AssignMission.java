@@ -100,7 +100,7 @@ public final class AssignMission
 
     /** Without the names that the event bears and that are not admitted. */
     private ReportedEvent admitted(
-            ReportedEvent event, ReportedEvent assigned, KnownRoute known, ReadOnlyContext context) throws IOException {
+            ReportedEvent event, ReportedEvent assigned, KnownRoute known, ReadOnlyContext context) throws Exception {
         String domain = assigned.domain();
         boolean inUse = known != null && known.domain().equals(domain);
         long now = context.currentProcessingTime();
@@ -111,7 +111,7 @@ public final class AssignMission
             }
             admitted = domain;
             if (!event.mission().isEmpty()) {
-                boolean same = inUse && known.mission().equals(event.mission());
+                boolean same = inUse && known.mission().equals(event.mission()) || isOfDevice(event, domain, context);
                 names.checkMission(domain, event.mission(), same, event.time(), now);
             }
             return assigned;
@@ -120,6 +120,14 @@ public final class AssignMission
             context.output(DeadLetters.TAG, DeadLetters.of(event.record(), e, STAGE));
             return event.belongingTo(admitted, "");
         }
+    }
+
+    /** Whether the control plane says of the device itself that it is in this mission. */
+    private boolean isOfDevice(ReportedEvent event, String domain, ReadOnlyContext context) throws Exception {
+        return devices.at(event.identity(), event.time(), context.getBroadcastState(DEVICES))
+                .filter(device ->
+                        device.domain().equals(domain) && device.mission().equals(event.mission()))
+                .isPresent();
     }
 
     private void deleted(ReportedEvent event, ReadOnlyContext context, Collector<ReportedEvent> out) throws Exception {

@@ -8,10 +8,13 @@ import java.util.HashMap;
 import java.util.HashSet;
 import java.util.Map;
 import java.util.Set;
+import java.util.concurrent.TimeUnit;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.flink.kafka.TopicNames;
 import io.furrow.flink.kafka.TopicSnapshot;
@@ -29,10 +32,13 @@ import io.furrow.model.topic.Topics;
  */
 public final class NameBudget implements Serializable {
     private static final long serialVersionUID = 1L;
+    private static final Logger LOG = LoggerFactory.getLogger(NameBudget.class);
     /** A topic of a domain, or of a mission. */
     private static final Pattern ROUTE = Pattern.compile("data\\.[^.]+\\.realtime(\\..+)?");
     /** A name that nobody knows is looked for on the topics at most this often. */
     private static final long READ_EVERY = Duration.ofSeconds(1).toMillis();
+
+    private static final int READ_SHARE = 10;
 
     private static final Managed OF_ANY_DOMAIN = new Managed("", Long.MAX_VALUE);
 
@@ -47,7 +53,7 @@ public final class NameBudget implements Serializable {
 
     private transient Set<String> admitted;
 
-    private transient long readAt;
+    private transient long nextReading;
 
     /**
      * @param domains what is on {@code service.domains}
@@ -75,11 +81,11 @@ public final class NameBudget implements Serializable {
     /** Reads what is known before the first event comes. */
     void open() throws IOException {
         admitted = new HashSet<>();
-        read(0);
+        read();
     }
 
     /** @throws UnreadableException if it is a new name, beyond the budget */
-    void checkDomain(String domain, long now) throws IOException, UnreadableException {
+    void checkDomain(String domain, long now) throws UnreadableException {
         if (!domains.containsKey(domain)) {
             admit(new Name(domain, ""), now);
         }
@@ -89,11 +95,10 @@ public final class NameBudget implements Serializable {
      * Checks the mission that an event names.
      *
      * @param domain of the event; may be empty
-     * @param inUse whether the entity reported for it before
+     * @param inUse whether the entity reported for it before, or is in it as a device
      * @throws UnreadableException if it is a mission of another domain, or a new name beyond the budget
      */
-    void checkMission(String domain, String mission, boolean inUse, long time, long now)
-            throws IOException, UnreadableException {
+    void checkMission(String domain, String mission, boolean inUse, long time, long now) throws UnreadableException {
         if (isOfAnother(domain, mission, time) && (!isDue(now) || stillIsAfterReading(domain, mission, time, now))) {
             throw new UnreadableException(
                     Reason.UNKNOWN_MISSION,
@@ -111,8 +116,8 @@ public final class NameBudget implements Serializable {
         return time >= known.created() && !known.domain().equals(domain) && domains.containsKey(domain);
     }
 
-    private boolean stillIsAfterReading(String domain, String mission, long time, long now) throws IOException {
-        read(now);
+    private boolean stillIsAfterReading(String domain, String mission, long time, long now) {
+        readAgain(now);
         return isOfAnother(domain, mission, time);
     }
 
@@ -127,12 +132,12 @@ public final class NameBudget implements Serializable {
                         || known.domain().equals(name.domain()));
     }
 
-    private void admit(Name name, long now) throws IOException, UnreadableException {
+    private void admit(Name name, long now) throws UnreadableException {
         if (isThere(name)) {
             return;
         }
         if (isDue(now)) {
-            read(now);
+            readAgain(now);
         }
         if (isManaged(name) || isThere(name)) {
             return;
@@ -140,11 +145,11 @@ public final class NameBudget implements Serializable {
         if (others.size() + admitted.size() >= limit) {
             throw new UnreadableException(
                     Reason.UNKNOWN_MISSION,
-                    ("%s is not known, and %d topics are there of names that are not known; delete those that are of no more use,"
-                                    + " or see --other-names")
+                    ("%s is not known, and %d names that are not known are in use; delete topics that are of no more use, or see"
+                                    + " --other-names")
                             .formatted(
                                     name.mission().isEmpty() ? "domain " + name.domain() : "mission " + name.mission(),
-                                    others.size()));
+                                    others.size() + admitted.size()));
         }
         admitted.add(name.topic());
     }
@@ -154,19 +159,31 @@ public final class NameBudget implements Serializable {
     }
 
     private boolean isDue(long now) {
-        return now - readAt >= READ_EVERY;
+        return now >= nextReading;
     }
 
-    private void read(long now) throws IOException {
+    /** A reading that takes long is not made often, and of one that fails the one before still counts. */
+    private void readAgain(long now) {
+        long began = System.nanoTime();
+        try {
+            read();
+        } catch (IOException e) {
+            LOG.warn("missions and domains could not be read again", e);
+        }
+        long took = TimeUnit.NANOSECONDS.toMillis(System.nanoTime() - began);
+        nextReading = now + took + Math.max(READ_EVERY, READ_SHARE * took);
+    }
+
+    private void read() throws IOException {
         domains = read(domainsTopic);
         missions = read(missionsTopic);
         others = topics.read().stream()
-                .filter(topic -> ROUTE.matcher(topic).matches())
+                .filter(topic -> ROUTE.matcher(topic).matches()
+                        && Topics.ofDeadLetters(topic).isEmpty())
                 .collect(Collectors.toCollection(HashSet::new));
         admitted.removeAll(others);
         domains.keySet().forEach(domain -> others.remove(Topics.realtime(domain)));
         missions.forEach((mission, managed) -> others.remove(Topics.realtime(managed.domain(), mission)));
-        readAt = now;
     }
 
     private static Map<String, Managed> read(TopicSnapshot topic) throws IOException {

@@ -197,8 +197,8 @@ class AssignMissionTest {
                 .satisfies(letter -> assertThat(letter.headers())
                         .containsEntry(
                                 "dead-message",
-                                "domain home is not known, and 20 topics are there of names that are not known; delete those that are"
-                                        + " of no more use, or see --other-names"));
+                                "domain home is not known, and 20 names that are not known are in use; delete topics that are of no more"
+                                        + " use, or see --other-names"));
 
         topics.clear();
         operator.setProcessingTime(2_000);

@@ -44,8 +44,8 @@ public record NotificationRules(String name, List<Pattern> excluded, EventTimeRu
     }
 
     /**
-     * The scope of an entity of a notification. Its service path is the one that the context broker reports with it, or else that of the
-     * header, which has one path for all entities, or one for each in their order.
+     * The scope of an entity of a notification. Its service path is that of the header; where the header has several, the one that the
+     * context broker reports with the entity, or else one for each entity in their order.
      *
      * @param index of the entity among those that could be read
      * @param headers the scope of the headers
@@ -53,6 +53,9 @@ public record NotificationRules(String name, List<Pattern> excluded, EventTimeRu
      */
     public static FiwareScope scope(Notification notification, int index, FiwareScope headers)
             throws UnreadableException {
+        if (headers.servicePath().indexOf(',') < 0) {
+            return headers;
+        }
         Optional<String> reported = notification
                 .entities()
                 .get(index)
@@ -60,9 +63,6 @@ public record NotificationRules(String name, List<Pattern> excluded, EventTimeRu
                 .filter(path -> PATH.matcher(path).matches());
         if (reported.isPresent()) {
             return FiwareScope.of(headers.service(), reported.get());
-        }
-        if (headers.servicePath().indexOf(',') < 0) {
-            return headers;
         }
         String[] paths = headers.servicePath().split(",", -1);
         int place = notification.places().get(index);

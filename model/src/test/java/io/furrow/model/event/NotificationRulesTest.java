@@ -64,8 +64,8 @@ class NotificationRulesTest {
             /a,/b  | {'id':'a'},{'id':'b'},{'id':'c'}                       | - - -
             /a,/b  | {'id':'a','servicePath':{'type':'Text','value':'/t'}},{'id':'b'} | /t /b
             /a,/b  | {'id':'a','servicePath':{'type':'Text','value':'/t'}}  | /t
-            /n     | {'id':'a','servicePath':{'type':'Text','value':'/t'}}  | /t
-            /n     | {'id':'a','servicePath':{'type':'Text','value':'no path'}} | /n
+            /n     | {'id':'a','servicePath':{'type':'Text','value':'/t'}}  | /n
+            /a,/b  | {'id':'a','servicePath':{'type':'Text','value':'no path'}},{'id':'b'} | /a /b
             """)
     void givesEachEntityItsServicePath(String header, String entities, String paths) throws Exception {
         Notification notification =

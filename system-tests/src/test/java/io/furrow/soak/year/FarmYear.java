@@ -34,9 +34,9 @@ public final class FarmYear {
     private static final int KEPT_DAYS = 7;
     private static final Duration DAY = Duration.ofSeconds(10);
     /** Until the jobs know a mission's devices. */
-    private static final Duration KNOWN = Duration.ofMillis(1_500);
+    private static final Duration KNOWN = Duration.ofSeconds(2);
 
-    private static final Duration WORK = Duration.ofSeconds(6);
+    private static final Duration WORK = Duration.ofSeconds(5);
     private static final Duration TIMEOUT = Duration.ofMinutes(1);
     private static final Duration SETTLED = Duration.ofSeconds(12);
     private static final double MAX_GROWTH = 1.2;

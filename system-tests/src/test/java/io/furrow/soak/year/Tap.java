@@ -51,10 +51,11 @@ final class Tap implements AutoCloseable {
             int status = Http.send("POST", to, body, headers(exchange)).join().status();
             if (status / 100 == 2) {
                 long now = System.currentTimeMillis();
-                NgsiJson.mapper()
-                        .readTree(body)
-                        .path("data")
-                        .forEach(entity -> acknowledged.putIfAbsent(Report.of(entity), now));
+                for (JsonNode entity : NgsiJson.mapper().readTree(body).path("data")) {
+                    if (entity.at("/Time/value").isNumber()) { // of a device, and no result of our own
+                        acknowledged.putIfAbsent(Report.of(entity), now);
+                    }
+                }
             }
             if (status > 0) { // else it gets no answer either
                 exchange.sendResponseHeaders(status, -1);

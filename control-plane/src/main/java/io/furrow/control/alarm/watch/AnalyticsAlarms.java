@@ -89,7 +89,7 @@ public final class AnalyticsAlarms {
             return (record, now) -> {
                 if (record.key() != null && record.value() != null) {
                     String text = Fault.read(record.value()).text();
-                    alarms.raise(new Cause(AlarmKind.FAULT, record.key(), text, List.of(), FAULT_HOLDS), now);
+                    alarms.raiseReworded(new Cause(AlarmKind.FAULT, record.key(), text, List.of(), FAULT_HOLDS), now);
                 }
             };
         };

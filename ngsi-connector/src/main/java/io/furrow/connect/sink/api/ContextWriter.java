@@ -168,7 +168,6 @@ public final class ContextWriter implements AutoCloseable {
                     String words = outcome instanceof Outcome.Refused refusal ? refusal.words() : outcome.toString();
                     Change newest = written.changes().get(written.changes().size() - 1);
                     fates.refused.add(new RefusedChange(newest, "'%s' keeps its value: %s".formatted(name, words)));
-                    return;
                 }
             }
         }
