@@ -62,8 +62,12 @@ final class Accounts {
         cuts.add(time);
     }
 
-    /** Of what was acknowledged since the last time. */
-    void settle(String when, List<DayMission> missions, long until) throws UnreadableException {
+    /**
+     * Of what was acknowledged since the last time.
+     *
+     * @param once whether nothing was killed, after which jobs that deliver at least once write some records again
+     */
+    void settle(String when, List<DayMission> missions, long until, boolean once) throws UnreadableException {
         List<Report> acknowledged = farm.tap().acknowledged().entrySet().stream()
                 .filter(each -> each.getValue() >= from && each.getValue() < until)
                 .map(Map.Entry::getKey)
@@ -81,9 +85,9 @@ final class Accounts {
                         .filter(each -> !raw.containsKey(each))
                         .map(Report::toString)
                         .toList());
-        onMissions(when, missions, acknowledged);
+        onMissions(when, missions, acknowledged, once);
         encounters(when, until);
-        raw.clear();
+        acknowledged.forEach(raw::remove);
         from = until;
     }
 
@@ -103,14 +107,17 @@ final class Accounts {
         Map<TopicPartition, Long> ends = consumer.endOffsets(consumer.assignment());
         while (ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
             for (ConsumerRecord<byte[], byte[]> record : consumer.poll(Duration.ofMillis(100))) {
-                if (record.value() != null) {
-                    into.merge(Report.of(Entity.parse(record.value()).json()), 1, Integer::sum);
+                Report report = record.value() == null
+                        ? null
+                        : Report.of(Entity.parse(record.value()).json());
+                if (report != null && report.time() > 0) { // of a device
+                    into.merge(report, 1, Integer::sum);
                 }
             }
         }
     }
 
-    private void onMissions(String when, List<DayMission> missions, List<Report> acknowledged)
+    private void onMissions(String when, List<DayMission> missions, List<Report> acknowledged, boolean once)
             throws UnreadableException {
         List<String> onTopics = new ArrayList<>();
         List<String> inMongo = new ArrayList<>();
@@ -142,7 +149,7 @@ final class Accounts {
                         expected++;
                         if (!topic.containsKey(report) && isUnsynced(report)) {
                             unsynced++;
-                        } else if (topic.getOrDefault(report, 0) != 1) {
+                        } else if (topic.getOrDefault(report, 0) == 0 || once && topic.get(report) > 1) {
                             onTopics.add("%d times on the topic of %s: %s"
                                     .formatted(topic.getOrDefault(report, 0), mission.name(), report));
                         }
@@ -156,8 +163,8 @@ final class Accounts {
         }
         verdicts.add(
                 "reports on their missions' topics, " + when,
-                "%d reports of %d missions, each once; %d of the last second before a power cut are missing"
-                        .formatted(expected, missions.size(), unsynced),
+                "%d reports of %d missions, each %s; %d of the last second before a power cut are missing"
+                        .formatted(expected, missions.size(), once ? "once" : "there", unsynced),
                 onTopics);
         verdicts.add("reports in MongoDB, " + when, "%d reports, each once".formatted(expected), inMongo);
     }

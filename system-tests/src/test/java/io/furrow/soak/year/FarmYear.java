@@ -166,7 +166,7 @@ public final class FarmYear {
         long until = System.currentTimeMillis();
         end(missions, until);
         Thread.sleep(SETTLED.toMillis());
-        accounts.settle("week %d (%s)".formatted(week, end), ofTheWeek, until);
+        accounts.settle("week %d (%s)".formatted(week, end), ofTheWeek, until, end.equals("restart"));
         ofTheWeek = new ArrayList<>();
         Map<String, Double> footprint = Footprint.of(farm, startSeconds);
         footprints.put(week, footprint);
