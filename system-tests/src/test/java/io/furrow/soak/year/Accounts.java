@@ -183,7 +183,7 @@ final class Accounts {
             results = log.read(QUIET);
         }
         List<ProgramEvent> told = fleet.tractors().entrySet().stream()
-                .filter(each -> farm.tap().acknowledged().containsKey(each.getKey()) && !late.contains(each.getKey()))
+                .filter(each -> isTaken(each.getKey()) && !late.contains(each.getKey()))
                 .map(Map.Entry::getValue)
                 .sorted(java.util.Comparator.comparingLong(ProgramEvent::time))
                 .toList();
@@ -193,6 +193,11 @@ final class Accounts {
         expected.stream().filter(each -> !found.contains(each)).forEach(each -> differences.add("missing: " + each));
         found.stream().filter(each -> !expected.contains(each)).forEach(each -> differences.add("too many: " + each));
         verdicts.add("encounters, " + when, expected.size() + " encounters", List.copyOf(differences));
+    }
+
+    /** Also what was stored when the answer to it was lost. */
+    private boolean isTaken(Report report) {
+        return farm.tap().acknowledged().containsKey(report) || raw.containsKey(report);
     }
 
     private KafkaConsumer<byte[], byte[]> consumer() {
