@@ -152,7 +152,7 @@ class CardsIT {
     void saysWhyACommandWasNotSent(PageSuite suite) throws Exception {
         String lost = "urn:ngsi-ld:Robot:lost";
         suite.produce("data.raw", lost, robot(lost, "Running", Instant.now()));
-        FarmPage farm = suite.open("").expectingError("status of 502.*commands");
+        FarmPage farm = suite.open("").expectingError("status of 404.*commands");
         Locator card = farm.card(lost);
         card.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
 
