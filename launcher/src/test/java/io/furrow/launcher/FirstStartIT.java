@@ -59,8 +59,9 @@ class FirstStartIT {
         Ended second = furrow("demo");
 
         assertThat(first.status()).as(first.err()).isZero();
-        assertThat(first.out()).contains("Building Furrow", "io.furrow.launcher.Furrow demo");
-        assertThat(second.out()).doesNotContain("Building Furrow").contains("io.furrow.launcher.Furrow demo");
+        assertThat(first.err()).contains("Building Furrow", "Built in").doesNotContain("\r");
+        assertThat(first.out()).isEqualTo(second.out()).contains("io.furrow.launcher.Furrow demo");
+        assertThat(second.err()).doesNotContain("Building Furrow");
         assertThat(home.resolve("builds")).hasContent("called");
     }
 
@@ -145,6 +146,7 @@ class FirstStartIT {
     void takesASupportedJavaInSilence(String version) throws Exception {
         java(version);
 
+        assertThat(furrow("demo").err()).doesNotContain("Java");
         assertThat(furrow("demo").err()).isEmpty();
     }
 
@@ -174,7 +176,7 @@ class FirstStartIT {
         await().atMost(TIMEOUT).until(() -> Files.exists(home.resolve("builds")));
         Process second = start(home.resolve("furrow"), "two", "demo");
         await().atMost(TIMEOUT)
-                .until(() -> Files.readString(directory.resolve("two.out")).contains("Another start builds Furrow"));
+                .until(() -> Files.readString(directory.resolve("two.err")).contains("Another start builds Furrow"));
 
         Files.createFile(go);
 
@@ -199,7 +201,7 @@ class FirstStartIT {
         Ended ended = furrow("demo");
 
         assertThat(ended.status()).as(ended.err()).isZero();
-        assertThat(ended.out()).doesNotContain("Another start builds Furrow");
+        assertThat(ended.err()).doesNotContain("Another start builds Furrow");
     }
 
     @Test
@@ -218,7 +220,7 @@ class FirstStartIT {
                 .until(() ->
                         ProcessHandle.of(maven).filter(ProcessHandle::isAlive).isEmpty());
         program(home.resolve("mvnw"), BUILDS);
-        assertThat(furrow("demo").out()).doesNotContain("Another start builds Furrow");
+        assertThat(furrow("demo").err()).doesNotContain("Another start builds Furrow");
     }
 
     private Ended furrow(String... words) throws Exception {
