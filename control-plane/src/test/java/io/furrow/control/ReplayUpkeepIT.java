@@ -10,9 +10,11 @@ import java.time.ZoneOffset;
 import java.util.ArrayList;
 import java.util.Date;
 import java.util.List;
+import java.util.Map;
 import java.util.Properties;
 import java.util.Set;
 import java.util.concurrent.atomic.AtomicReference;
+import java.util.stream.IntStream;
 import java.util.stream.Stream;
 
 import com.mongodb.client.MongoClients;
@@ -21,6 +23,14 @@ import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.acl.AccessControlEntry;
+import org.apache.kafka.common.acl.AclBinding;
+import org.apache.kafka.common.acl.AclBindingFilter;
+import org.apache.kafka.common.acl.AclOperation;
+import org.apache.kafka.common.acl.AclPermissionType;
+import org.apache.kafka.common.resource.PatternType;
+import org.apache.kafka.common.resource.ResourcePattern;
+import org.apache.kafka.common.resource.ResourceType;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.bson.Document;
@@ -58,7 +68,14 @@ class ReplayUpkeepIT {
 
     @BeforeEach
     void start(@TempDir Path directory) throws Exception {
-        kafka = opened(EmbeddedKafka.start(directory.resolve("kafka")));
+        kafka = opened(EmbeddedKafka.start(
+                directory.resolve("kafka"),
+                0,
+                Map.of(
+                        "authorizer.class.name",
+                        "org.apache.kafka.metadata.authorizer.StandardAuthorizer",
+                        "allow.everyone.if.no.acl.found",
+                        "true")));
         client = new Properties();
         client.setProperty("bootstrap.servers", kafka.bootstrapServers());
         client.setProperty("state.dir", directory.resolve("state").toString());
@@ -207,6 +224,49 @@ class ReplayUpkeepIT {
                         "data.farm.realtime.sowing",
                         "data.farm.realtime.played",
                         "data.farm.realtime.own");
+    }
+
+    @Test
+    void deletesWhatItMayWhereItMayNotDeleteAnother() throws Exception {
+        List<String> guarded = IntStream.range(0, 8)
+                .mapToObj(number -> "data.farm.realtime.guarded-" + number)
+                .toList();
+        String free = "data.farm.realtime.weeding";
+        kafka.createTopics(Stream.concat(guarded.stream(), Stream.of(free, Topics.dead(free)))
+                .map(name -> new NewTopic(name, 1, (short) 1))
+                .toList());
+        admin.createAcls(guarded.stream()
+                        .flatMap(topic -> Stream.of(
+                                acl(topic, AclOperation.ALL, AclPermissionType.ALLOW),
+                                acl(topic, AclOperation.DELETE, AclPermissionType.DENY)))
+                        .toList())
+                .all()
+                .get();
+        for (String topic : Stream.concat(guarded.stream(), Stream.of(free)).toList()) {
+            String mission = topic.substring(topic.lastIndexOf('.') + 1);
+            send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(StandardCharsets.UTF_8));
+            send(Topics.MISSIONS, mission, null);
+        }
+
+        AtomicReference<Instant> clock = new AtomicReference<>(Instant.now().plus(Duration.ofDays(2)));
+        InstantSource time = clock::get;
+        TopicCleanup cleanup = opened(TopicCleanup.start(
+                client, ReplaySettings.DEFAULT.withGrace(Duration.ofSeconds(1)), time.withZone(ZoneOffset.UTC)));
+        await().until(() -> cleanup.status().lastSuccess() != null);
+        clock.set(clock.get().plus(Duration.ofMinutes(15)));
+
+        await().until(() -> !names().contains(free) && !names().contains(Topics.dead(free)));
+        assertThat(names()).containsAll(guarded);
+        await().until(() -> cleanup.status().detail().contains("topic data.farm.realtime.guarded-"));
+        admin.deleteAcls(List.of(AclBindingFilter.ANY)).all().get();
+        clock.set(clock.get().plus(Duration.ofMinutes(10)));
+        await().until(() -> names().stream().noneMatch(guarded::contains));
+    }
+
+    private static AclBinding acl(String topic, AclOperation operation, AclPermissionType permission) {
+        return new AclBinding(
+                new ResourcePattern(ResourceType.TOPIC, topic, PatternType.LITERAL),
+                new AccessControlEntry("User:ANONYMOUS", "*", operation, permission));
     }
 
     private Set<String> names() throws Exception {

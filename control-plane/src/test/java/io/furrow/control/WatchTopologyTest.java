@@ -97,7 +97,8 @@ class WatchTopologyTest {
         farm.pass(Duration.ofSeconds(1));
         JsonNode closed = farm.newest(Topics.ALARMS);
         assertThat(closed.path("state").asText()).isEqualTo("closed");
-        assertThat(closed.path("reason").asText()).isEqualTo("the encounter has ended, or is not reported any more");
+        assertThat(closed.path("reason").asText())
+                .isEqualTo("the encounter has ended, and the pair has had no other since");
     }
 
     /** Devices at the border of what is close: whoever is notified of alarms hears of one. */
@@ -215,7 +216,10 @@ class WatchTopologyTest {
         farm.pass(Duration.ofMinutes(50));
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("open");
         farm.pass(Duration.ofMinutes(11));
-        assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
+        JsonNode closed = farm.newest(Topics.ALARMS);
+        assertThat(closed.path("state").asText()).isEqualTo("closed");
+        assertThat(closed.path("reason").asText())
+                .isEqualTo("nothing was reported of the encounter for 60 min, not its end either");
     }
 
     @Test

@@ -65,7 +65,12 @@ public final class IngestJob {
                                 new AssignMission(
                                         in.devicesAtStart(),
                                         options.assignment(),
-                                        new NameBudget(in.domains(), in.missions(), in.topics(), options.otherNames())),
+                                        new NameBudget(
+                                                in.domains(),
+                                                in.missions(),
+                                                in.topics(),
+                                                options.writesRoutes(),
+                                                options.otherNames())),
                                 List.of(AssignMission.DEVICES)))
                 .uid("assign-domain-and-mission");
 

@@ -67,8 +67,9 @@ public final class IngestOptions extends JobOptions {
             defaultValue = "300",
             description =
                     "How many topics there may be of domains and missions that are not on service.domains and service.missions:"
-                            + " each has partitions and a collection that stay. A further name is a dead letter, unknown-mission, and"
-                            + " its event goes on without it. Default: ${DEFAULT-VALUE}.")
+                            + " each has partitions and a collection that stay. As many names that get no topic, of an event without"
+                            + " a domain or with --no-routes, are taken from one start to the next. A further name is a dead letter,"
+                            + " unknown-mission, and its event goes on without it. Default: ${DEFAULT-VALUE}.")
     private int otherNames;
 
     @Option(
@@ -236,7 +237,7 @@ public final class IngestOptions extends JobOptions {
                 deviceHistory, defaultDomain().orElse(""), defaultMission().orElse(""));
     }
 
-    /** Of domains and missions, per subtask and hour. */
+    /** Topics of domains and missions that the control plane does not know. */
     int otherNames() {
         if (otherNames < 0) {
             throw refused("--other-names " + otherNames + " is below 0", null);

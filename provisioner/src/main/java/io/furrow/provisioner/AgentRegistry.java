@@ -162,7 +162,7 @@ final class AgentRegistry {
         }
         if (there != null && !there.mission().equals(device.mission()) && !removals.allows(there)) {
             throw new RefusedByAgentException(
-                    "the IoT Agent has '%s' as a device of mission '%s', of which this Kafka knows nothing; check --kafka, or give this one another id"
+                    "the IoT Agent has '%s' as a device of mission '%s', of which this Kafka knows nothing; check --kafka, give this one another id, or move it by a start with --forget-devices"
                             .formatted(device.device(), there.mission()));
         }
         Group group = agent.groupOf(device);

@@ -31,6 +31,8 @@ final class Provisioning {
     private static final Logger LOG = LoggerFactory.getLogger(Provisioning.class);
     /** With a request that takes its ten seconds at the end this is far from the consumer's {@code max.poll.interval.ms}. */
     static final Duration STEP = Duration.ofSeconds(5);
+    /** One answer of the agent proves nothing: while it starts it may say that it has no devices. */
+    static final Duration AGREEMENT = Duration.ofSeconds(10);
 
     private final AgentClient agent;
     private final Registrations registrations;
@@ -49,6 +51,10 @@ final class Provisioning {
     private Removals.Origin origin = Removals.Origin.UNKNOWN;
     private boolean started;
     private boolean settled;
+    /** When the agent was last asked, by {@link #nanos}. */
+    private long asked;
+    /** Since when all that the agent says that it has is wanted, by {@link #nanos}; null while it is not so. */
+    private Long agreed;
 
     Provisioning(ProvisioningSettings settings, WantedDevices wanted, LongSupplier nanos) {
         this.agent = new AgentClient(settings.agent());
@@ -72,6 +78,7 @@ final class Provisioning {
 
     /** Asks the agent again before the next step, and offers it again what it has refused. */
     void lookAgain() {
+        asked = nanos.getAsLong();
         registries.clear();
         held.clear();
         accounts.retryRefused();
@@ -95,6 +102,7 @@ final class Provisioning {
             removals.startAnew(forgets || same);
             started = true;
             settled = false;
+            agreed = null;
         }
         removals.wanted(wanted.all().values());
     }
@@ -150,15 +158,22 @@ final class Provisioning {
         }
         Kept kept = new Kept(accounts.kept(), keptDevices, keptGroups);
         boolean done = added && removed;
-        if (done
-                && kept.isEmpty()
-                && !there.isEmpty()
-                && !settled) { // an agent that has nothing says nothing of this Kafka
+        if (!kept.isEmpty()) {
+            agreed = null;
+        } else if (done && !there.isEmpty()) { // an agent that has nothing says nothing of this Kafka
+            settle();
+        }
+        return new Outcome(refused, stuck, kept.isEmpty() ? null : kept, done);
+    }
+
+    private void settle() throws IOException {
+        if (agreed == null) {
+            agreed = nanos.getAsLong();
+        } else if (!settled && asked - agreed >= AGREEMENT.toNanos()) {
             accounts.noteOrigin(origin.topic());
             removals.allowAll();
             settled = true;
         }
-        return new Outcome(refused, stuck, kept.isEmpty() ? null : kept, done);
     }
 
     /** Keys of the devices that the agent had at the last step; null before the first. */

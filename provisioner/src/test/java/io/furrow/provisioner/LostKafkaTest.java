@@ -23,6 +23,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 /** A Kafka that is empty, or not the one for which devices were provisioned. */
 class LostKafkaTest extends ProvisioningFixture {
     private static final Origin EMPTY = new Origin("topic-2", false);
+    /** What an agent may answer while it starts. */
+    private static final String NOTHING = "{'count':0,'devices':[],'services':[]}".replace('\'', '"');
 
     @TempDir
     Path directory;
@@ -91,7 +93,8 @@ class LostKafkaTest extends ProvisioningFixture {
 
         for (int steps = 0; steps < 3; steps++) {
             Outcome outcome = provisioning.step();
-            assertThat(outcome.refused().get(moved.version().key())).contains("of mission 'hoeing'", "check --kafka");
+            assertThat(outcome.refused().get(moved.version().key()))
+                    .contains("of mission 'hoeing'", "check --kafka", "--forget-devices");
             assertThat(outcome.kept().devices()).containsExactly(id);
             provisioning.lookAgain();
         }
@@ -102,13 +105,52 @@ class LostKafkaTest extends ProvisioningFixture {
     void isTheFarmsAgainOnceItWantsAllThatIsThere() throws Exception {
         provisionTen();
         wantTen();
-        assertThat(provisioning(files(false), EMPTY).step()).isEqualTo(DONE);
+        provisioning = provisioning(files(false), EMPTY);
+        assertThat(provisioning.step()).isEqualTo(DONE);
+        assertThat(Files.readString(passwords())).as("after one answer").doesNotContain("the topic topic-2");
+        askLater();
+        assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(Files.readString(passwords())).contains("the topic topic-2").doesNotContain("topic-1");
 
         wanted.clear();
         assertThat(provisioning(files(false), EMPTY).step()).isEqualTo(DONE);
         assertThat(users()).isEmpty();
         assertThat(agent.deviceIds()).isEmpty();
+    }
+
+    @Test
+    void takesNoLoginAwayWhereTheAgentSaysThatItHasNothing() throws Exception {
+        provisionTen();
+        wantTen();
+        agent.garbage = NOTHING;
+        provisioning = provisioning(files(false), SAME);
+
+        for (int answers = 0; answers < 3; answers++) {
+            assertThat(provisioning.step().refused()).hasSize(10);
+            assertThat(users()).hasSize(10);
+            askLater();
+        }
+        agent.garbage = null;
+
+        assertThat(provisioning.step()).isEqualTo(DONE);
+        assertThat(users()).hasSize(10);
+        assertThat(agent.deviceIds()).hasSize(10);
+    }
+
+    @Test
+    void takesNoEmptyAnswerOfTheAgentForAllThatItHas() throws Exception {
+        provisionTen();
+        want(Wanted.thermometer("weeding", 1));
+        provisioning = provisioning(settings(SecretSource.of(Wanted.SECRET), false), EMPTY);
+        agent.garbage = NOTHING;
+        assertThat(provisioning.step()).isEqualTo(DONE);
+
+        agent.garbage = null;
+        for (int answers = 0; answers < 3; answers++) {
+            askLater();
+            assertThat(provisioning.step().kept().devices()).hasSize(10);
+        }
+        assertThat(agent.deviceIds()).hasSize(11);
     }
 
     @Test
@@ -181,6 +223,8 @@ class LostKafkaTest extends ProvisioningFixture {
     private void provisionTen() throws Exception {
         wantTen();
         provisioning = provisioning(files(false), SAME);
+        assertThat(provisioning.step()).isEqualTo(DONE);
+        askLater();
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(users()).hasSize(10);
         wanted.clear();

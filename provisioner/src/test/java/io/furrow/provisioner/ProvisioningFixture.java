@@ -9,6 +9,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Properties;
 import java.util.Set;
+import java.util.concurrent.atomic.AtomicLong;
 import java.util.function.Predicate;
 import java.util.stream.Collectors;
 
@@ -37,6 +38,9 @@ abstract class ProvisioningFixture {
     final List<Integer> counts = new ArrayList<>();
 
     final Map<String, String> refused = new HashMap<>();
+    /** How much later it is than by the clock. */
+    final AtomicLong passed = new AtomicLong();
+
     FakeAgent agent;
     Provisioning provisioning;
 
@@ -56,7 +60,7 @@ abstract class ProvisioningFixture {
     }
 
     Provisioning provisioning(ProvisioningSettings settings, Removals.Origin origin) {
-        Provisioning begun = new Provisioning(settings, wanted, System::nanoTime);
+        Provisioning begun = new Provisioning(settings, wanted, () -> System.nanoTime() + passed.get());
         begun.startAnew(origin);
         return begun;
     }
@@ -73,6 +77,12 @@ abstract class ProvisioningFixture {
 
     void want(WantedDevice device) {
         wanted.take(device.version().key(), device);
+    }
+
+    /** The next step asks the agent again, so late that an answer as before counts. */
+    void askLater() {
+        passed.addAndGet(Provisioning.AGREEMENT.toNanos());
+        provisioning.lookAgain();
     }
 
     boolean knows(FarmSecret.Login login) {

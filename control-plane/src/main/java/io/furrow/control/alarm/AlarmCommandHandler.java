@@ -26,6 +26,12 @@ import io.furrow.model.topic.Topics;
  * {@value #MAX_CLOSED} newest, then removed.
  */
 public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
+    /**
+     * How long a collision lasts without a record of its encounter: many times the interval of those of an ongoing one, which its
+     * devices' time-to-live limits.
+     */
+    public static final Duration COLLISION_HOLDS = Duration.ofHours(1);
+
     static final Duration CLOSED_KEPT = Duration.ofDays(1);
     static final int MAX_CLOSED = 10_000;
 

@@ -76,12 +76,20 @@ final class AlarmLife {
             return alarm;
         }
         if (alarm.until() != null && alarm.until() <= now) {
-            String reason = alarm.kind() == AlarmKind.COLLISION
-                    ? "the encounter has ended, or is not reported any more"
-                    : "its cause was no longer observed";
-            return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), reason, now);
+            return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), expired(alarm), now);
         }
         return alarm.mutedUntil() != null && alarm.mutedUntil() <= now ? alarm.muted(null, now) : alarm;
+    }
+
+    /** The report of its end lets a collision expire at another time than its other reports. */
+    private static String expired(Alarm alarm) {
+        if (alarm.kind() != AlarmKind.COLLISION || alarm.seen() == null) {
+            return "its cause was no longer observed";
+        }
+        Duration holds = AlarmCommandHandler.COLLISION_HOLDS;
+        return alarm.until() - alarm.seen() == holds.toMillis()
+                ? "nothing was reported of the encounter for %d min, not its end either".formatted(holds.toMinutes())
+                : "the encounter has ended, and the pair has had no other since";
     }
 
     private static RefusedException wrongState(Alarm alarm) {

@@ -29,14 +29,15 @@ import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.CommittedReader.RecordAction;
 import io.furrow.kafka.PartStatus;
 import io.furrow.kafka.RestartingWorker;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 import static java.util.stream.Collectors.toMap;
 
 /**
  * Deletes the topic of a replay, and those of what was found in it, a grace period after the replay was over, then its status; and the
- * topic of a mission or domain a day after it was deleted, where nothing of the last day is in it, nothing was written lately and no
- * replay reads it. Several instances may do so.
+ * topic of a mission or domain, with its dead letters, a day after it was deleted, where nothing of the last day is in it, nothing was
+ * written lately and no replay reads it. A topic that cannot be deleted is tried again later and keeps no other. Several instances may do so.
  */
 public final class TopicCleanup implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(TopicCleanup.class);
@@ -46,6 +47,8 @@ public final class TopicCleanup implements AutoCloseable {
     private static final Duration GRACE_OF_MISSIONS = Duration.ofDays(1);
     /** A job asks after minutes of quiet whether a topic is there still, before it writes what a device had kept for long. */
     private static final long QUIET_MILLIS = Duration.ofMinutes(15).toMillis();
+    /** One that a broker does not answer for takes a minute. */
+    private static final Duration RETRY = Duration.ofMinutes(10);
 
     private final Properties client;
     private final Duration grace;
@@ -53,6 +56,8 @@ public final class TopicCleanup implements AutoCloseable {
     private final RestartingWorker worker;
     /** What the topics that are due held when that last changed. */
     private final Map<String, Content> contents = new HashMap<>();
+    /** When those that could not be deleted are tried again, epoch ms. */
+    private final Map<String, Long> retries = new HashMap<>();
 
     private volatile long deleted;
 
@@ -88,17 +93,42 @@ public final class TopicCleanup implements AutoCloseable {
             while (!running.isClosing()) {
                 topics.readToEnd(taking);
                 for (FinishedReplays.Remains due : remains.overBy(clock.millis() - grace.toMillis())) {
-                    topics.readToEnd(taking); // it may be wanted again since
-                    if (remains.overBy(clock.millis() - grace.toMillis()).contains(due)) {
-                        remove(due, admin, producer);
-                    }
+                    attempt(due.topic(), () -> {
+                        topics.readToEnd(taking); // it may be wanted again since
+                        if (remains.overBy(clock.millis() - grace.toMillis()).contains(due)) {
+                            remove(due, admin, producer);
+                        }
+                    });
                 }
                 removeMissions(names, remains, admin, () -> topics.readToEnd(taking));
                 running.succeeded();
                 running.pause(interval());
             }
         } catch (ExecutionException e) {
-            throw new KafkaException("topics of replays and missions cannot be deleted", e.getCause());
+            throw new KafkaException("Kafka does not say which topics there are", e.getCause());
+        }
+    }
+
+    /** A deletion. */
+    private interface Removal {
+        void run() throws ExecutionException, InterruptedException;
+    }
+
+    private void attempt(String topic, Removal removal) throws InterruptedException {
+        if (clock.millis() < retries.getOrDefault(topic, Long.MIN_VALUE)) {
+            return;
+        }
+        try {
+            removal.run();
+            retries.remove(topic);
+        } catch (ExecutionException e) {
+            retries.put(topic, clock.millis() + RETRY.toMillis());
+            worker.failed("topic %s cannot be deleted (%s)".formatted(topic, FailureText.of(e.getCause())));
+            LOG.warn(
+                    "topic {} cannot be deleted, and is tried again in {} min; does its broker respond, and may this user delete it?",
+                    topic,
+                    RETRY.toMinutes(),
+                    e.getCause());
         }
     }
 
@@ -128,28 +158,35 @@ public final class TopicCleanup implements AutoCloseable {
     /** @param refresh reads what was asked for since */
     private void removeMissions(DeletedNames names, FinishedReplays replays, Admin admin, Runnable refresh)
             throws ExecutionException, InterruptedException {
+        if (names.lackDomains()) {
+            names.find(admin.listTopics().names().get());
+        }
         long moment = clock.millis() - GRACE_OF_MISSIONS.toMillis();
         List<String> due = names.by(moment);
         Set<String> there =
                 due.isEmpty() ? Set.of() : admin.listTopics().names().get();
         for (String topic : due) {
-            boolean exists = there.contains(topic);
-            if (exists && (replays.isUsed(topic) || !isQuiet(topic, moment, admin))) {
-                continue;
-            }
-            refresh.run();
-            if (replays.isUsed(topic) || !names.by(moment).contains(topic)) { // it is wanted again
-                continue;
-            }
-            if (exists) {
-                delete(List.of(topic), admin);
-                LOG.info(
-                        "what {} belonged to was deleted more than {} ago; deleted the topic",
-                        topic,
-                        GRACE_OF_MISSIONS);
-            }
-            names.forget(topic);
-            contents.remove(topic);
+            attempt(topic, () -> {
+                if (there.contains(topic) && (replays.isUsed(topic) || !isQuiet(topic, moment, admin))) {
+                    return;
+                }
+                refresh.run();
+                if (!replays.isUsed(topic) && names.by(moment).contains(topic)) { // else it is wanted again
+                    removeMission(topic, there, admin);
+                    names.forget(topic);
+                    contents.remove(topic);
+                }
+            });
+        }
+    }
+
+    private void removeMission(String topic, Set<String> there, Admin admin)
+            throws ExecutionException, InterruptedException {
+        List<String> all =
+                Stream.of(topic, Topics.dead(topic)).filter(there::contains).toList();
+        if (!all.isEmpty()) {
+            delete(all, admin);
+            LOG.info("what {} belonged to was deleted more than {} ago; deleted {}", topic, GRACE_OF_MISSIONS, all);
         }
     }
 

@@ -2,6 +2,7 @@ package io.furrow.control.replay;
 
 import java.nio.charset.StandardCharsets;
 import java.util.Optional;
+import java.util.Set;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.internals.RecordHeaders;
@@ -31,15 +32,35 @@ class DeletedNamesTest {
     }
 
     @Test
-    void haveNoneOfAMissionThatWasMadeAnewOrWhoseDomainNobodyKnows() {
+    void haveNoneOfAMissionThatWasMadeAnew() {
         take(Topics.MISSIONS, "weeding", "{\"domain\":\"north\"}", 0);
         take(Topics.MISSIONS, "weeding", null, 100);
         take(Topics.MISSIONS, "weeding", "{\"domain\":\"north\"}", 200);
-        take(Topics.MISSIONS, "mowing", null, 100);
-        take(Topics.MISSIONS, "sowing", "no JSON", 0);
-        take(Topics.MISSIONS, "sowing", null, 100);
 
         assertThat(names.by(1_000)).isEmpty();
+        assertThat(names.lackDomains()).isFalse();
+    }
+
+    @Test
+    void haveTheTopicsOfMissionsWhoseRecordIsCompactedAwayOrNotReadable() {
+        take(Topics.DOMAINS, "north", "{}", 0);
+        take(Topics.DOMAINS, "south", null, 0);
+        take(Topics.MISSIONS, "mowing", null, 100);
+        take(Topics.MISSIONS, "sowing", "no JSON", 0);
+        take(Topics.MISSIONS, "sowing", null, 200);
+        take(Topics.MISSIONS, "weeding", null, 100);
+        take(Topics.MISSIONS, "weeding", "{\"domain\":\"north\"}", 200);
+
+        assertThat(names.lackDomains()).isTrue();
+        names.find(Set.of(
+                "data.south.realtime.mowing",
+                "data.north.realtime.sowing",
+                "data.north.realtime.weeding",
+                "data.of-others.realtime.mowing"));
+
+        assertThat(names.lackDomains()).isFalse();
+        assertThat(names.by(100)).containsExactlyInAnyOrder("data.south.realtime", "data.south.realtime.mowing");
+        assertThat(names.by(200)).contains("data.north.realtime.sowing").hasSize(3);
     }
 
     private void take(String topic, String key, String value, long timestamp) {

@@ -19,6 +19,7 @@ import io.furrow.flink.record.TopicRecord;
  * every record, so that what is late depends on the input alone. Static because the tasks run in this process.
  */
 final class Input {
+    static final String NAME = "Input";
     static final Gate GATE = new Gate();
 
     private static volatile List<JobCase.Arrival> arrivals;
@@ -42,7 +43,7 @@ final class Input {
                                 nth, job.arrivals().size(), new Gate.Limit<>(), TypeInformation.of(TopicRecord.class)),
                         WatermarkStrategy.<TopicRecord>forGenerator(context -> new AfterEachRecord(bound))
                                 .withTimestampAssigner((record, unused) -> record.timestamp()),
-                        "Input")
+                        NAME)
                 .setParallelism(1)
                 .uid("input")
                 .rebalance(); // chained at one parallelism only, it would lose what is on its way when rescaled

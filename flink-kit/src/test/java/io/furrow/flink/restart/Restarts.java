@@ -6,6 +6,7 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
@@ -15,6 +16,7 @@ import java.util.concurrent.Callable;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.TimeUnit;
 import java.util.function.LongFunction;
+import java.util.function.Predicate;
 import java.util.stream.Stream;
 
 import org.apache.flink.api.common.JobID;
@@ -26,7 +28,7 @@ import org.apache.flink.core.execution.RecoveryClaimMode;
 import org.apache.flink.core.execution.SavepointFormatType;
 import org.apache.flink.runtime.checkpoint.CheckpointException;
 import org.apache.flink.runtime.execution.ExecutionState;
-import org.apache.flink.runtime.executiongraph.AccessExecutionVertex;
+import org.apache.flink.runtime.executiongraph.AccessExecutionJobVertex;
 import org.apache.flink.runtime.jobgraph.SavepointRestoreSettings;
 import org.apache.flink.runtime.minicluster.MiniCluster;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
@@ -43,6 +45,8 @@ import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
 
+import static org.apache.flink.runtime.execution.ExecutionState.FINISHED;
+import static org.apache.flink.runtime.execution.ExecutionState.RUNNING;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**
@@ -57,6 +61,9 @@ public final class Restarts {
 
     /** Below the folder of the module. */
     private static final String STORED = "src/test/resources/stored-savepoints";
+
+    /** The names of sources begin with it. */
+    private static final String SOURCE = "Source: ";
 
     /** Of the newest cluster: closed with its cluster, a reporter sees nothing of another. */
     private static volatile InMemoryReporter metrics;
@@ -221,15 +228,24 @@ public final class Restarts {
 
     /** There is no checkpoint while a subtask still starts. A source that a job has beside its events may have ended. */
     private boolean isRunning(JobID run) throws Exception {
-        int subtasks = 0;
-        for (AccessExecutionVertex subtask : flink.getExecutionGraph(run).get().getAllExecutionVertices()) {
-            ExecutionState state = subtask.getExecutionState();
-            if (state != ExecutionState.RUNNING && state != ExecutionState.FINISHED) {
-                return false;
+        return subtasks(run, vertex -> true).allMatch(state -> state == RUNNING || state == FINISHED)
+                && subtasks(run, vertex -> true).findAny().isPresent(); // none while the job is being set up
+    }
+
+    private boolean hasOnlyItsInput(JobID run) throws Exception {
+        return subtasks(run, vertex -> vertex.startsWith(SOURCE) && !vertex.startsWith(SOURCE + Input.NAME))
+                .allMatch(state -> state == FINISHED);
+    }
+
+    private Stream<ExecutionState> subtasks(JobID run, Predicate<String> vertices) throws Exception {
+        List<ExecutionState> states = new ArrayList<>();
+        for (AccessExecutionJobVertex vertex :
+                flink.getExecutionGraph(run).get().getVerticesTopologically()) {
+            if (vertices.test(vertex.getName())) {
+                Stream.of(vertex.getTaskVertices()).forEach(subtask -> states.add(subtask.getExecutionState()));
             }
-            subtasks++;
         }
-        return subtasks > 0; // none while the job is being set up
+        return states.stream();
     }
 
     private void await(JobID run, Callable<Boolean> condition) {
@@ -249,9 +265,17 @@ public final class Restarts {
         }
     }
 
-    private String stop(JobID run) {
-        return taken(
-                () -> flink.stopWithSavepoint(run, folder.toUri().toString(), false, SavepointFormatType.CANONICAL));
+    /**
+     * One that fails has ended the input, and cannot be tried again. So checkpoints show before that all subtasks are ready for one, and
+     * let the sources end that have nothing more.
+     */
+    private String stop(JobID run) throws Exception {
+        await(run, () -> {
+            taken(() -> flink.triggerCheckpoint(run));
+            return hasOnlyItsInput(run);
+        });
+        return flink.stopWithSavepoint(run, folder.toUri().toString(), false, SavepointFormatType.CANONICAL)
+                .get(1, TimeUnit.MINUTES);
     }
 
     /** A subtask that runs may still be unready for a checkpoint. */

@@ -9,8 +9,10 @@ import java.util.HashSet;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.TimeUnit;
+import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.slf4j.Logger;
@@ -22,11 +24,13 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
 
 /**
- * Admits the domains and missions that events name: those of {@code service.domains} and {@code service.missions} always, others
- * while not more than so many of them have topics. An admitted name makes topics and a collection, which stay.
+ * Admits the domains and missions that events name: those of {@code service.domains} and {@code service.missions}, those that have a
+ * topic, and others while there are fewer topics of others than the limit. As many more that get no topic are admitted from one start
+ * to the next. An admitted name makes topics and a collection, which stay.
  *
  * <p>Not a part of the state: which names were admitted say the topics that there are.
  */
@@ -34,7 +38,7 @@ public final class NameBudget implements Serializable {
     private static final long serialVersionUID = 1L;
     private static final Logger LOG = LoggerFactory.getLogger(NameBudget.class);
     /** A topic of a domain, or of a mission. */
-    private static final Pattern ROUTE = Pattern.compile("data\\.[^.]+\\.realtime(\\..+)?");
+    private static final Pattern ROUTE = Pattern.compile("data\\.[^.]+\\.realtime(?:\\.(.+))?");
     /** A name that nobody knows is looked for on the topics at most this often. */
     private static final long READ_EVERY = Duration.ofSeconds(1).toMillis();
 
@@ -45,13 +49,18 @@ public final class NameBudget implements Serializable {
     private final TopicSnapshot domainsTopic;
     private final TopicSnapshot missionsTopic;
     private final TopicNames topics;
+    private final boolean makesTopics;
     private final int limit;
     private transient Map<String, Managed> domains;
     private transient Map<String, Managed> missions;
-    /** Topics of other names that there are, and those that are about to be made. */
-    private transient Set<String> others;
-
+    /** Topics of domains and missions. */
+    private transient Set<String> there;
+    /** How many of them are of names that the control plane does not know, and did not delete, which ends their topics. */
+    private transient long others;
+    /** Topics that are about to be made. */
     private transient Set<String> admitted;
+
+    private transient Set<Name> withoutTopic;
 
     private transient long nextReading;
 
@@ -59,12 +68,15 @@ public final class NameBudget implements Serializable {
      * @param domains what is on {@code service.domains}
      * @param missions what is on {@code service.missions}
      * @param topics that there are
+     * @param makesTopics whether a name gets a topic
      * @param limit topics of other names
      */
-    public NameBudget(TopicSnapshot domains, TopicSnapshot missions, TopicNames topics, int limit) {
+    public NameBudget(
+            TopicSnapshot domains, TopicSnapshot missions, TopicNames topics, boolean makesTopics, int limit) {
         this.domainsTopic = domains;
         this.missionsTopic = missions;
         this.topics = topics;
+        this.makesTopics = makesTopics;
         this.limit = limit;
     }
 
@@ -81,6 +93,7 @@ public final class NameBudget implements Serializable {
     /** Reads what is known before the first event comes. */
     void open() throws IOException {
         admitted = new HashSet<>();
+        withoutTopic = new HashSet<>();
         read();
     }
 
@@ -142,20 +155,28 @@ public final class NameBudget implements Serializable {
         if (isManaged(name) || isThere(name)) {
             return;
         }
-        if (others.size() + admitted.size() >= limit) {
+        boolean getsTopic = makesTopics && !name.domain().isEmpty();
+        long used = getsTopic ? others + admitted.size() : withoutTopic.size();
+        if (used >= limit) {
             throw new UnreadableException(
                     Reason.UNKNOWN_MISSION,
-                    ("%s is not known, and %d names that are not known are in use; delete topics that are of no more use, or see"
-                                    + " --other-names")
+                    "%s is not known, and %d names that are not known %s"
                             .formatted(
                                     name.mission().isEmpty() ? "domain " + name.domain() : "mission " + name.mission(),
-                                    others.size() + admitted.size()));
+                                    used,
+                                    getsTopic
+                                            ? "have topics; delete topics that are of no more use, or see --other-names"
+                                            : "and have no topic were taken since the start; see --other-names"));
         }
-        admitted.add(name.topic());
+        if (getsTopic) {
+            admitted.add(name.topic());
+        } else {
+            withoutTopic.add(name);
+        }
     }
 
     private boolean isThere(Name name) {
-        return others.contains(name.topic()) || admitted.contains(name.topic());
+        return there.contains(name.topic()) || admitted.contains(name.topic()) || withoutTopic.contains(name);
     }
 
     private boolean isDue(long now) {
@@ -175,32 +196,49 @@ public final class NameBudget implements Serializable {
     }
 
     private void read() throws IOException {
-        domains = read(domainsTopic);
-        missions = read(missionsTopic);
-        others = topics.read().stream()
+        Set<String> deletedDomains = new HashSet<>();
+        Set<String> deletedMissions = new HashSet<>();
+        domains = read(domainsTopic, deletedDomains);
+        missions = read(missionsTopic, deletedMissions);
+        there = topics.read().stream()
                 .filter(topic -> ROUTE.matcher(topic).matches()
                         && Topics.ofDeadLetters(topic).isEmpty())
-                .collect(Collectors.toCollection(HashSet::new));
-        admitted.removeAll(others);
-        domains.keySet().forEach(domain -> others.remove(Topics.realtime(domain)));
-        missions.forEach((mission, managed) -> others.remove(Topics.realtime(managed.domain(), mission)));
+                .collect(Collectors.toSet());
+        admitted.removeAll(there);
+
+        Set<String> known = new HashSet<>();
+        Stream.concat(domains.keySet().stream(), deletedDomains.stream())
+                .forEach(domain -> known.add(Topics.realtime(domain)));
+        missions.forEach((mission, managed) -> known.add(Topics.realtime(managed.domain(), mission)));
+        Set<String> deleted = deletedMissions.stream().map(TopicName::of).collect(Collectors.toSet());
+        others = there.stream()
+                .filter(topic -> !known.contains(topic) && !deleted.contains(missionIn(topic)))
+                .count();
     }
 
-    private static Map<String, Managed> read(TopicSnapshot topic) throws IOException {
+    /** As it is part of the topic's name; empty in that of a domain. */
+    private static String missionIn(String topic) {
+        Matcher route = ROUTE.matcher(topic);
+        return route.matches() && route.group(1) != null ? route.group(1) : "";
+    }
+
+    private static Map<String, Managed> read(TopicSnapshot topic, Set<String> deleted) throws IOException {
         Map<String, Managed> managed = new HashMap<>();
         for (TopicRecord record : topic.read()) {
-            if (record.key() != null) {
-                managed.compute(new String(record.key(), StandardCharsets.UTF_8), (name, before) -> managed(record));
+            String name = record.key() == null ? null : new String(record.key(), StandardCharsets.UTF_8);
+            if (name != null && record.value() == null) {
+                managed.remove(name);
+                deleted.add(name);
+            } else if (name != null) {
+                managed.put(name, managed(record));
+                deleted.remove(name);
             }
         }
         return managed;
     }
 
-    /** Null where it was deleted. What cannot be read is there all the same, of any domain. */
+    /** What cannot be read is there all the same, of any domain. */
     private static Managed managed(TopicRecord record) {
-        if (record.value() == null) {
-            return null;
-        }
         try {
             JsonNode json = NgsiJson.read(record.value());
             return new Managed(

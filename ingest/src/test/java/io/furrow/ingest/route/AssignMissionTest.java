@@ -197,13 +197,47 @@ class AssignMissionTest {
                 .satisfies(letter -> assertThat(letter.headers())
                         .containsEntry(
                                 "dead-message",
-                                "domain home is not known, and 20 names that are not known are in use; delete topics that are of no more"
+                                "domain home is not known, and 20 names that are not known have topics; delete topics that are of no more"
                                         + " use, or see --other-names"));
 
         topics.clear();
         operator.setProcessingTime(2_000);
         report("robot", 300, "home", "run-later");
         assertThat(routes()).endsWith("home/run-later");
+    }
+
+    @Test
+    void countsNamesThatGetNoTopicBesideThoseThatDo() throws Exception {
+        operator.close();
+        create(new AssignMission.Rule(Duration.ofMillis(1000), "", ""));
+        operator.open();
+        useUpTheBudget();
+
+        report("robot", 500, "", "run-beyond");
+        report("robot", 501, "own", "mowing");
+
+        assertThat(routes()).endsWith("/run-19", "/", "own/mowing");
+        assertThat(letters())
+                .extracting(letter -> letter.headers().get("dead-message"))
+                .containsExactly(
+                        "mission run-beyond is not known, and 20 names that are not known and have no topic were taken"
+                                + " since the start; see --other-names");
+    }
+
+    @Test
+    void countsNoTopicThatTheControlPlaneIsAboutToDelete() throws Exception {
+        domains.add(deleted("north"));
+        for (int run = 0; run < BUDGET; run++) {
+            missions.add(deleted("run-" + run));
+            topics.add("data.north.realtime.run-" + run);
+        }
+        topics.add("data.north.realtime");
+        operator.setProcessingTime(1_000);
+
+        report("robot", 100, "north", "run-3");
+        report("robot", 101, "own", "mowing");
+
+        assertThat(routes()).containsExactly("north/run-3", "own/mowing");
     }
 
     @Test
@@ -267,21 +301,33 @@ class AssignMissionTest {
     }
 
     private static TopicRecord managed(String name, String json) {
-        byte[] value = json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        return onService(name, json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+    }
+
+    private static TopicRecord deleted(String name) {
+        return onService(name, null);
+    }
+
+    private static TopicRecord onService(String name, byte[] value) {
         return new TopicRecord("service", 0, 0, 0, name.getBytes(StandardCharsets.UTF_8), value, Map.of());
     }
 
     private void create() throws Exception {
+        create(RULE);
+    }
+
+    private void create(AssignMission.Rule rule) throws Exception {
         List<TopicRecord> records = List.copyOf(onTheTopic);
         operator = new KeyedTwoInputStreamOperatorTestHarness<>(
                 new CoBroadcastWithKeyedOperator<>(
                         new AssignMission(
                                 new OnTheTopic(records),
-                                RULE,
+                                rule,
                                 new NameBudget(
                                         new OnTheTopic(domains),
                                         new OnTheTopic(missions),
                                         () -> Set.copyOf(topics),
+                                        true,
                                         BUDGET)),
                         List.of(AssignMission.DEVICES)),
                 ReportedEvent::identity,

@@ -108,7 +108,7 @@ public final class DeviceAccounts {
     }
 
     /**
-     * Lets devices in that the agent knows. While it is still learning of others, none loses its account.
+     * Lets devices in that the agent knows. A desired device that the agent does not know, or no longer, does not lose its account.
      *
      * @param there by key
      * @param complete whether these are all
@@ -120,8 +120,11 @@ public final class DeviceAccounts {
         if (!accounts.equals(granted) && (complete || grows)) {
             granted = null;
             refused = new HashMap<>();
+            Set<String> stay = new HashSet<>(kept);
+            stay.addAll(allowed);
+            accounts.forEach(account -> stay.remove(account.login().user()));
             for (MqttAccounts broker : brokers) {
-                refused.putAll(broker.replace(accounts, kept));
+                refused.putAll(broker.replace(accounts, stay));
             }
             granted = accounts;
         }

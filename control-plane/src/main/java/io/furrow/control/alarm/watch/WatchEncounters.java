@@ -14,12 +14,9 @@ import io.furrow.model.control.AlarmKind;
  * while: devices at the border of what is close have one alarm, not one per report. Records of an ongoing encounter raise
  * it too, if it was closed manually or began before the processor started. No record reports the end of a prediction:
  * it ends when it is not repeated for a while, or when the encounter starts, and there is none while there is a collision. A
- * collision that is not repeated for {@link #COLLISION_HOLDS} has ended, too: its last record was lost.
+ * collision that is not repeated for {@link AlarmCommandHandler#COLLISION_HOLDS} has ended, too: its last record was lost.
  */
 public final class WatchEncounters {
-    /** Many times the interval of the records of an ongoing encounter, which its devices' time-to-live limits. */
-    static final Duration COLLISION_HOLDS = Duration.ofHours(1);
-
     private final AlarmCommandHandler alarms;
     private final Function<String, String> types;
     private final Holds holds;
@@ -45,9 +42,10 @@ public final class WatchEncounters {
         switch (encounter.phase()) {
             case "started" -> {
                 alarms.end(AlarmKind.PREDICTED_ENCOUNTER, pair, "the encounter has started", now);
-                alarms.raiseAnew(cause(AlarmKind.COLLISION, encounter, COLLISION_HOLDS), now);
+                alarms.raiseAnew(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);
             }
-            case "ongoing" -> alarms.raise(cause(AlarmKind.COLLISION, encounter, COLLISION_HOLDS), now);
+            case "ongoing" ->
+                alarms.raise(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);
             case "ended" ->
                 alarms.endAt(AlarmKind.COLLISION, pair, now + holds.collision().toMillis());
             case "predicted" -> {
