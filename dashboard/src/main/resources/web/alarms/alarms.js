@@ -3,6 +3,7 @@ import { api } from '../core/api.js';
 import { age, clock, label, readable } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
+import { scope } from '../core/identities.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { arrange, isMuted } from './order.js';
@@ -152,14 +153,21 @@ function lineOf(alarm) {
   alarm.count > 1 && parts.splice(1, 0, t('alarms.seen', { count: alarm.count }));
   alarm.affected > 1 && parts.splice(1, 0, t('alarms.affected', { count: alarm.affected, total: alarm.total ?? alarm.affected }));
   alarm.acknowledgedBy && parts.push(t('alarms.by', { user: alarm.acknowledgedBy }));
+  parts.push(...new Set(entitiesOf(alarm).map(({ difference }) => difference).filter(Boolean)));
   isMuted(alarm, now) && parts.push(t('alarms.mutedUntil', { time: clock(alarm.mutedUntil) }));
   alarm.inhibitedBy && parts.push(t('alarms.inhibited'));
   return parts.join(' · ');
 }
 
+/** Those of its devices that are known here. An alarm of an older control plane names neither tenant nor path. */
+function entitiesOf(alarm) {
+  return (alarm.devices ?? []).map(({ id, type, service, servicePath }) =>
+    store.entities.get(store.identities.keyOf(id, scope(service, servicePath), type ?? '')) ?? (alarm.identity ? null : store.entities.get(store.identities.keyOfType(id, type)))).filter(Boolean);
+}
+
 /** Leads to the first of its devices on the map. */
 function show(alarm) {
-  const device = (alarm.devices ?? []).map(({ id, type }) => store.identities.keyOfType(id, type)).find((key) => store.entities.has(key)) ?? (store.entities.has(alarm.subject) ? alarm.subject : null);
+  const device = entitiesOf(alarm)[0]?.id ?? (store.entities.has(alarm.subject) ? alarm.subject : null);
   device && store.select(device, { reveal: true });
 }
 

@@ -14,7 +14,7 @@ export class Picture {
 
   /** @param {import('../core/entity.js').Entity} entity */
   async draw(entity) {
-    const stored = store.images.get(entity.id);
+    const stored = store.imageOf(entity);
     this.element.hidden = !stored && entity.kind !== 'camera';
     if (!stored) {
       setText(this.caption, t('cards.noPicture'));

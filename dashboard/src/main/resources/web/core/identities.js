@@ -30,7 +30,7 @@ export class Identities {
     // one that was too large to be sent may have come without its type
     let found = find((each) => each.type === type) ?? find((each) => type === '' || each.type === '');
     if (!found) {
-      const key = all.some((each) => each.key === id) ? [of.service, of.servicePath, type, id].join('|') : id;
+      const key = all.some((each) => each.key === id) ? fullKey(of, type, id) : id;
       found = { key, id, ...of, type };
       this.byId.set(id, [...all, found]);
     }
@@ -44,10 +44,11 @@ export class Identities {
     return this.all(id).filter((each) => isIn(each, of) && (type === '' || each.type === type)).map((each) => each.key);
   }
 
-  /** The key of an entity that is named by its id: in the scope if there is one, else in any. */
-  keyOf(id, of) {
+  /** The key of an entity that is named by its id: in the scope if there is one, else in any. With a type it is that of no other entity. */
+  keyOf(id, of, type = '') {
     const all = this.all(id);
-    return (all.find((each) => isIn(each, of)) ?? all[0])?.key ?? id;
+    const found = type ? all.find((each) => isIn(each, of) && (each.type === type || each.type === '')) : all.find((each) => isIn(each, of)) ?? all[0];
+    return found?.key ?? (all.length ? fullKey(of, type, id) : id);
   }
 
   /** The key of the first entity that has an id and a type; one of any type where none has. */
@@ -72,6 +73,11 @@ export class Identities {
   all(id) {
     return this.byId.get(id) ?? [];
   }
+}
+
+/** All that tells an entity from others. */
+export function fullKey({ service, servicePath }, type, id) {
+  return [service, servicePath, type, id].join('|');
 }
 
 function isIn(identity, { service, servicePath }) {

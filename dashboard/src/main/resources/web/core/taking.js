@@ -1,6 +1,6 @@
 /** What the records of each topic change in the store. */
 import { named, newEntity, takePast, takeReport } from './entity.js';
-import { scopeOf } from './identities.js';
+import { fullKey, scopeOf } from './identities.js';
 
 /** Most entities that are kept; beyond it those not heard of for longest go. */
 const MOST_ENTITIES = 5_000;
@@ -96,9 +96,9 @@ export const Taking = (Base) => class extends Base {
     this.forgetEntity(oldest.id);
   }
 
-  /** @param {{headers: Object=}} record that names entities by their ids @returns {string[]} under which keys they are here */
-  keysOf({ headers }, ids) {
-    return ids.map((id) => this.identities.keyOf(id, scopeOf(headers)));
+  /** @param {{headers: Object=}} record that names entities by their ids, and by their types where they are known @returns {string[]} under which keys they are here */
+  keysOf({ headers }, ids, types) {
+    return ids.map((id, i) => this.identities.keyOf(id, scopeOf(headers), types?.[i]));
   }
 
   takeEncounter(record) {
@@ -111,7 +111,7 @@ export const Taking = (Base) => class extends Base {
     if (typeof of('Device1_ID') !== 'string' || typeof of('Device2_ID') !== 'string') {
       return;
     }
-    const [a, b] = this.keysOf(record, [of('Device1_ID'), of('Device2_ID')]);
+    const [a, b] = this.keysOf(record, [of('Device1_ID'), of('Device2_ID')], [of('Device1_type'), of('Device2_type')]);
     const pair = `${a}|${b}`;
     const known = this.encounters.get(pair);
     if (known && known.time > record.time) {
@@ -142,7 +142,7 @@ export const Taking = (Base) => class extends Base {
     if (value?.type !== 'Analytics:FieldTemperature' || this.averages.get(field)?.time > record.time) {
       return;
     }
-    const suspects = this.keysOf(record, Array.isArray(of('suspects')) ? of('suspects') : []);
+    const suspects = this.keysOf(record, Array.isArray(of('suspects')) ? of('suspects') : [], of('suspectTypes'));
     this.averages.set(field, {
       value: of('averageTemperature'), count: of('devices'), time: record.time, suspects,
       verified: of('quality') !== 'unverified', quality: of('quality'), window: [of('windowStart'), of('windowEnd')],
@@ -207,10 +207,15 @@ export const Taking = (Base) => class extends Base {
   takeImage(record) {
     const image = record.value;
     if (image?.entity) {
-      const [key] = this.keysOf(record, [image.entity]);
-      this.images.set(key, { ...image, time: record.time });
-      this.tell('images', key);
+      // the camera itself may come later, while another one has its id
+      this.images.set(fullKey(scopeOf(record.headers), image.type ?? '', image.entity), { ...image, time: record.time });
+      this.keysOf(record, [image.entity], [image.type]).forEach((key) => this.tell('images', key));
     }
+  }
+
+  /** The newest picture of an entity; those of an older job do not say its type. */
+  imageOf({ identity }) {
+    return this.images.get(fullKey(identity, identity.type, identity.id)) ?? this.images.get(fullKey(identity, '', identity.id));
   }
 
   takeAlarm(record) {

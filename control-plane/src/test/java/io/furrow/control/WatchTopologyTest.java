@@ -14,6 +14,7 @@ import io.furrow.model.control.Limits;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -193,6 +194,65 @@ class WatchTopologyTest {
         assertThat(closedClocks()).isEqualTo(1);
         farm.pipe(Topics.CLOCKS, "x", "{}".getBytes(StandardCharsets.UTF_8));
         assertThat(farm.read(Topics.dead(Topics.CLOCKS))).hasSize(1);
+    }
+
+    @Test
+    void raisesAnAlarmOfEachDeviceOfOneId() throws Exception {
+        for (String[] each :
+                new String[][] {{"farm", "ROBOT"}, {"other", "ROBOT"}, {"farm", "Camera"}, {"other", "ROBOT"}}) {
+            EntityBuilder behind = Entity.builder("Analytics:ClockBehind:r", "Analytics:ClockBehind")
+                    .text("device", "r")
+                    .text("deviceType", each[1]);
+            farm.pipe(Topics.CLOCKS, each[0], "r", behind.toBytes());
+        }
+        List<JsonNode> alarms = farm.all(Topics.ALARMS);
+        assertThat(alarms)
+                .extracting(alarm -> alarm.path("identity").asText())
+                .containsExactly("farm|/|ROBOT|r", "other|/|ROBOT|r", "farm|/|Camera|r");
+        assertThat(alarms).allMatch(alarm -> alarm.path("subject").asText().equals("r"));
+        assertThat(alarms.get(1).path("devices"))
+                .hasToString("[{\"id\":\"r\",\"type\":\"ROBOT\",\"service\":\"other\"}]");
+        farm.pipe(Topics.ALARM_MANAGER, null, "{'type':'request','command':'acknowledge','alarm':'clock-behind-2'}");
+        assertThat(farm.all(Topics.ALARMS))
+                .singleElement()
+                .extracting(alarm -> alarm.path("identity").asText())
+                .isEqualTo("other|/|ROBOT|r");
+    }
+
+    @Test
+    void endsTheCollisionOfATenantAndNotThatOfAnother() throws Exception {
+        for (String[] each : new String[][] {{"farm", "started"}, {"other", "started"}, {"other", "ended"}}) {
+            EntityBuilder encounter = Entity.builder("Analytics:Collision:1", "Analytics:Collision")
+                    .text("encounter", "e")
+                    .text("phase", each[1])
+                    .text("Device1_ID", "r1")
+                    .text("Device1_type", "ROBOT")
+                    .text("Device2_ID", "r2")
+                    .text("Device2_type", "Camera");
+            farm.pipe(Topics.COLLISION, each[0], "r1-r2", encounter.toBytes());
+        }
+        assertThat(farm.all(Topics.ALARMS)).hasSize(2);
+        farm.pass(Duration.ofSeconds(30));
+        assertThat(farm.all(Topics.ALARMS)).singleElement().satisfies(closed -> {
+            assertThat(closed.path("state").asText()).isEqualTo("closed");
+            assertThat(closed.path("identity").asText()).isEqualTo("other|/|ROBOT Camera|r1-r2");
+        });
+    }
+
+    @Test
+    void countsTheWindowsOfSensorsOfOneIdAndTwoTypesEach() throws Exception {
+        for (int window = 0; window < 4; window++) {
+            farm.temperature("f", 18, List.of(THERMOMETER), List.of(window % 2 == 0 ? "Thermometer" : "Station"));
+            farm.pass(WINDOW);
+        }
+        assertThat(farm.read(Topics.ALARMS)).as("never three in a row").isEmpty();
+        for (int window = 0; window < 3; window++) {
+            farm.temperature("f", 18, List.of(THERMOMETER, THERMOMETER), List.of("Station", "Thermometer"));
+            farm.pass(WINDOW);
+        }
+        assertThat(farm.all(Topics.ALARMS))
+                .extracting(alarm -> alarm.path("identity").asText())
+                .containsExactlyInAnyOrder("farm|/|Station|" + THERMOMETER, "farm|/|Thermometer|" + THERMOMETER);
     }
 
     @Test

@@ -64,19 +64,25 @@ final class WatchedFarm implements AutoCloseable {
 
     /** A window of half a minute that ends now, as it is written. */
     byte[] temperature(String field, double average, List<String> suspects) {
-        return temperature(field, average, suspects, "robust");
+        return temperature(field, average, suspects, List.of());
+    }
+
+    byte[] temperature(String field, double average, List<String> suspects, List<String> types) {
+        return temperature(field, average, suspects, types, "robust");
     }
 
     /** The same with too few devices to tell which are suspects. */
     void unverified(String field) {
-        temperature(field, 18, List.of(), "unverified");
+        temperature(field, 18, List.of(), List.of(), "unverified");
     }
 
-    private byte[] temperature(String field, double average, List<String> suspects, String quality) {
+    private byte[] temperature(
+            String field, double average, List<String> suspects, List<String> types, String quality) {
         EntityBuilder entity = Entity.builder("Analytics:FieldTemperature:" + field, "Analytics:FieldTemperature")
                 .text("field", field)
                 .number("averageTemperature", average)
                 .texts("suspects", suspects)
+                .texts("suspectTypes", types)
                 .text("quality", quality)
                 .integer("windowStart", now.toEpochMilli() - 30_000)
                 .integer("windowEnd", now.toEpochMilli());
@@ -97,8 +103,12 @@ final class WatchedFarm implements AutoCloseable {
     }
 
     void pipe(String topic, String key, byte[] value) {
+        pipe(topic, "farm", key, value);
+    }
+
+    void pipe(String topic, String tenant, String key, byte[] value) {
         RecordHeaders headers = new RecordHeaders();
-        Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/")
+        Map.of(HeaderNames.SERVICE, tenant, HeaderNames.SERVICE_PATH, "/")
                 .forEach((name, text) -> headers.add(name, text.getBytes(StandardCharsets.UTF_8)));
         pipe(topic, new TestRecord<>(key, value, headers, now));
     }

@@ -21,7 +21,7 @@ export function readAverage({ value, headers, time }) {
   }
   return {
     field: String(of('field')), start: of('windowStart') ?? time, end: of('windowEnd') ?? time, value: of('averageTemperature'), plain: of('plainMean'),
-    devices: of('devices'), suspects: Array.isArray(of('suspects')) ? store.keysOf({ headers }, of('suspects').map(String)) : [], quality: String(of('quality') ?? ''), epoch: Number(headers?.['replay-epoch'] ?? 0),
+    devices: of('devices'), suspects: Array.isArray(of('suspects')) ? store.keysOf({ headers }, of('suspects').map(String), of('suspectTypes')) : [], quality: String(of('quality') ?? ''), epoch: Number(headers?.['replay-epoch'] ?? 0),
   };
 }
 
@@ -32,7 +32,7 @@ export function readStay({ value, headers }) {
     return null;
   }
   return {
-    id: String(of('stay')), device: store.keysOf({ headers }, [String(of('device'))])[0], name: shortId(of('device')), field: String(of('field')), fieldName: String(of('fieldName') ?? of('field')),
+    id: String(of('stay')), device: store.keysOf({ headers }, [String(of('device'))], [of('deviceType')])[0], name: shortId(of('device')), field: String(of('field')), fieldName: String(of('fieldName') ?? of('field')),
     mission: of('Mission') ?? null, from: of('startTime'), to: of('phase') === 'left' ? of('time') : null, epoch: Number(headers?.['replay-epoch'] ?? 0),
   };
 }

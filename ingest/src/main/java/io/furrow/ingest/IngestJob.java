@@ -16,6 +16,7 @@ import io.furrow.flink.time.AheadLimit;
 import io.furrow.flink.time.KeyedLatenessOperator;
 import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
 import io.furrow.ingest.image.ImageStage;
+import io.furrow.ingest.latest.LatestKey;
 import io.furrow.ingest.route.AssignMission;
 import io.furrow.ingest.route.NameBudget;
 import io.furrow.ingest.route.RecognizeEvents;
@@ -45,7 +46,8 @@ public final class IngestJob {
     /** The pipeline; what goes to Kafka names its topic, other branches have sinks of their own. */
     static void define(IngestInputs in, KafkaOutput kafka, IngestOptions options) {
         SingleOutputStreamOperator<ReportedEvent> recognized = in.records()
-                .process(new RecognizeEvents(AheadLimit.of(options)))
+                .process(new RecognizeEvents(
+                        AheadLimit.of(options), options.does(Part.LATEST) && options.latestKey() == LatestKey.ID))
                 .uid("recognize-events")
                 .name("Recognize events");
 

@@ -23,6 +23,7 @@ record ClockEntity(String job, String topic) implements Serializable {
         String type = report.kind() == ClockReport.Kind.OFFSET ? ClockResult.OFFSET_TYPE : ClockResult.BEHIND_TYPE;
         EntityBuilder entity = Entity.builder(type + ":" + report.id(), type)
                 .text(ClockResult.DEVICE, report.id())
+                .text(ClockResult.DEVICE_TYPE, report.type())
                 .text("job", job)
                 .integer("time", Epochs.original(report.time()));
         switch (report.kind()) {

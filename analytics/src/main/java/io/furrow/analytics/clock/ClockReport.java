@@ -8,6 +8,7 @@ import io.furrow.model.event.FiwareScope;
  * @param topic the topic that reports the device
  * @param identity begins with tenant and service path
  * @param id the entity id
+ * @param type of the entity; empty if that is not known
  * @param mission the mission it works for; empty if that is not known
  * @param millis of {@link Kind#BEHIND} how much too late the newest position came, of {@link Kind#DELAYED} how long after its time the
  *     newest record was received, of {@link Kind#OFFSET} what is added to its times
@@ -15,7 +16,15 @@ import io.furrow.model.event.FiwareScope;
  * @param time event time of the report, epoch ms
  */
 public record ClockReport(
-        Kind kind, String topic, String identity, String id, String mission, long millis, int positions, long time) {
+        Kind kind,
+        String topic,
+        String identity,
+        String id,
+        String type,
+        String mission,
+        long millis,
+        int positions,
+        long time) {
     /** What it reports. */
     public enum Kind {
         /** The device's positions come too late to count. */
@@ -27,19 +36,21 @@ public record ClockReport(
     }
 
     static ClockReport behind(LaggingPosition position, int positions) {
-        return of(Kind.BEHIND, position, position.mission(), positions);
+        String type = FiwareScope.typeOf(position.identity(), position.id());
+        return of(Kind.BEHIND, position, type, position.mission(), positions);
     }
 
-    static ClockReport delayed(LaggingPosition record, String mission, int records) {
-        return of(Kind.DELAYED, record, mission, records);
+    static ClockReport delayed(LaggingPosition record, String type, String mission, int records) {
+        return of(Kind.DELAYED, record, type, mission, records);
     }
 
-    private static ClockReport of(Kind kind, LaggingPosition position, String mission, int positions) {
+    private static ClockReport of(Kind kind, LaggingPosition position, String type, String mission, int positions) {
         return new ClockReport(
                 kind,
                 position.topic(),
                 position.identity(),
                 position.id(),
+                type,
                 mission,
                 position.reached() - position.time(),
                 positions,

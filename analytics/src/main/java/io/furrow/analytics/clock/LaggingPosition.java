@@ -4,7 +4,7 @@ package io.furrow.analytics.clock;
  * A position that arrived too late to count although it is the newest of its device: its clock or its link is behind.
  *
  * @param topic the topic that reports the device
- * @param identity tenant, service path and id
+ * @param identity tenant, service path, type where it is known, and id
  * @param id the entity id
  * @param mission the mission it works for; empty if it names none
  * @param time of the position, epoch ms

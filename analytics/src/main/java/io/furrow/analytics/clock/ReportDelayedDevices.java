@@ -3,6 +3,7 @@ package io.furrow.analytics.clock;
 import java.time.Duration;
 import java.util.LinkedHashMap;
 import java.util.Map;
+import java.util.Optional;
 import java.util.Set;
 
 import org.apache.flink.api.common.functions.OpenContext;
@@ -87,7 +88,10 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
         LagRun lag = LagRun.after(before == null ? null : before.lag, position);
         boolean catchesUp = record.timestamp() - lag.first() > CATCHES_UP * (received - lag.since());
         if (!catchesUp && lag.isToBeTold(MIN_RECORDS)) {
-            out.collect(ClockReport.delayed(position, missionOf(record), lag.positions()));
+            Optional<Entity> entity = entityOf(record);
+            String type = entity.map(Entity::type).orElse("");
+            String mission = entity.flatMap(one -> one.text("Mission")).orElse("");
+            out.collect(ClockReport.delayed(position, type, mission, lag.positions()));
             lag = lag.afterReport();
         }
         return new Run(lag, record.timestamp());
@@ -98,14 +102,11 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
                 && !Origin.REPAIR.code().equals(record.headers().get(HeaderNames.ORIGIN));
     }
 
-    /** Empty if it names none. */
-    private static String missionOf(TopicRecord record) {
+    private static Optional<Entity> entityOf(TopicRecord record) {
         try {
-            return Entity.parse(record.value(), Set.of("Mission"))
-                    .text("Mission")
-                    .orElse("");
+            return Optional.of(Entity.parse(record.value(), Set.of("Mission")));
         } catch (UnreadableException e) { // becomes a dead letter where it is read
-            return "";
+            return Optional.empty();
         }
     }
 }

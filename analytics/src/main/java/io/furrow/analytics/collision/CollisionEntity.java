@@ -59,6 +59,7 @@ public final class CollisionEntity {
                 .number(names.latitude(), fix.latitude())
                 .number(names.longitude(), fix.longitude())
                 .integer(names.timestamp(), Epochs.original(fix.time()))
-                .text(names.mission(), fix.mission());
+                .text(names.mission(), fix.mission())
+                .text(names.type(), fix.type());
     }
 }

@@ -35,6 +35,7 @@ final class PresenceRecord {
         String id = id(fix.identity(), stay.field());
         EntityBuilder entity = Entity.builder(PresenceResult.TYPE + ":" + id, PresenceResult.TYPE)
                 .text(PresenceResult.DEVICE, fix.id())
+                .text(PresenceResult.DEVICE_TYPE, fix.type())
                 .text(PresenceResult.FIELD, stay.field())
                 .text(PresenceResult.PHASE, passage.phase().code())
                 .text("cause", stay.cause().code())

@@ -8,7 +8,10 @@ package io.furrow.analytics.temperature;
  * @param validFrom since when the field is as it is, epoch ms
  */
 public record FieldReading(String field, String domain, long validFrom, Reading reading) {
-    /** The device in this field, among those of all topics and tenants; the length makes it unambiguous. */
+    /**
+     * The device in this field, among those of all topics and tenants; the length makes it unambiguous. Devices of one id and several
+     * types share it, as state of older builds has it.
+     */
     public String voter() {
         return field.length() + ":" + field + reading.deviceIdentity();
     }

@@ -73,7 +73,7 @@ final class ReadReadings extends ReadEntities<Reading> {
                     : EventId.of(scope, Entity.parse(record.value()), Instant.ofEpochMilli(time));
             TopicRecord kept =
                     LargeRecords.isLarge(record) ? excerpt(entity, record, located.position(), value) : record;
-            out.collect(new Reading(entity.id(), scope, located.position(), value, eventId, kept));
+            out.collect(new Reading(entity.id(), entity.type(), scope, located.position(), value, eventId, kept));
         } else {
             unlocated.inc();
         }

@@ -10,12 +10,19 @@ import io.furrow.model.position.Position;
  * What one device measured at one place; the element's timestamp is its event time.
  *
  * @param device entity id
+ * @param type of the entity
  * @param value in the attribute's unit, finite
  * @param eventId equal for every copy of the same event
  * @param record as it was read, for the topic of late readings; of a large one what the job read of it
  */
 public record Reading(
-        String device, FiwareScope scope, Position position, double value, String eventId, TopicRecord record) {
+        String device,
+        String type,
+        FiwareScope scope,
+        Position position,
+        double value,
+        String eventId,
+        TopicRecord record) {
     /** The topic that it is from, and the tenant. */
     public InputScope input() {
         return new InputScope(record.topic(), scope);
@@ -30,7 +37,7 @@ public record Reading(
         }
     }
 
-    /** The device among those of all topics and tenants. */
+    /** The device among those of all topics and tenants, whatever its type. */
     public String deviceIdentity() {
         return input().identity(device);
     }

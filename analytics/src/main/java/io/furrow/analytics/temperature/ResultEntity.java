@@ -39,6 +39,7 @@ record ResultEntity(String attribute, String topic) implements Serializable {
         number(entity, "spread", average.spread());
         entity.integer(FieldResult.DEVICES, average.devices())
                 .texts(FieldResult.SUSPECTS, average.suspects())
+                .texts(FieldResult.SUSPECT_TYPES, result.suspectTypes())
                 .integer(FieldResult.WINDOW_START, original(result.windowStart(), result.windowEnd()))
                 .integer(FieldResult.WINDOW_END, original(result.windowEnd(), result.windowEnd()))
                 .text(FieldResult.QUALITY, average.verified() ? FieldResult.ROBUST : FieldResult.UNVERIFIED);
@@ -54,6 +55,7 @@ record ResultEntity(String attribute, String topic) implements Serializable {
         String id = FieldResult.SUSPECT_TYPE + ":" + title() + ":" + last.device();
         EntityBuilder entity = Entity.builder(id, FieldResult.SUSPECT_TYPE)
                 .text("device", last.device())
+                .text("deviceType", last.type() == null ? "" : last.type())
                 .text("attribute", attribute)
                 .text(FieldResult.FIELD, last.field())
                 .number("value", last.value())

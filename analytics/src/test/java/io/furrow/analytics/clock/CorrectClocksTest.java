@@ -61,7 +61,15 @@ class CorrectClocksTest {
                 .allMatch(record -> "3000".equals(record.headers().get(CorrectClocks.HEADER)));
         assertThat(reports())
                 .containsExactly(new ClockReport(
-                        ClockReport.Kind.OFFSET, "data.raw", "farm|/|slow", "slow", "", 3000, 0, START + 122 * SECOND));
+                        ClockReport.Kind.OFFSET,
+                        "data.raw",
+                        "farm|/|slow",
+                        "slow",
+                        "",
+                        "",
+                        3000,
+                        0,
+                        START + 122 * SECOND));
     }
 
     @Test

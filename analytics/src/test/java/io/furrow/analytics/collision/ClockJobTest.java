@@ -43,6 +43,7 @@ class ClockJobTest {
             assertThat(entity.id()).isEqualTo("Analytics:ClockBehind:slow");
             assertThat(entity.type()).isEqualTo("Analytics:ClockBehind");
             assertThat(entity.text("device")).contains("slow");
+            assertThat(entity.text("deviceType")).isPresent();
             assertThat(entity.text("job")).contains("collision");
             assertThat(entity.text("Mission")).contains("hoeing");
             assertThat(entity.number("late")).hasValue(999.0);

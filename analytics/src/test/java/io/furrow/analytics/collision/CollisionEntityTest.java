@@ -30,11 +30,13 @@ class CollisionEntityTest {
                         "Device1_longitude":{"type":"Float","value":-3.25,"metadata":{}},\
                         "Device1_timestamp":{"type":"Integer","value":1000,"metadata":{}},\
                         "Device1_Mission":{"type":"String","value":"hoe","metadata":{}},\
+                        "Device1_type":{"type":"String","value":"ROBOT","metadata":{}},\
                         "Device2_ID":{"type":"String","value":"r2","metadata":{}},\
                         "Device2_latitude":{"type":"Float","value":40.5,"metadata":{}},\
                         "Device2_longitude":{"type":"Float","value":-3.5,"metadata":{}},\
                         "Device2_timestamp":{"type":"Integer","value":2000,"metadata":{}},\
                         "Device2_Mission":{"type":"String","value":"","metadata":{}},\
+                        "Device2_type":{"type":"String","value":"ROBOT","metadata":{}},\
                         "encounter":{"type":"String","value":"PAIR@1500","metadata":{}},\
                         "phase":{"type":"String","value":"ongoing","metadata":{}},\
                         "minDistance":{"type":"Float","value":1.5,"metadata":{}},\

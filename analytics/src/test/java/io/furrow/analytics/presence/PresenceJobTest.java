@@ -88,6 +88,7 @@ class PresenceJobTest {
         assertThat(left.text("phase")).contains("left");
         assertThat(left.text("cause")).contains("moved");
         assertThat(left.text("device")).contains("r1");
+        assertThat(left.text("deviceType")).contains("ROBOT");
         assertThat(left.text("field")).contains("f");
         assertThat(left.text("Mission")).contains("hoeing");
         assertThat(left.number("dwell")).contains(3000.0);

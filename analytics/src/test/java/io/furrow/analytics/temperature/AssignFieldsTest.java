@@ -90,8 +90,8 @@ class AssignFieldsTest {
     }
 
     private void read(long time) throws Exception {
-        Reading reading =
-                new Reading("t1", Farm.SCOPE, new Position(55, 15), 18, "id-" + time, Farm.north("t1", 18, time));
+        Reading reading = new Reading(
+                "t1", "Thermometer", Farm.SCOPE, new Position(55, 15), 18, "id-" + time, Farm.north("t1", 18, time));
         operator.processElement1(new StreamRecord<>(reading, time));
     }
 }

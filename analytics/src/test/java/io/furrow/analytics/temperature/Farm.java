@@ -34,11 +34,20 @@ public final class Farm {
         return reading(device, temperature, 52, 12, time);
     }
 
+    static TopicRecord north(String type, String device, double temperature, long time) {
+        return reading(type, device, temperature, 52, 12, time);
+    }
+
     static TopicRecord reading(String device, double temperature, double latitude, double longitude, long time) {
+        return reading("Thermometer", device, temperature, latitude, longitude, time);
+    }
+
+    private static TopicRecord reading(
+            String type, String device, double temperature, double latitude, double longitude, long time) {
         return changed(
                 SCOPE,
                 time,
-                Entity.builder(device, "Thermometer")
+                Entity.builder(device, type)
                         .number("Latitude", latitude)
                         .number("Longitude", longitude)
                         .number("Temperature", temperature)

@@ -40,6 +40,7 @@ class TemperatureJobTest {
              "spread": {"type": "Float", "value": 1.4826, "metadata": {}},
              "devices": {"type": "Integer", "value": 4, "metadata": {}},
              "suspects": {"type": "StructuredValue", "value": ["t4"], "metadata": {}},
+             "suspectTypes": {"type": "StructuredValue", "value": ["Thermometer"], "metadata": {}},
              "windowStart": {"type": "Integer", "value": 0, "metadata": {}},
              "windowEnd": {"type": "Integer", "value": 60000, "metadata": {}},
              "quality": {"type": "String", "value": "robust", "metadata": {}},
@@ -56,6 +57,22 @@ class TemperatureJobTest {
                 .containsEntry(HeaderNames.SERVICE, "farm")
                 .containsEntry(HeaderNames.SERVICE_PATH, "/")
                 .containsEntry(HeaderNames.CE_TIME, "1970-01-01T00:00:59.999Z");
+    }
+
+    @Test
+    void countsDevicesOfOneIdAndTwoTypesEach() throws Exception {
+        List<TopicRecord> arrivals = new ArrayList<>(Farm.FOUR_DEVICES_ONE_DEFECTIVE);
+        arrivals.add(Farm.north("Station", "t4", 19, 3_000));
+        arrivals.add(Farm.north("Station", "t1", 19, 5_000));
+
+        JobRun run = JobRun.over(arrivals);
+
+        assertThat(run.results(Topics.TEMPERATURE)).singleElement().satisfies(result -> {
+            assertThat(result.number("devices")).hasValue(6.0);
+            assertThat(result.number("averageTemperature")).hasValue(19.0);
+            assertThat(result.value("suspects").orElseThrow()).hasToString("[\"t4\"]");
+            assertThat(result.value("suspectTypes").orElseThrow()).hasToString("[\"Thermometer\"]");
+        });
     }
 
     @Test
@@ -205,7 +222,8 @@ class TemperatureJobTest {
         JsonNode expected = NgsiJson.read("""
                 {"id": "Analytics:SuspectDevice:Temperature:t3", "type": "Analytics:SuspectDevice",
                  "device": {"type": "String", "value": "t3", "metadata": {}},
-                 "attribute": {"type": "String", "value": "Temperature", "metadata": {}},
+                 "deviceType": {"type": "String", "value": "Thermometer", "metadata": {}},
+             "attribute": {"type": "String", "value": "Temperature", "metadata": {}},
                  "field": {"type": "String", "value": "north", "metadata": {}},
                  "value": {"type": "Float", "value": 60.0, "metadata": {}},
                  "averageTemperature": {"type": "Float", "value": 19.0, "metadata": {}},

@@ -156,11 +156,11 @@ class WindowStateTest {
                 "north",
                 "canary",
                 0,
-                new Reading(device, Farm.SCOPE, new Position(52, 12), value, "id-" + time, record));
+                new Reading(device, "Thermometer", Farm.SCOPE, new Position(52, 12), value, "id-" + time, record));
     }
 
     private static DeviceVote vote(String device, double value) {
-        return new DeviceVote("north", "canary", 0, Farm.INPUT, device, value, 0, MINUTE);
+        return new DeviceVote("north", "canary", 0, Farm.INPUT, device, value, 0, MINUTE, "Thermometer");
     }
 
     private <I, O> KeyedOneInputStreamOperatorTestHarness<String, I, O> operator(String uid) throws Exception {

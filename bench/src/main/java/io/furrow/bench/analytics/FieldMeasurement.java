@@ -102,8 +102,14 @@ public final class FieldMeasurement {
     private void temperature(int parallelism) throws Exception {
         StreamExecutionEnvironment env = environment(parallelism);
         MadeUpFields where = fields; // this object does not travel with the job
-        GeneratorFunction<Long, Reading> nth = n ->
-                new Reading("urn:ngsi-ld:Thermometer:1", FiwareScope.DEFAULT, where.position(n), 18, "id", record(n));
+        GeneratorFunction<Long, Reading> nth = n -> new Reading(
+                "urn:ngsi-ld:Thermometer:1",
+                "Thermometer",
+                FiwareScope.DEFAULT,
+                where.position(n),
+                18,
+                "id",
+                record(n));
         stream(env, nth, Reading.class, WatermarkStrategy.noWatermarks())
                 .connect(changes(env).broadcast(KnownFields.BROADCAST))
                 .process(new AssignFields(fields))

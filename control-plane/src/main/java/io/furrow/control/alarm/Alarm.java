@@ -31,6 +31,7 @@ import io.furrow.model.control.AlarmKind;
  * @param total out of how many; null if unknown
  * @param seen when its cause was last observed, epoch ms, as of the last change; null in a group alarm
  * @param inhibitedBy id of the alarm that inhibits its delivery; null if none
+ * @param identity tenant, service path, types and subject; null where the subject is no entity and no pair
  */
 public record Alarm(
         String alarm,
@@ -53,7 +54,8 @@ public record Alarm(
         Integer affected,
         Integer total,
         Long seen,
-        String inhibitedBy) {
+        String inhibitedBy,
+        String identity) {
     /** Kinds of changes. */
     public enum Change {
         OPENED,
@@ -82,6 +84,7 @@ public record Alarm(
         draft.alarm = cause.kind().code() + "-" + sequence;
         draft.kind = cause.kind();
         draft.subject = cause.subject();
+        draft.identity = cause.identity().equals(cause.subject()) ? null : cause.identity();
         draft.severity = Severity.of(cause.kind());
         draft.state = AlarmState.OPEN;
         draft.change = Change.OPENED;
@@ -98,7 +101,7 @@ public record Alarm(
     }
 
     String key() {
-        return Cause.key(kind, subject);
+        return Cause.key(kind, identity == null ? subject : identity);
     }
 
     public boolean isMuted(long now) {

@@ -22,7 +22,7 @@ import io.furrow.model.topic.Topics;
 
 /**
  * Raises alarms, applies causes and commands to them, and publishes them on {@code service.alarms}. There is at most
- * one alarm per kind and subject that is not closed. A closed alarm is retained for a day, at most the
+ * one alarm per kind and identity of a subject that is not closed. A closed alarm is retained for a day, at most the
  * {@value #MAX_CLOSED} newest, then removed.
  */
 public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
@@ -53,49 +53,49 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
 
     /** Raises an alarm, or refreshes the existing one. If its group has reached the limit, the cause is only counted. */
     public void raise(Cause cause, long now) {
-        Alarm known = current(cause.kind(), cause.subject());
+        Alarm known = current(cause.kind(), cause.identity());
         if (known != null) {
             records.alarms().put(known.alarm(), sure(known, new AlarmEvent.Repeated(cause.until(now)), now));
         } else if (!limit.take(cause, now)) {
-            keep(Alarm.raised(cause, mutedUntil(cause.kind(), cause.subject(), now), sequence.next(), now));
+            keep(Alarm.raised(cause, mutedUntil(cause, now), sequence.next(), now));
         }
     }
 
     /** As {@link #raise}; an existing alarm gets the words of the cause. */
     public void raiseReworded(Cause cause, long now) {
-        Alarm known = current(cause.kind(), cause.subject());
+        Alarm known = current(cause.kind(), cause.identity());
         if (known != null) {
             reworded(known, cause);
         }
         raise(cause, now);
     }
 
-    /** Closes the alarm of a kind and subject, if there is one. */
-    public void end(AlarmKind kind, String subject, String reason, long now) {
-        Alarm known = current(kind, subject);
+    /** Closes the alarm of a kind and identity, if there is one. */
+    public void end(AlarmKind kind, String identity, String reason, long now) {
+        Alarm known = current(kind, identity);
         if (known != null) {
             change(known, new AlarmEvent.Ended(reason), now);
         } else {
-            limit.end(kind, subject);
+            limit.end(kind, identity);
         }
     }
 
     /** The same of a cause that began anew: the count of its alarm is published. */
     public void raiseAnew(Cause cause, long now) {
-        boolean isKnown = current(cause.kind(), cause.subject()) != null;
+        boolean isKnown = current(cause.kind(), cause.identity()) != null;
         raise(cause, now);
         if (isKnown) {
-            keep(current(cause.kind(), cause.subject()));
+            keep(current(cause.kind(), cause.identity()));
         }
     }
 
-    /** Lets the alarm of a kind and subject, if there is one, end at a time, unless it is raised again until then. */
-    public void endAt(AlarmKind kind, String subject, long until) {
-        Alarm known = current(kind, subject);
+    /** Lets the alarm of a kind and identity, if there is one, end at a time, unless it is raised again until then. */
+    public void endAt(AlarmKind kind, String identity, long until) {
+        Alarm known = current(kind, identity);
         if (known != null) {
             records.alarms().put(known.alarm(), known.ending(until));
         } else {
-            limit.endAt(kind, subject, until);
+            limit.endAt(kind, identity, until);
         }
     }
 
@@ -107,9 +107,9 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
      */
     public void report(Cause cause, Cause inhibitor, long now) {
         String by = inhibitor == null ? null : records.current().get(inhibitor.key());
-        Alarm known = current(cause.kind(), cause.subject());
+        Alarm known = current(cause.kind(), cause.identity());
         if (known == null) {
-            Long muted = mutedUntil(cause.kind(), cause.subject(), now);
+            Long muted = mutedUntil(cause, now);
             Alarm raised = Alarm.raised(cause, muted, sequence.next(), now);
             keep(by == null ? raised : raised.inhibitedFromStart(by));
         } else {
@@ -141,12 +141,12 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         }
     }
 
-    /** Whether there is an alarm of a kind and subject that is not closed. */
-    public boolean isRaised(AlarmKind kind, String subject) {
-        return records.current().get(Cause.key(kind, subject)) != null;
+    /** Whether there is an alarm of a kind and identity that is not closed. */
+    public boolean isRaised(AlarmKind kind, String identity) {
+        return current(kind, identity) != null;
     }
 
-    /** Whether a kind is muted for one subject. */
+    /** Whether a kind is muted for one subject or identity. */
     public boolean isMuted(AlarmKind kind, String subject, long now) {
         AlarmRecords.Mute mute = records.mutes().get(Cause.key(kind, subject));
         return mute != null && mute.until() > now;
@@ -201,7 +201,9 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         records.mutes().put(key, until == null ? null : new AlarmRecords.Mute(key, until));
         for (Alarm alarm : current()) {
             if (alarm.kind() == of.kind()
-                    && (of.subject() == null || of.subject().equals(alarm.subject()))) {
+                    && (of.subject() == null
+                            || of.subject().equals(alarm.subject())
+                            || of.subject().equals(alarm.identity()))) {
                 change(alarm, event, now);
             }
         }
@@ -221,10 +223,10 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         }
     }
 
-    private Long mutedUntil(AlarmKind kind, String subject, long now) {
+    private Long mutedUntil(Cause cause, long now) {
         Long until = null;
-        for (String each : List.of(subject, ALL)) {
-            AlarmRecords.Mute mute = records.mutes().get(Cause.key(kind, each));
+        for (String each : List.of(cause.identity(), cause.subject(), ALL)) {
+            AlarmRecords.Mute mute = records.mutes().get(Cause.key(cause.kind(), each));
             if (mute != null && mute.until() > now && (until == null || mute.until() > until)) {
                 until = mute.until();
             }
@@ -273,9 +275,13 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         passed.forEach(key -> records.mutes().put(key, null));
     }
 
-    /** Returns the alarm that is not closed; null if none. */
-    private Alarm current(AlarmKind kind, String subject) {
-        String known = records.current().get(Cause.key(kind, subject));
+    /** Returns the alarm that is not closed; null if none. One of an older version, which has no identity, is that of its subject. */
+    private Alarm current(AlarmKind kind, String identity) {
+        String known = records.current().get(Cause.key(kind, identity));
+        if (known == null && AlarmLimit.KINDS.contains(kind)) {
+            String[] parts = identity.split("\\|", 4);
+            known = records.current().get(Cause.key(kind, parts[parts.length - 1]));
+        }
         return known == null ? null : records.alarms().get(known);
     }
 

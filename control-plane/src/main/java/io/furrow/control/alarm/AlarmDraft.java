@@ -27,6 +27,7 @@ final class AlarmDraft {
     Integer total;
     Long seen;
     String inhibitedBy;
+    String identity;
 
     AlarmDraft() {}
 
@@ -52,6 +53,7 @@ final class AlarmDraft {
         total = from.total();
         seen = from.seen();
         inhibitedBy = from.inhibitedBy();
+        identity = from.identity();
     }
 
     void describe(Cause cause) {
@@ -84,6 +86,7 @@ final class AlarmDraft {
                 affected,
                 total,
                 seen,
-                inhibitedBy);
+                inhibitedBy,
+                identity);
     }
 }

@@ -6,10 +6,10 @@ import io.furrow.control.manager.record.Records;
  * The stores of the alarm manager.
  *
  * @param alarms by id; closed ones for a while
- * @param current ids of the alarms that are not closed, by kind and subject
- * @param mutes active mutes by kind and subject; an empty subject stands for all of a kind
+ * @param current ids of the alarms that are not closed, by kind and identity
+ * @param mutes active mutes by kind and subject or identity; an empty subject stands for all of a kind
  * @param groups numbers of alarms and of causes without an alarm, by kind and group
- * @param counted causes without an alarm, by kind and subject
+ * @param counted causes without an alarm, by kind and identity
  */
 record AlarmRecords(
         Records<Alarm> alarms,

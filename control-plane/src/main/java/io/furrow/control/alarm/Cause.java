@@ -4,11 +4,14 @@ import java.time.Duration;
 import java.util.List;
 
 import io.furrow.model.control.AlarmKind;
+import io.furrow.model.event.FiwareScope;
 
 /**
  * The cause of an alarm.
  *
- * @param subject the affected entity or pair; there is at most one open alarm per kind and subject
+ * @param subject the affected entity or pair
+ * @param identity what tells the subject from others of that id: tenant, service path, types and subject; the subject itself where there is
+ *     nothing to tell apart. There is at most one open alarm per kind and identity
  * @param text human-readable sentence
  * @param devices devices concerned, at most {@value #MAX_DEVICES}
  * @param holds validity unless the cause is repeated; null if it lasts until ended explicitly
@@ -18,6 +21,7 @@ import io.furrow.model.control.AlarmKind;
 public record Cause(
         AlarmKind kind,
         String subject,
+        String identity,
         String text,
         List<Device> devices,
         Duration holds,
@@ -29,8 +33,20 @@ public record Cause(
     /**
      * @param id of its entity
      * @param type of its entity; null if unknown
+     * @param service its tenant; null for the default one
+     * @param servicePath null for the root
      */
-    public record Device(String id, String type) {}
+    public record Device(String id, String type, String service, String servicePath) {
+        /** @param type null if unknown */
+        public static Device of(String id, String type, FiwareScope scope) {
+            FiwareScope usual = FiwareScope.DEFAULT;
+            return new Device(
+                    id,
+                    type,
+                    scope.service().equals(usual.service()) ? null : scope.service(),
+                    scope.servicePath().equals(usual.servicePath()) ? null : scope.servicePath());
+        }
+    }
 
     /**
      * Number of affected devices or pairs.
@@ -45,24 +61,29 @@ public record Cause(
 
     /** Creates an individual cause without a group. */
     public Cause(AlarmKind kind, String subject, String text, List<Device> devices, Duration holds) {
-        this(kind, subject, text, devices, holds, null, null);
+        this(kind, subject, subject, text, devices, holds, null, null);
     }
 
     public Cause inGroup(String newGroup) {
-        return new Cause(kind, subject, text, devices, holds, newGroup, extent);
+        return new Cause(kind, subject, identity, text, devices, holds, newGroup, extent);
+    }
+
+    /** @param newIdentity of {@link FiwareScope#identity(String, String)}, of the types and the subject */
+    public Cause identifiedBy(String newIdentity) {
+        return new Cause(kind, subject, newIdentity, text, devices, holds, group, extent);
     }
 
     /** Creates a group cause that lasts until it is ended explicitly. */
     public static Cause ofMany(AlarmKind kind, String group, String text, List<Device> devices, Extent extent) {
-        return new Cause(kind, group, text, devices, null, group, extent);
+        return new Cause(kind, group, group, text, devices, null, group, extent);
     }
 
-    static String key(AlarmKind kind, String subject) {
-        return kind.code() + "|" + subject;
+    static String key(AlarmKind kind, String identity) {
+        return kind.code() + "|" + identity;
     }
 
     String key() {
-        return key(kind, subject);
+        return key(kind, identity);
     }
 
     Long until(long now) {

@@ -18,6 +18,7 @@ import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
 
@@ -61,6 +62,7 @@ final class Silence {
     record Device(
             String id,
             String type,
+            FiwareScope scope,
             String group,
             boolean silent,
             boolean off,
@@ -72,6 +74,7 @@ final class Silence {
             return new Device(
                     health.id(),
                     health.type(),
+                    FiwareScope.of(health.service(), health.servicePath()),
                     AlarmGroup.of(health.mission(), health.domain()),
                     health.silent(),
                     health.off(),
@@ -82,7 +85,7 @@ final class Silence {
         }
 
         Device because(SilenceCause newCause) {
-            return new Device(id, type, group, silent, off, since, heard, silentAfter, newCause);
+            return new Device(id, type, scope, group, silent, off, since, heard, silentAfter, newCause);
         }
 
         String named() {
@@ -118,7 +121,7 @@ final class Silence {
             return silent.stream()
                     .sorted(OLDEST)
                     .limit(Cause.MAX_DEVICES)
-                    .map(device -> new Cause.Device(device.id(), device.type()))
+                    .map(device -> Cause.Device.of(device.id(), device.type(), device.scope()))
                     .toList();
         }
 
@@ -181,7 +184,7 @@ final class Silence {
         Members all = new Members();
         for (Device device : devices.values()) {
             if (!device.off() && !isMissing(device)) {
-                boolean silent = device.silent() && !alarms.isMuted(AlarmKind.SILENT_DEVICE, device.id(), now);
+                boolean silent = device.silent() && !isMuted(device, now);
                 all.add(device, silent);
                 groups.computeIfAbsent(device.group(), any -> new Members()).add(device, silent);
             }
@@ -194,6 +197,13 @@ final class Silence {
         }
         groups.forEach((group, members) -> report(group, members, farm, now, causes));
         alarms.endOthers(KINDS, causes, "its devices report again or were stopped", now);
+    }
+
+    /** Whether it is muted, by its id or by tenant, service path and id. */
+    private boolean isMuted(Device device, long now) {
+        String identity = device.scope().identity(device.id());
+        return alarms.isMuted(AlarmKind.SILENT_DEVICE, device.id(), now)
+                || alarms.isMuted(AlarmKind.SILENT_DEVICE, identity, now);
     }
 
     /** Whether another alarm has the device already: its mission misses it since its start. */

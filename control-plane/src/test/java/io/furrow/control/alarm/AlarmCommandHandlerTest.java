@@ -92,6 +92,33 @@ class AlarmCommandHandlerTest {
     }
 
     @Test
+    void goesOnWithAnAlarmOfAnOlderVersionThatHadNoIdentity() {
+        Cause older = new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR);
+        Cause cause = older.identifiedBy("farm|/|Thermometer|s");
+        handler.raise(older, NOW);
+        handler.raise(cause, NOW + 10);
+        assertThat(current()).hasSize(1);
+        handler.end(AlarmKind.SUSPECT_SENSOR, cause.identity(), "over", NOW + 20);
+        handler.raise(cause, NOW + 30);
+        assertThat(current()).singleElement().returns(cause.identity(), Alarm::identity);
+    }
+
+    @Test
+    void mutesASubjectOfOneTenantOrOfAll() throws Exception {
+        Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR);
+        muteSensor("other|/|Thermometer|s");
+        handler.raise(cause.identifiedBy("farm|/|Thermometer|s"), NOW);
+        handler.raise(cause.identifiedBy("other|/|Thermometer|s"), NOW);
+        assertThat(current()).extracting(alarm -> alarm.isMuted(NOW)).containsExactly(false, true);
+        muteSensor("s");
+        assertThat(current()).allMatch(alarm -> alarm.isMuted(NOW));
+    }
+
+    private void muteSensor(String subject) throws Exception {
+        handler.answer(new AlarmCommand.Mute(new AlarmCommand.OfKind(AlarmKind.SUSPECT_SENSOR, subject), HOUR), NOW);
+    }
+
+    @Test
     void refusesToCloseByHandWhatWasSeenWithinTheLastMinute() throws Exception {
         handler.raise(silent("urn:t:1"), NOW);
         long later = NOW + AlarmLife.CAUSE_LASTS.toMillis() - 1;
@@ -275,7 +302,7 @@ class AlarmCommandHandlerTest {
                 AlarmKind.SILENT_DEVICE,
                 device,
                 "it is silent",
-                List.of(new Cause.Device(device, "Thermometer")),
+                List.of(new Cause.Device(device, "Thermometer", null, null)),
                 null);
     }
 

@@ -147,7 +147,7 @@ class AlarmPropertyTest {
 
         private Cause cause(AlarmKind kind) {
             Duration holds = random.nextBoolean() ? null : Duration.ofSeconds(1 + random.nextInt(60));
-            Cause cause = new Cause(kind, subject(), "look", List.of(new Cause.Device("x", null)), holds);
+            Cause cause = new Cause(kind, subject(), "look", List.of(new Cause.Device("x", null, null, null)), holds);
             return AlarmLimit.KINDS.contains(kind) ? cause.inGroup("g") : cause;
         }
 

@@ -8,6 +8,7 @@ import org.junit.jupiter.api.Test;
 import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmHandlers;
 import io.furrow.control.manager.KeptOutbox;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -40,7 +41,18 @@ class SilenceTest {
         for (int i = 0; i < 5; i++) {
             String id = "urn:t:" + i;
             silence.put(
-                    id, new Silence.Device(id, "Thermometer", "urn:m", true, false, NOW, NOW - 60_000, 30_000, null));
+                    id,
+                    new Silence.Device(
+                            id,
+                            "Thermometer",
+                            FiwareScope.DEFAULT,
+                            "urn:m",
+                            true,
+                            false,
+                            NOW,
+                            NOW - 60_000,
+                            30_000,
+                            null));
         }
         return silence;
     }

@@ -72,7 +72,7 @@ public final class FeedRecord {
         return record.key() == null ? null : new String(record.key(), StandardCharsets.UTF_8);
     }
 
-    /** Of an entity: two of one id may differ in nothing else. Empty for any other record. */
+    /** Of an entity, or of a picture of one: two of one id may differ in nothing else. Empty for any other record. */
     private synchronized String type() {
         if (type == null) {
             type = record.value() == null
@@ -90,7 +90,7 @@ public final class FeedRecord {
             while (isObject && (!hasId || type.isEmpty()) && parser.nextToken() == JsonToken.FIELD_NAME) {
                 String name = parser.currentName();
                 boolean isText = parser.nextToken() == JsonToken.VALUE_STRING;
-                hasId |= isText && name.equals("id");
+                hasId |= isText && (name.equals("id") || name.equals("entity"));
                 type = isText && name.equals("type") ? parser.getText() : type;
                 parser.skipChildren();
             }

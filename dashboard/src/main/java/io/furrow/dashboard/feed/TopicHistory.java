@@ -49,7 +49,7 @@ public final class TopicHistory {
      *
      * @param from epoch ms
      * @param to epoch ms, exclusive
-     * @param newest an attribute, or a member that is no attribute: of records of a tenant and service path with the same value of it only the last comes; null for all records
+     * @param newest an attribute, or a member that is no attribute: of records of a tenant, service path and type with the same value of it only the last comes; null for all records
      * @param limit how many records at most
      */
     public record Range(String topic, long from, long to, String newest, int limit) {}
@@ -194,10 +194,13 @@ public final class TopicHistory {
                 return own;
             }
             try {
-                JsonNode member = NgsiJson.read(record.value()).path(range.newest());
+                JsonNode read = NgsiJson.read(record.value());
+                JsonNode member = read.path(range.newest());
                 JsonNode value = member.isObject() ? member.path("value") : member;
                 return value.isValueNode() && !value.asText().isEmpty()
-                        ? "=" + FeedRecord.scopeOf(record).identity(value.asText())
+                        ? "="
+                                + FeedRecord.scopeOf(record)
+                                        .identity(read.path("type").asText(""), value.asText())
                         : own;
             } catch (UnreadableException e) {
                 return own;

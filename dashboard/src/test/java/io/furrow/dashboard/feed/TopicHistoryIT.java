@@ -124,6 +124,7 @@ class TopicHistoryIT {
         send("data.newest", 0, 6, "{\"n\":6,\"encounter\":\"plain\"}");
         send("data.newest", 0, 7, "{\"n\":7,\"encounter\":\"plain\"}");
         send("data.newest", 0, 8, null);
+        send("data.newest", 0, 9, "{\"n\":8,\"type\":\"Camera\",\"encounter\":\"plain\"}");
         ProducerRecord<String, byte[]> ofAnother = new ProducerRecord<>(
                 "data.newest", 0, TIME + 9, "k", encounter("a", 9).getBytes(UTF_8));
         ofAnother.headers().add("fiware-service", "other".getBytes(UTF_8));
@@ -131,7 +132,7 @@ class TopicHistoryIT {
 
         TopicHistory.Answer answer = read(
                 new TopicHistory.Range("data.newest", TIME, TIME + 10, "encounter", ALL), TopicHistory.Limits.DEFAULT);
-        assertThat(numbers(answer)).containsExactly(2, 3, 4, 5, 0, 7, 9);
+        assertThat(numbers(answer)).containsExactly(2, 3, 4, 5, 0, 7, 8, 9);
     }
 
     @Test

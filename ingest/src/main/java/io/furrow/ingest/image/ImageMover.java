@@ -109,6 +109,7 @@ public final class ImageMover {
         ObjectNode json = NgsiJson.mapper()
                 .createObjectNode()
                 .put("entity", event.entityId())
+                .put("type", event.type())
                 .put("attribute", attribute)
                 .put("domain", event.domain())
                 .put("mission", event.mission())

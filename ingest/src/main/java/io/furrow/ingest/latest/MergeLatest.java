@@ -11,8 +11,8 @@ import org.apache.flink.streaming.api.TimerService;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.flink.record.ByType;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.ingest.route.ByType;
 import io.furrow.ingest.route.EventEntity;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.HeaderNames;

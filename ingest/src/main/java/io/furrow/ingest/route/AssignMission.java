@@ -16,6 +16,7 @@ import org.apache.flink.util.Collector;
 import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.device.DeviceLookup;
 import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.ByType;
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.model.device.DeviceVersion;

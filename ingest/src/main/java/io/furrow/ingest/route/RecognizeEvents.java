@@ -5,8 +5,11 @@ import java.time.Instant;
 import java.util.Set;
 
 import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.metrics.Counter;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.DeadLetters;
@@ -23,34 +26,68 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * Reads what routing needs of an event; a record without a value is the deletion of the entity that its key names. Emits dead
- * letters for records that are neither, and for those from the future.
+ * letters for records that are neither, and for those from the future. Where {@code data.latest} has ids as its keys, it counts those that
+ * several tenants or service paths have, {@code idsShared}, and warns of the first.
  */
 public final class RecognizeEvents extends ProcessFunction<TopicRecord, ReportedEvent> {
     private static final long serialVersionUID = 1L;
+    private static final Logger LOG = LoggerFactory.getLogger(RecognizeEvents.class);
     private static final String STAGE = "ingest";
     private static final Set<String> ROUTE = Set.of("Domain", "Mission");
 
     private final AheadLimit ahead;
+    private final boolean keysById;
     private transient DeadCounters dead;
+    private transient SharedIds ids;
+    private transient Counter shared;
 
-    public RecognizeEvents(AheadLimit ahead) {
+    /** @param keysById whether entities of one id share a key on {@code data.latest} */
+    public RecognizeEvents(AheadLimit ahead, boolean keysById) {
         this.ahead = ahead;
+        this.keysById = keysById;
     }
 
     @Override
     public void open(OpenContext context) {
         dead = new DeadCounters(getRuntimeContext().getMetricGroup());
+        ids = new SharedIds();
+        shared = getRuntimeContext().getMetricGroup().counter("idsShared");
     }
 
     @Override
     public void processElement(TopicRecord record, Context context, Collector<ReportedEvent> out) {
         try {
             ahead.check(record);
-            out.collect(recognize(record));
+            ReportedEvent event = recognize(record);
+            noteShared(event);
+            out.collect(event);
         } catch (UnreadableException e) {
             dead.count(e.reason());
             context.output(DeadLetters.TAG, DeadLetters.of(record, e, STAGE));
         }
+    }
+
+    private void noteShared(ReportedEvent event) {
+        FiwareScope other = keysById ? ids.take(event) : null;
+        if (other == null) {
+            return;
+        }
+        if (shared.getCount() == 0) {
+            FiwareScope its = FiwareScope.ofIdentity(event.identity());
+            LOG.warn(
+                    "tenant '{}', path '{}' and tenant '{}', path '{}' both have an entity '{}': they share a key on data.latest, and"
+                            + " compaction keeps one of them. Start ingest with --latest-key identity.",
+                    other.service(),
+                    other.servicePath(),
+                    its.service(),
+                    its.servicePath(),
+                    event.entityId());
+        }
+        shared.inc();
+    }
+
+    long idsShared() {
+        return shared.getCount();
     }
 
     /** A record of another producer may lack the event id: it gets the one that the source would have given. */

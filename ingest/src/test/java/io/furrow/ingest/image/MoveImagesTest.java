@@ -39,7 +39,7 @@ class MoveImagesTest extends MoveImagesHarness {
                     assertThat(manifest.timestamp()).isEqualTo(T);
                     assertThat(NgsiJson.read(manifest.value()).toString())
                             .isEqualTo(
-                                    "{\"entity\":\"c1\",\"attribute\":\"Image\",\"domain\":\"north\",\"mission\":\"weeding\","
+                                    "{\"entity\":\"c1\",\"type\":\"Camera\",\"attribute\":\"Image\",\"domain\":\"north\",\"mission\":\"weeding\","
                                             + "\"time\":\"2023-11-14T22:13:20.123Z\",\"url\":\"gated://" + folder + "/"
                                             + file + "\",\"sha256\":\"" + Sha256.hex(image) + "\",\"bytes\":"
                                             + image.length + ",\"contentType\":\"image/png\"}");

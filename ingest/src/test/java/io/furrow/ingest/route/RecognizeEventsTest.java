@@ -1,13 +1,19 @@
 package io.furrow.ingest.route;
 
 import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.List;
 import java.util.Map;
 
+import org.apache.flink.streaming.api.operators.ProcessOperator;
+import org.apache.flink.streaming.util.OneInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import io.furrow.flink.record.Receipt;
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.AheadLimit;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
@@ -45,6 +51,29 @@ class RecognizeEventsTest {
                 .isInstanceOfSatisfying(
                         UnreadableException.class,
                         why -> assertThat(why.reason()).isEqualTo(Reason.NOT_AN_EVENT));
+    }
+
+    @Test
+    void countsIdsOfSeveralTenantsThatShareAKeyOfTheNewest() throws Exception {
+        assertThat(idsShared(true)).isEqualTo(1);
+        assertThat(idsShared(false)).isZero();
+    }
+
+    private static long idsShared(boolean keysById) throws Exception {
+        RecognizeEvents recognize = new RecognizeEvents(
+                new AheadLimit(new Receipt(Duration.ofSeconds(10)), Duration.ofDays(20_000)), keysById);
+        OneInputStreamOperatorTestHarness<TopicRecord, ReportedEvent> harness =
+                new OneInputStreamOperatorTestHarness<>(new ProcessOperator<>(recognize));
+        harness.open();
+        for (String tenant : List.of("one", "one", "other", "other", "one", "other", "one")) {
+            harness.processElement(record(ROBOT.formatted(1), Map.of(HeaderNames.SERVICE, tenant)), 1);
+            String own = "{\"id\":\"own-%s\",\"type\":\"Robot\"}".formatted(tenant);
+            harness.processElement(record(own, Map.of(HeaderNames.SERVICE, tenant)), 1);
+        }
+        assertThat(harness.extractOutputValues()).hasSize(14);
+        long shared = recognize.idsShared();
+        harness.close();
+        return shared;
     }
 
     private static String id(String value, String borne) throws UnreadableException {

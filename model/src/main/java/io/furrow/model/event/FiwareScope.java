@@ -33,6 +33,13 @@ public record FiwareScope(String service, String servicePath) {
         return new FiwareScope(plain(parts[0]), plain(parts[1]));
     }
 
+    /** The type in an identity of this entity id; empty where the identity has none. */
+    public static String typeOf(String identity, String entityId) {
+        String rest = identity.split("\\|", 3)[2];
+        int end = rest.length() - entityId.length() - 1;
+        return end < 0 ? "" : plain(rest.substring(0, end));
+    }
+
     /** The context broker allows neither sign, but a header may hold anything. */
     private static String escaped(String part) {
         return part.replace("%", "%25").replace("|", "%7C");

@@ -9,6 +9,8 @@ public final class ClockResult {
 
     /** Id of the device. */
     public static final String DEVICE = "device";
+    /** Type of its entity; empty where it is not known. */
+    public static final String DEVICE_TYPE = "deviceType";
     /** Milliseconds that positions of {@link #BEHIND_TYPE} arrived too late, or reports after their time. */
     public static final String LATE = "late";
     /** How many reports of a {@link #BEHIND_TYPE} were received long after their time. */

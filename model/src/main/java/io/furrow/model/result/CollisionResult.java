@@ -41,6 +41,7 @@ public final class CollisionResult {
     /** Names of the attributes of one device of the pair. */
     public static final class Member {
         private final String id;
+        private final String type;
         private final String latitude;
         private final String longitude;
         private final String timestamp;
@@ -48,6 +49,7 @@ public final class CollisionResult {
 
         private Member(String prefix) {
             id = prefix + "_ID";
+            type = prefix + "_type";
             latitude = prefix + "_latitude";
             longitude = prefix + "_longitude";
             timestamp = prefix + "_timestamp";
@@ -56,6 +58,11 @@ public final class CollisionResult {
 
         public String id() {
             return id;
+        }
+
+        /** Of the device's entity. */
+        public String type() {
+            return type;
         }
 
         /** Degrees. */

@@ -20,6 +20,8 @@ public final class FieldResult {
     public static final String DEVICES = "devices";
     /** Ids of the devices whose values were left out. */
     public static final String SUSPECTS = "suspects";
+    /** Types of the entities of {@link #SUSPECTS}, in their order; empty where it is not known. */
+    public static final String SUSPECT_TYPES = "suspectTypes";
     /** Epoch ms, inclusive. */
     public static final String WINDOW_START = "windowStart";
     /** Epoch ms, exclusive. */

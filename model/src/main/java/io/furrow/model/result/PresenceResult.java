@@ -6,6 +6,8 @@ public final class PresenceResult {
 
     /** Id of the device's entity. */
     public static final String DEVICE = "device";
+    /** Type of the device's entity. */
+    public static final String DEVICE_TYPE = "deviceType";
     /** Id of the field. */
     public static final String FIELD = "field";
     /** Name of the field, where it has one. */

@@ -34,6 +34,9 @@ class FiwareScopeTest {
                 new FiwareScope("a|b", "/100%"),
                 new FiwareScope("a%7Cb", "/%25"))) {
             assertThat(FiwareScope.ofIdentity(scope.identity("urn:x|1"))).isEqualTo(scope);
+            assertThat(FiwareScope.typeOf(scope.identity("a|b", "urn:x|1"), "urn:x|1"))
+                    .isEqualTo("a|b");
+            assertThat(FiwareScope.typeOf(scope.identity("urn:x|1"), "urn:x|1")).isEmpty();
         }
     }
 }

@@ -154,6 +154,35 @@ class PageRulesIT {
                         "pb-14 at 10.002, 0 places");
     }
 
+    /** Pictures and findings may come before the entity that they are of, while another one of its id is shown. */
+    @Test
+    void givesPicturesAndFindingsToTheEntityThatTheyAreOf() {
+        assertThat(run(TAKE + """
+                const { fullKey } = await import('/core/identities.js');
+                const headers = (tenant) => ({ 'fiware-service': tenant });
+                const picture = (tenant, type, sha256) => store.takeImage({ time, headers: headers(tenant), value: { entity: 'pb-15', type, sha256 } });
+                const shown = () => [...store.entities.values()].filter(({ identity }) => identity.id === 'pb-15')
+                  .map((entity) => `${entity.name}: ${store.imageOf(entity)?.sha256 ?? 'none'}${entity.suspect ? ', suspect' : ''}`);
+                take('pb-15', 'Camera', 'one', {});
+                picture('other', 'Camera', 'b');
+                picture('one', 'Station', 'c');
+                store.takeTemperature({ time, headers: headers('one'), value: { type: 'Analytics:FieldTemperature', field: { value: 'f' },
+                  suspects: { value: ['pb-15'] }, suspectTypes: { value: ['Station'] } } });
+                const first = shown();
+                picture('one', 'Camera', 'a');
+                take('pb-15', 'Camera', 'other', {});
+                take('pb-15', 'Station', 'one', {});
+                const last = shown();
+                picture('one', undefined, 'old');
+                return [...first, ...last, fullKey({ service: '', servicePath: '/' }, 'T', 'x')];"""))
+                .containsExactly(
+                        "pb-15: none",
+                        "pb-15 (Camera one): a",
+                        "pb-15 (Camera other): b",
+                        "pb-15 (Station one): c, suspect",
+                        "|/|T|x");
+    }
+
     @Test
     void showsAFieldFromTheTimeOnFromWhichItIsOne() {
         assertThat(run("""

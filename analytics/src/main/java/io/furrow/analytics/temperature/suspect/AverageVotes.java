@@ -1,6 +1,7 @@
 package io.furrow.analytics.temperature.suspect;
 
 import java.util.HashMap;
+import java.util.List;
 import java.util.Map;
 
 import org.apache.flink.streaming.api.functions.windowing.ProcessWindowFunction;
@@ -37,35 +38,45 @@ public final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldA
 
     @Override
     public void process(String field, Context context, Iterable<DeviceVote> votes, Collector<FieldAverage> out) {
-        Map<String, Double> latest = new HashMap<>();
+        Map<String, DeviceVote> latest = new HashMap<>();
         DeviceVote newest = null; // by the version of the field: whose domain counts
         for (DeviceVote vote : votes) {
-            latest.put(vote.device(), vote.value());
+            latest.values().removeIf(vote::replaces);
+            latest.put(vote.voter(), vote);
             newest = newest == null || vote.validFrom() > newest.validFrom() ? vote : newest;
         }
+        Map<String, Double> values = new HashMap<>();
+        latest.forEach((voter, vote) -> values.put(voter, vote.value()));
+        RobustMean average = RobustMean.of(values, suspectFloor);
+        List<DeviceVote> suspects = average.suspects().stream()
+                .map(latest::get)
+                .sorted(DeviceVote.NAMING)
+                .toList();
         FieldAverage result = new FieldAverage(
                 newest.field(),
                 newest.domain(),
                 newest.scope(),
                 newest.windowStart(),
                 newest.windowEnd(),
-                RobustMean.of(latest, suspectFloor));
+                average.naming(suspects.stream().map(DeviceVote::device).toList()),
+                suspects.stream().map(DeviceVote::typeOrNone).toList());
         out.collect(result);
         if (judges && result.average().verified()) {
-            latest.forEach((device, value) -> context.output(VERDICTS, verdict(result, device, value)));
+            latest.values().forEach(vote -> context.output(VERDICTS, verdict(result, vote, suspects.contains(vote))));
         }
     }
 
-    private static Verdict verdict(FieldAverage result, String device, double value) {
+    private static Verdict verdict(FieldAverage result, DeviceVote vote, boolean suspect) {
         return new Verdict(
-                device,
+                vote.device(),
                 result.scope(),
                 result.field(),
                 result.domain(),
-                result.average().suspects().contains(device),
-                value,
+                suspect,
+                vote.value(),
                 result.average().mean(),
                 result.windowStart(),
-                result.windowEnd());
+                result.windowEnd(),
+                vote.type());
     }
 }

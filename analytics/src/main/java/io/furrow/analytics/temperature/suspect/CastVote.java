@@ -19,15 +19,17 @@ final class CastVote implements WindowFunction<DeviceReadings, DeviceVote, Strin
     @Override
     public void apply(String voter, TimeWindow window, Iterable<DeviceReadings> only, Collector<DeviceVote> out) {
         for (DeviceReadings readings : only) {
-            out.collect(new DeviceVote(
-                    readings.field(),
-                    readings.domain(),
-                    readings.validFrom(),
-                    readings.scope(),
-                    readings.device(),
-                    readings.median(),
-                    window.getStart(),
-                    window.getEnd()));
+            readings.all()
+                    .forEach(each -> out.collect(new DeviceVote(
+                            readings.field(),
+                            readings.domain(),
+                            readings.validFrom(),
+                            readings.scope(),
+                            readings.device(),
+                            each.median(),
+                            window.getStart(),
+                            window.getEnd(),
+                            each.type())));
         }
     }
 }

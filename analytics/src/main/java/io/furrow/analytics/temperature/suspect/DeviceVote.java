@@ -1,5 +1,7 @@
 package io.furrow.analytics.temperature.suspect;
 
+import java.util.Comparator;
+
 import io.furrow.analytics.temperature.InputScope;
 
 /**
@@ -11,6 +13,7 @@ import io.furrow.analytics.temperature.InputScope;
  * @param value the median of its readings, in the attribute's unit
  * @param windowStart first instant of the window, epoch ms
  * @param windowEnd first instant after the window, epoch ms
+ * @param type of the entity; null in state of before types were told apart, until the next reading
  */
 public record DeviceVote(
         String field,
@@ -20,7 +23,26 @@ public record DeviceVote(
         String device,
         double value,
         long windowStart,
-        long windowEnd) {
+        long windowEnd,
+        String type) {
+    /** By id, then by type. */
+    static final Comparator<DeviceVote> NAMING =
+            Comparator.comparing(DeviceVote::device).thenComparing(DeviceVote::typeOrNone);
+
+    /** Whether a vote of before types were told apart is that of the same device. */
+    boolean replaces(DeviceVote untyped) {
+        return untyped.type == null && type != null && device.equals(untyped.device);
+    }
+
+    /** Type and id: no two devices of a field share it. */
+    String voter() {
+        return typeOrNone() + "|" + device;
+    }
+
+    String typeOrNone() {
+        return type == null ? "" : type;
+    }
+
     /** The field among those of all topics and tenants: devices of two tenants are never averaged together. */
     public String fieldIdentity() {
         return scope.identity(field);

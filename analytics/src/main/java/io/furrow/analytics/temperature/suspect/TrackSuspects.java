@@ -4,14 +4,12 @@ import java.time.Duration;
 import java.util.List;
 
 import org.apache.flink.api.common.functions.OpenContext;
-import org.apache.flink.api.common.state.ValueState;
-import org.apache.flink.api.common.state.ValueStateDescriptor;
-import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
 import io.furrow.analytics.eventtime.Inbox;
 import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.flink.record.ByType;
 import io.furrow.flink.time.EventTimeReached;
 import io.furrow.flink.time.JudgesLateness;
 
@@ -20,19 +18,22 @@ import io.furrow.flink.time.JudgesLateness;
  * a window it is suspect if any field sets it aside, sound if none does; a window without a verdict (no reading, or too few
  * devices to decide) neither counts nor interrupts.
  *
- * <p>State: verdicts that wait for the watermark, and of a suspect device its run of windows. Cleared: by the first window in
+ * <p>State: verdicts that wait for the watermark, and of a suspect device its run of windows; keyed by id, and in it by type. Cleared: by the first window in
  * which it is sound, or when no verdict has come for the memory. Late: a corrected verdict of a window that event time has
  * passed, in this run or an earlier one, is skipped. Emits: a report when the watermark passes the window that was one too many.
  */
 public final class TrackSuspects extends KeyedProcessFunction<String, Verdict, SuspectDevice>
         implements JudgesLateness {
+    private static final ByType.Descriptor<SuspectRun> RUN =
+            new ByType.Descriptor<>("run", SuspectRun.class, SuspectRun::type);
+
     private static final long serialVersionUID = 1L;
 
     private final int windows;
     private final long memoryMillis;
     private transient OneTimer timer;
     private transient Inbox<Verdict> inbox;
-    private transient ValueState<SuspectRun> run;
+    private transient ByType<SuspectRun> runs;
     private transient EventTimeReached reached;
 
     public TrackSuspects(int windows, Duration memory) {
@@ -49,7 +50,7 @@ public final class TrackSuspects extends KeyedProcessFunction<String, Verdict, S
     public void open(OpenContext context) {
         timer = new OneTimer(getRuntimeContext());
         inbox = new Inbox<>(getRuntimeContext(), Verdict.class, Verdict.SEQUENCE, timer);
-        run = getRuntimeContext().getState(new ValueStateDescriptor<>("run", TypeInformation.of(SuspectRun.class)));
+        runs = RUN.of(getRuntimeContext());
     }
 
     @Override
@@ -63,30 +64,33 @@ public final class TrackSuspects extends KeyedProcessFunction<String, Verdict, S
     public void onTimer(long time, OnTimerContext context, Collector<SuspectDevice> out) throws Exception {
         timer.rang();
         List<Verdict> due = inbox.takeDue(context.timerService());
-        long judged = Long.MIN_VALUE;
+        Verdict judged = null;
         for (Verdict verdict : due) {
-            if (verdict.windowEnd() != judged) { // the first of a window decides: suspect ones come first
+            if (!verdict.isOfSameWindow(judged)) { // the first of a window decides: suspect ones come first
                 judge(verdict, out);
-                judged = verdict.windowEnd();
+                judged = verdict;
             }
         }
-        SuspectRun known = run.value();
-        if (known != null && known.until() + memoryMillis <= time) {
-            run.clear();
-        } else if (known != null) {
-            timer.ask(known.until() + memoryMillis, context.timerService());
+        for (SuspectRun known : runs.allOf("")) {
+            if (known.until() + memoryMillis <= time) {
+                runs.remove(known);
+            } else {
+                timer.ask(known.until() + memoryMillis, context.timerService());
+            }
         }
     }
 
     private void judge(Verdict verdict, Collector<SuspectDevice> out) throws Exception {
+        SuspectRun known = verdict.type() == null ? runs.first() : runs.get(verdict.type());
         if (!verdict.suspect()) {
-            run.clear();
+            if (known != null) {
+                runs.remove(known);
+            }
             return;
         }
-        SuspectRun known = run.value();
         boolean isForgotten = known != null && known.until() + memoryMillis <= verdict.time();
         SuspectRun longer = SuspectRun.after(isForgotten ? null : known, verdict);
-        run.update(longer);
+        runs.put(longer.type(), longer);
         if (longer.windows() == windows) {
             out.collect(new SuspectDevice(verdict, longer.windows(), longer.since()));
         }

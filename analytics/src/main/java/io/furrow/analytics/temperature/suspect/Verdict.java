@@ -1,6 +1,7 @@
 package io.furrow.analytics.temperature.suspect;
 
 import java.util.Comparator;
+import java.util.Objects;
 
 import io.furrow.analytics.eventtime.Timed;
 import io.furrow.analytics.temperature.InputScope;
@@ -13,6 +14,7 @@ import io.furrow.analytics.temperature.InputScope;
  * @param mean of those that were not set aside
  * @param windowStart first instant of the window, epoch ms
  * @param windowEnd first instant after the window, epoch ms
+ * @param type of the entity; null in state of before types were told apart
  */
 public record Verdict(
         String device,
@@ -23,16 +25,23 @@ public record Verdict(
         double value,
         double mean,
         long windowStart,
-        long windowEnd)
+        long windowEnd,
+        String type)
         implements Timed {
-    /** By window; of one window suspect ones first, by field. */
+    /** By window and type; of one window suspect ones first, by field. */
     static final Comparator<Verdict> SEQUENCE = Comparator.comparingLong(Verdict::windowEnd)
+            .thenComparing(Verdict::type, Comparator.nullsFirst(Comparator.naturalOrder()))
             .thenComparing(verdict -> !verdict.suspect())
             .thenComparing(Verdict::field);
 
-    /** The device among those of all topics and tenants. */
+    /** The devices of the id among those of all topics and tenants, whatever their types. */
     public String deviceIdentity() {
         return scope.identity(device);
+    }
+
+    /** @param other null for none */
+    boolean isOfSameWindow(Verdict other) {
+        return other != null && windowEnd == other.windowEnd && Objects.equals(type, other.type);
     }
 
     /** The window's last instant. */

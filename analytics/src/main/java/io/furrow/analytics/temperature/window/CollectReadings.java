@@ -1,6 +1,7 @@
 package io.furrow.analytics.temperature.window;
 
 import java.util.ArrayList;
+import java.util.List;
 
 import org.apache.flink.api.common.functions.AggregateFunction;
 
@@ -8,7 +9,7 @@ import io.furrow.analytics.temperature.FieldReading;
 import io.furrow.analytics.temperature.Reading;
 
 /**
- * Collects the values of a device in a window, and nothing else of its records. A state backend on disk reads and
+ * Collects the values of the devices of an id in a window, and nothing else of its records. A state backend on disk reads and
  * writes all of that with every reading; values are counted, because a sensor that reports each second of a day has
  * few different ones.
  */
@@ -17,23 +18,42 @@ public final class CollectReadings implements AggregateFunction<FieldReading, De
 
     @Override
     public DeviceReadings createAccumulator() {
-        return new DeviceReadings(null, null, Long.MIN_VALUE, null, null, new ArrayList<>(), new ArrayList<>());
+        return new DeviceReadings(
+                null, null, Long.MIN_VALUE, null, null, new ArrayList<>(), new ArrayList<>(), null, null);
     }
 
     @Override
     public DeviceReadings add(FieldReading from, DeviceReadings before) {
         Reading reading = from.reading();
-        DeviceReadings so = before.counted();
-        so.add(reading.value());
-        boolean newer = from.validFrom() >= so.validFrom();
+        List<CountedValues> all = new ArrayList<>(before.all());
+        CountedValues first = all.remove(0);
+        String type = first.type() == null ? reading.type() : first.type();
+        valuesOf(reading.type(), type, first, all).add(reading.value());
+        boolean newer = from.validFrom() >= before.validFrom();
         return new DeviceReadings(
                 from.field(),
-                newer ? from.domain() : so.domain(),
-                newer ? from.validFrom() : so.validFrom(),
+                newer ? from.domain() : before.domain(),
+                newer ? from.validFrom() : before.validFrom(),
                 reading.input(),
                 reading.device(),
-                so.values(),
-                so.times());
+                first.values(),
+                first.times(),
+                type,
+                all.isEmpty() ? null : all);
+    }
+
+    private static CountedValues valuesOf(
+            String type, String firstType, CountedValues first, List<CountedValues> others) {
+        if (type.equals(firstType)) {
+            return first;
+        }
+        for (CountedValues each : others) {
+            if (type.equals(each.type())) {
+                return each;
+            }
+        }
+        others.add(CountedValues.none(type));
+        return others.get(others.size() - 1);
     }
 
     @Override

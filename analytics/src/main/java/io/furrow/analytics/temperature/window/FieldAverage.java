@@ -1,5 +1,7 @@
 package io.furrow.analytics.temperature.window;
 
+import java.util.List;
+
 import io.furrow.analytics.temperature.InputScope;
 
 /**
@@ -10,9 +12,16 @@ import io.furrow.analytics.temperature.InputScope;
  * @param windowStart first instant of the window, epoch ms
  * @param windowEnd first instant after the window, epoch ms
  * @param average of no devices in a window without a reading
+ * @param suspectTypes of the entities of its suspects, in their order; empty where it is not known
  */
 public record FieldAverage(
-        String field, String domain, InputScope scope, long windowStart, long windowEnd, RobustMean average) {
+        String field,
+        String domain,
+        InputScope scope,
+        long windowStart,
+        long windowEnd,
+        RobustMean average,
+        List<String> suspectTypes) {
     /** The field among those of all topics and tenants. */
     public String fieldIdentity() {
         return scope.identity(field);

@@ -1,6 +1,7 @@
 package io.furrow.analytics.temperature.window;
 
 import java.io.IOException;
+import java.util.List;
 import java.util.Optional;
 
 import org.apache.flink.api.common.functions.OpenContext;
@@ -116,7 +117,8 @@ public final class FillEmptyWindows
                 known.scope(),
                 known.next(),
                 known.next() + window,
-                RobustMean.OF_NONE)));
+                RobustMean.OF_NONE,
+                List.of())));
         return field.isPresent();
     }
 }

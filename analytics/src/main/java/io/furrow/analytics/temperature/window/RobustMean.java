@@ -29,7 +29,7 @@ public record RobustMean(
     private static final double CONSISTENCY = 1.4826;
 
     /**
-     * @param votes device id → its value, at least one, all finite
+     * @param votes device → its value, at least one, all finite
      * @param floor by how much two sound devices in one place differ; with 0, when most devices agree to the last digit, any
      *     other is suspect
      */
@@ -51,6 +51,11 @@ public record RobustMean(
                 values.length,
                 outward.stream().skip(sound).map(Map.Entry::getKey).sorted().toList(),
                 values.length >= SuspectRule.MIN);
+    }
+
+    /** The same with the suspects by other names. */
+    public RobustMean naming(List<String> names) {
+        return new RobustMean(mean, plainMean, spread, devices, names, verified);
     }
 
     /** Votes of one value are neighbors: which device gave which makes no difference to the rule. */

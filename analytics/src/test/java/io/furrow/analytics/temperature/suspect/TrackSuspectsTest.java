@@ -1,6 +1,8 @@
 package io.furrow.analytics.temperature.suspect;
 
 import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
 
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
@@ -19,6 +21,9 @@ class TrackSuspectsTest {
     private static final Duration MEMORY = Duration.ofSeconds(10);
 
     private KeyedOneInputStreamOperatorTestHarness<String, Verdict, SuspectDevice> operator;
+
+    /** Before the last restart. */
+    private final List<SuspectDevice> reported = new ArrayList<>();
 
     @BeforeEach
     void open() throws Exception {
@@ -40,6 +45,21 @@ class TrackSuspectsTest {
         }
 
         assertThat(operator.extractOutputValues()).containsExactly(new SuspectDevice(verdict("north", true, 2), 3, 0));
+    }
+
+    @Test
+    void followsDevicesOfOneIdAndTwoTypesEach() throws Exception {
+        for (int window = 0; window < 5; window++) {
+            suspect(window);
+            operator.processElement(verdict("Station", "north", window > 1, window), window);
+            pass(window);
+            restart();
+        }
+
+        assertThat(reported)
+                .containsExactly(
+                        new SuspectDevice(verdict("north", true, 2), 3, 0),
+                        new SuspectDevice(verdict("Station", "north", true, 4), 3, 2_000));
     }
 
     @Test
@@ -160,6 +180,7 @@ class TrackSuspectsTest {
     }
 
     private void restart() throws Exception {
+        reported.addAll(operator.extractOutputValues());
         OperatorSubtaskState snapshot = operator.snapshot(1, 1);
         operator.close();
         operator = create();
@@ -185,7 +206,11 @@ class TrackSuspectsTest {
     }
 
     private static Verdict verdict(String field, boolean suspect, int window) {
+        return verdict("Thermometer", field, suspect, window);
+    }
+
+    private static Verdict verdict(String type, String field, boolean suspect, int window) {
         long start = window * 1_000L;
-        return new Verdict("t1", Farm.INPUT, field, "canary", suspect, 60, 19, start, start + 1_000);
+        return new Verdict("t1", Farm.INPUT, field, "canary", suspect, 60, 19, start, start + 1_000, type);
     }
 }

@@ -37,7 +37,7 @@ class CollectReadingsTest {
                 readings = collect.add(reading(value), readings);
             }
 
-            assertThat(collect.getResult(readings).median()).isEqualTo(Median.of(values));
+            assertThat(collect.getResult(readings).all().get(0).median()).isEqualTo(Median.of(values));
         }
     }
 
@@ -70,11 +70,14 @@ class CollectReadingsTest {
 
         assertThat(restored.values()).containsExactly(20.0, 18.0, 20.0);
         assertThat(restored.scope()).isEqualTo(new InputScope("data.raw", new FiwareScope("farm", "/")));
-        assertThat(restored.median()).isEqualTo(20);
+        assertThat(restored.all().get(0).median()).isEqualTo(20);
         DeviceReadings more = collect.add(reading(18), restored);
         assertThat(more.values()).containsExactly(18.0, 20.0);
         assertThat(more.times()).containsExactly(2, 2);
-        assertThat(more.median()).isEqualTo(19);
+        assertThat(more.all().get(0).median()).isEqualTo(19);
+        assertThat(more.all())
+                .as("a device without a type is that of the next reading")
+                .hasSize(1);
     }
 
     /** Its serializer's snapshot, and three values of a device. */
@@ -94,6 +97,13 @@ class CollectReadingsTest {
                 "north",
                 "canary",
                 7,
-                new Reading("t1", Farm.SCOPE, new Position(52, 12), value, "id", Farm.north("t1", value, 0)));
+                new Reading(
+                        "t1",
+                        "Thermometer",
+                        Farm.SCOPE,
+                        new Position(52, 12),
+                        value,
+                        "id",
+                        Farm.north("t1", value, 0)));
     }
 }

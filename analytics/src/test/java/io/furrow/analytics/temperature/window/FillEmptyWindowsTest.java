@@ -52,7 +52,8 @@ class FillEmptyWindowsTest {
         pass(2);
         assertThat(windows()).containsExactly("0", "1 empty", "2 empty");
         assertThat(operator.extractOutputValues().get(1))
-                .isEqualTo(new FieldAverage("north", "canary", Farm.INPUT, 1_000, 3_000, RobustMean.OF_NONE));
+                .isEqualTo(
+                        new FieldAverage("north", "canary", Farm.INPUT, 1_000, 3_000, RobustMean.OF_NONE, List.of()));
 
         heard(3);
         pass(3);
@@ -166,7 +167,7 @@ class FillEmptyWindowsTest {
         long start = window * 1_000L;
         RobustMean mean = RobustMean.of(Map.of("t1", 18.0), 0);
         operator.processElement1(new StreamRecord<>(
-                new FieldAverage("north", "canary", Farm.INPUT, start, start + 2_000, mean), start + 1_999));
+                new FieldAverage("north", "canary", Farm.INPUT, start, start + 2_000, mean, List.of()), start + 1_999));
     }
 
     private void pass(int window) throws Exception {

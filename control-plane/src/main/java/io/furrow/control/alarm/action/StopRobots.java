@@ -97,7 +97,7 @@ public final class StopRobots {
             return;
         }
         for (Encounter.Member member : encounter.members()) {
-            String type = types.apply(encounter.scope().identity(member.id()));
+            String type = encounter.typeOf(member, types);
             if (type == null) {
                 leave(encounter, member, "the type of its entity is unknown; add it to a mission");
             } else if (settings.types().contains(type)) {

@@ -2,6 +2,7 @@ package io.furrow.control.alarm.watch;
 
 import java.util.List;
 import java.util.Locale;
+import java.util.function.Function;
 
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
@@ -24,8 +25,9 @@ public record Encounter(
      *
      * @param id of its entity
      * @param mission empty if it is on none
+     * @param type of its entity; empty if the record does not name it
      */
-    public record Member(String id, String mission) {}
+    public record Member(String id, String mission, String type) {}
 
     /** @throws UnreadableException if the value is not an entity or not an encounter */
     public static Encounter read(byte[] value, FiwareScope scope) throws UnreadableException {
@@ -46,8 +48,22 @@ public record Encounter(
         return first.id() + "-" + second.id();
     }
 
+    /** Returns what tells the pair from others of the same ids: tenant, service path, both types and the pair. */
+    String identity() {
+        return scope.identity((first.type() + " " + second.type()).strip(), pair());
+    }
+
     public List<Member> members() {
         return List.of(first, second);
+    }
+
+    /**
+     * Returns the type of a member's entity; null if nobody knows it.
+     *
+     * @param known types by tenant, service path and id, for records that name none
+     */
+    public String typeOf(Member member, Function<String, String> known) {
+        return member.type().isEmpty() ? known.apply(scope.identity(member.id())) : member.type();
     }
 
     /** Returns the mission of the first device that has one; empty if neither has. */
@@ -63,7 +79,9 @@ public record Encounter(
 
     private static Member member(Entity entity, CollisionResult.Member names) throws UnreadableException {
         return new Member(
-                needed(entity, names.id()), entity.text(names.mission()).orElse(""));
+                needed(entity, names.id()),
+                entity.text(names.mission()).orElse(""),
+                entity.text(names.type()).orElse(""));
     }
 
     private static String needed(Entity entity, String attribute) throws UnreadableException {

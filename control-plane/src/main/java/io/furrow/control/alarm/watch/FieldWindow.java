@@ -4,6 +4,7 @@ import java.util.ArrayList;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.MissingNode;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.result.FieldResult;
@@ -12,7 +13,7 @@ import io.furrow.model.result.FieldResult;
  * The window of a field from a record of {@code data.temperature}.
  *
  * @param average null if there was nothing to average
- * @param suspects ids of the excluded entities
+ * @param suspects the excluded entities
  * @param windowStart epoch ms
  * @param windowEnd epoch ms
  * @param domain null if the field belongs to none
@@ -21,22 +22,30 @@ import io.furrow.model.result.FieldResult;
 public record FieldWindow(
         String field,
         Double average,
-        List<String> suspects,
+        List<Suspect> suspects,
         long windowStart,
         long windowEnd,
         String domain,
         boolean verified) {
+    /** @param type empty if the record does not name it */
+    public record Suspect(String id, String type) {
+        /** Tells it from other entities of the field's tenant and path. */
+        public String key() {
+            return type.isEmpty() ? id : type + "|" + id;
+        }
+    }
+
     /** Returns null if the entity is of another type, such as an excluded device. */
     public static FieldWindow of(Entity entity) {
         String field = entity.text(FieldResult.FIELD).orElse(null);
         if (!entity.type().equals(FieldResult.TEMPERATURE_TYPE) || field == null) {
             return null;
         }
-        List<String> suspects = new ArrayList<>();
-        for (JsonNode each : entity.value(FieldResult.SUSPECTS)
-                .map(list -> (Iterable<JsonNode>) list)
-                .orElse(List.of())) {
-            suspects.add(each.asText());
+        JsonNode ids = entity.value(FieldResult.SUSPECTS).orElse(MissingNode.getInstance());
+        JsonNode types = entity.value(FieldResult.SUSPECT_TYPES).orElse(MissingNode.getInstance());
+        List<Suspect> suspects = new ArrayList<>();
+        for (int i = 0; i < ids.size(); i++) {
+            suspects.add(new Suspect(ids.path(i).asText(), types.path(i).asText()));
         }
         return new FieldWindow(
                 field,

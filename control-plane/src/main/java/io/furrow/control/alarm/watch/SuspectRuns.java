@@ -8,7 +8,7 @@ import java.util.Map;
  *
  * @param field tenant, service path and id
  * @param windowEnd end of the newest window, epoch ms
- * @param windows number of windows by id of the sensor's entity; contains only the suspects of the newest window
+ * @param windows number of windows by type and id of the sensor's entity; contains only the suspects of the newest window
  */
 record SuspectRuns(String field, long windowEnd, Map<String, Integer> windows) {
     SuspectRuns {
@@ -23,11 +23,12 @@ record SuspectRuns(String field, long windowEnd, Map<String, Integer> windows) {
             return this;
         }
         Map<String, Integer> now = new HashMap<>();
-        window.suspects().forEach(suspect -> now.put(suspect, of(suspect) + 1));
+        window.suspects().forEach(suspect -> now.put(suspect.key(), of(suspect) + 1));
         return new SuspectRuns(field, window.windowEnd(), now);
     }
 
-    int of(String suspect) {
-        return windows.getOrDefault(suspect, 0);
+    /** A run that an older version counted is by id alone. */
+    int of(FieldWindow.Suspect suspect) {
+        return windows.getOrDefault(suspect.key(), windows.getOrDefault(suspect.id(), 0));
     }
 }

@@ -48,8 +48,11 @@ public final class WatchClocks {
                 entity.number(ClockResult.REPORTS).isPresent() ? ClockResult.REPORTS : "positions",
                 device,
                 entity.number(ClockResult.LATE).orElse(0.0) / 1000);
-        List<Cause.Device> devices = List.of(new Cause.Device(device, types.apply(scope.identity(device))));
-        Cause cause = new Cause(AlarmKind.CLOCK_BEHIND, device, text, devices, HOLDS);
+        String type = entity.text(ClockResult.DEVICE_TYPE).orElse("");
+        String known = type.isEmpty() ? types.apply(scope.identity(device)) : type;
+        List<Cause.Device> devices = List.of(Cause.Device.of(device, known, scope));
+        Cause cause = new Cause(AlarmKind.CLOCK_BEHIND, device, text, devices, HOLDS)
+                .identifiedBy(scope.identity(type, device));
         alarms.raise(cause.inGroup(AlarmGroup.of(entity.text("Mission").orElse(""), "")), now);
     }
 }

@@ -38,7 +38,7 @@ public final class WatchEncounters {
 
     /** @param now epoch ms */
     public void take(Encounter encounter, long now) {
-        String pair = encounter.pair();
+        String pair = encounter.identity();
         switch (encounter.phase()) {
             case "started" -> {
                 alarms.end(AlarmKind.PREDICTED_ENCOUNTER, pair, "the encounter has started", now);
@@ -60,8 +60,7 @@ public final class WatchEncounters {
     private Cause cause(AlarmKind kind, Encounter encounter, Duration holds) {
         String text = kind == AlarmKind.COLLISION ? "%s and %s are %s apart" : "%s and %s will come within %s";
         List<Cause.Device> devices = encounter.members().stream()
-                .map(member -> new Cause.Device(
-                        member.id(), types.apply(encounter.scope().identity(member.id()))))
+                .map(member -> Cause.Device.of(member.id(), encounter.typeOf(member, types), encounter.scope()))
                 .toList();
         return new Cause(
                         kind,
@@ -70,6 +69,7 @@ public final class WatchEncounters {
                                 encounter.first().id(), encounter.second().id(), encounter.meters()),
                         devices,
                         holds)
+                .identifiedBy(encounter.identity())
                 .inGroup(AlarmGroup.of(encounter.mission(), ""));
     }
 }

@@ -47,12 +47,16 @@ public final class WatchSensors {
         }
         runs.put(run.field(), run); // also without suspects: a late, earlier window must not count
         Duration holds = Duration.ofMillis((window.windowEnd() - window.windowStart()) * WINDOWS);
-        for (String suspect : window.suspects()) {
-            if (run.of(suspect) >= WINDOWS || alarms.isRaised(AlarmKind.SUSPECT_SENSOR, suspect)) {
-                String text = "%s deviates from the other sensors in field %s".formatted(suspect, window.field());
-                Cause.Device device = new Cause.Device(suspect, types.apply(scope.identity(suspect)));
+        for (FieldWindow.Suspect suspect : window.suspects()) {
+            String id = suspect.id();
+            String identity = scope.identity(suspect.type(), id);
+            if (run.of(suspect) >= WINDOWS || alarms.isRaised(AlarmKind.SUSPECT_SENSOR, identity)) {
+                String text = "%s deviates from the other sensors in field %s".formatted(id, window.field());
+                String type = suspect.type().isEmpty() ? types.apply(scope.identity(id)) : suspect.type();
+                Cause.Device device = Cause.Device.of(id, type, scope);
                 Duration atLeast = holds.compareTo(MIN) < 0 ? MIN : holds;
-                Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, suspect, text, List.of(device), atLeast);
+                Cause cause =
+                        new Cause(AlarmKind.SUSPECT_SENSOR, id, text, List.of(device), atLeast).identifiedBy(identity);
                 alarms.raise(cause.inGroup(AlarmGroup.ofField(window.field())), now);
             }
         }

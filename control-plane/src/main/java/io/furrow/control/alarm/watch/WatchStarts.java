@@ -51,7 +51,7 @@ final class WatchStarts implements Observer {
 
     private static Cause cause(String mission, MissionStatus status) {
         List<Cause.Device> some = status.missing().stream()
-                .map(device -> new Cause.Device(device.id(), null))
+                .map(device -> new Cause.Device(device.id(), null, null, null))
                 .toList();
         return Cause.ofMany(
                 AlarmKind.MISSING_DEVICES,

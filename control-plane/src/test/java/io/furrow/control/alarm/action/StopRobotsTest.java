@@ -48,6 +48,22 @@ class StopRobotsTest {
     }
 
     @Test
+    void stopsTheRobotThatARecordNamesWhereAnotherEntityHasItsId() {
+        FiwareScope scope = new FiwareScope("farm", "/");
+        robots.take(
+                new Encounter(
+                        "e-1",
+                        "predicted",
+                        new Encounter.Member("cam", "m", "ROBOT"),
+                        new Encounter.Member("r1", "", "Camera"),
+                        12,
+                        0.5,
+                        scope),
+                NOW);
+        assertThat(sent).containsExactly("cam ROBOT Stop");
+    }
+
+    @Test
     void triesAgainAndSaysWhatBecameOfIt() {
         failing = StopRobots.ATTEMPTS - 1;
         robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
@@ -193,8 +209,8 @@ class StopRobotsTest {
         return new Encounter(
                 id,
                 phase,
-                new Encounter.Member(first, "m"),
-                new Encounter.Member(second, ""),
+                new Encounter.Member(first, "m", ""),
+                new Encounter.Member(second, "", ""),
                 12,
                 0.5,
                 new FiwareScope("farm", "/"));

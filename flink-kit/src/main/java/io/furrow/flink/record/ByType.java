@@ -1,4 +1,4 @@
-package io.furrow.ingest.route;
+package io.furrow.flink.record;
 
 import java.io.Serializable;
 import java.util.ArrayList;
