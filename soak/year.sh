@@ -46,7 +46,7 @@ command -v mosquitto_passwd >/dev/null || fail "No mosquitto_passwd found. Insta
 prepare_source year
 suite=$home/launcher/target/furrow
 "$java" -Xmx768m -Dfurrow.log="$logs/driver.log" -cp "$home/system-tests/target/test-classes:$suite/lib/*:$suite/lib-last/*" \
-    io.furrow.soak.year.FarmYear "$home" "$logs/farm" "$weeks" \
+    io.furrow.soak.year.FarmYear "$home" "$logs/farm" "$weeks" 10 \
     > >(while IFS= read -r line; do say "$line"; done) 2>>"$logs/driver.out" &
 own $!
 wait $! || fail "Something differs from what must hold, as said above. Logs of all parts: $logs/farm"
