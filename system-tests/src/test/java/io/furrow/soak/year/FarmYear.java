@@ -44,6 +44,7 @@ public final class FarmYear implements AutoCloseable {
     private final Plots plots;
     private final Accounts accounts;
     private final Results results;
+    private final SilentDevices silent;
     private final PowerCut power;
     private final Deque<String> kept = new ArrayDeque<>();
     private final Map<Integer, Map<String, Double>> footprints = new TreeMap<>();
@@ -60,6 +61,7 @@ public final class FarmYear implements AutoCloseable {
         plots = new Plots(farm);
         accounts = new Accounts(farm);
         results = new Results(farm, fleet, plots, accounts);
+        silent = new SilentDevices(farm, fleet);
         power = new PowerCut(farm.data().resolve("kafka"), folder.resolve("cut"), new Random(SEED));
     }
 
@@ -97,6 +99,7 @@ public final class FarmYear implements AutoCloseable {
         fleet.start();
         for (int week = 1; week <= weeks; week++) {
             long began = System.nanoTime();
+            silent.begin(week);
             for (int number = 1; number < DAYS_OF_A_WEEK; number++) {
                 long evening = System.nanoTime() + day.toNanos();
                 day(week, number);
@@ -112,7 +115,13 @@ public final class FarmYear implements AutoCloseable {
     private void day(int week, int number) throws Exception {
         plots.change(week, number);
         List<String> missions = begin(week, number);
+        if (number == 1) {
+            silent.report();
+        }
         Thread.sleep(day.toMillis() / 2);
+        if (number == DAYS_OF_A_WEEK - 1) {
+            add(silent.told("week " + week, week));
+        }
         end(missions, System.currentTimeMillis());
     }
 
@@ -179,10 +188,14 @@ public final class FarmYear implements AutoCloseable {
         }
         start(farm.up()::start);
         String when = "week %d (%s)".formatted(week, end);
+        add(silent.told("after the end of " + when, week));
+        silent.end(week);
         Thread.sleep(day.toMillis() / 2);
         long until = System.currentTimeMillis();
         end(missions, until);
         settle(new Span(when, from, until, end.equals("restart")));
+        add(silent.gone(when, week));
+        silent.forget(week);
         from = until;
         footprints.put(week, Footprint.of(farm, startSeconds));
         say("week %d: %s".formatted(week, footprints.get(week)));
