@@ -16,6 +16,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.topic.Topics;
 import io.furrow.soak.devices.Verdicts;
 import io.furrow.soak.year.Accounts.DayMission;
 import io.furrow.soak.year.Accounts.Span;
@@ -27,6 +28,7 @@ public final class FarmYear implements AutoCloseable {
     private static final int DAYS_OF_A_WEEK = 7;
     private static final int WEEKS_OF_A_MONTH = 4;
     private static final int KEPT_DAYS = 7;
+    private static final int RETENTION_DAYS = 14;
     /** Until the jobs know a mission's devices. */
     private static final Duration KNOWN = Duration.ofSeconds(2);
 
@@ -197,6 +199,7 @@ public final class FarmYear implements AutoCloseable {
         add(silent.gone(when, week));
         silent.forget(week);
         from = until;
+        farm.retain(day.multipliedBy(RETENTION_DAYS));
         footprints.put(week, Footprint.of(farm, startSeconds));
         say("week %d: %s".formatted(week, footprints.get(week)));
     }
@@ -236,9 +239,19 @@ public final class FarmYear implements AutoCloseable {
         startSeconds = Math.round((System.nanoTime() - began) / 1e8) / 10.0;
     }
 
-    /** The end with the fourth week. */
+    /** What retention has removed, and the end with the fourth week. */
     private void compare() {
-        if (weeks <= WEEKS_OF_A_MONTH) {
+        if (weeks < WEEKS_OF_A_MONTH) {
+            return;
+        }
+        try (ReportLog log = new ReportLog(farm.up().kafka())) {
+            long removed = log.removed(Topics.RAW);
+            verdicts.add(
+                    "retention",
+                    removed + " records of data.raw removed",
+                    removed > 0 ? List.of() : List.of("nothing was removed"));
+        }
+        if (weeks == WEEKS_OF_A_MONTH) {
             return;
         }
         Map<String, Double> before = footprints.get(WEEKS_OF_A_MONTH);

@@ -3,6 +3,8 @@ package io.furrow.soak.year;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.HashMap;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
@@ -14,6 +16,9 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
 import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.AlterConfigOp;
+import org.apache.kafka.clients.admin.ConfigEntry;
+import org.apache.kafka.common.config.ConfigResource;
 
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
@@ -28,12 +33,14 @@ import io.furrow.soak.devices.UpProcess;
 /** Mosquitto, the stand-ins of context broker and IoT Agent, and {@code ./furrow up}, each a process of its own. */
 final class YearFarm implements AutoCloseable {
     private static final Duration TIMEOUT = Duration.ofMinutes(1);
+    private static final int SEGMENTS = 4;
 
     private final Path data;
     private final Mosquitto mosquitto;
     private final StandInProcess standIn;
     private final UpProcess up;
     private final Tap tap;
+    private final Set<String> retained = new HashSet<>();
 
     /** @param furrow the words that start it, before {@code up} */
     YearFarm(List<String> furrow, Path folder) throws IOException, InterruptedException {
@@ -109,6 +116,34 @@ final class YearFarm implements AutoCloseable {
                     .all()
                     .get();
         }
+    }
+
+    /** Gives a retention to topics of data that have none and are no mission's, as one does with Kafka's tools. */
+    void retain(Duration retention) throws InterruptedException, ExecutionException {
+        try (Admin admin = admin()) {
+            List<ConfigResource> topics = admin.listTopics().names().get().stream()
+                    .filter(name ->
+                            name.startsWith("data.") && !name.contains(".realtime.") && !Topics.isOfReplay(name))
+                    .filter(name -> !retained.contains(name))
+                    .map(name -> new ConfigResource(ConfigResource.Type.TOPIC, name))
+                    .toList();
+            Map<ConfigResource, java.util.Collection<AlterConfigOp>> changes = new HashMap<>();
+            admin.describeConfigs(topics).all().get().forEach((topic, config) -> {
+                retained.add(topic.name());
+                if (config.get("cleanup.policy").value().equals("delete")) {
+                    changes.put(
+                            topic,
+                            List.of(
+                                    set("retention.ms", retention.toMillis()),
+                                    set("segment.ms", retention.toMillis() / SEGMENTS)));
+                }
+            });
+            admin.incrementalAlterConfigs(changes).all().get();
+        }
+    }
+
+    private static AlterConfigOp set(String name, long value) {
+        return new AlterConfigOp(new ConfigEntry(name, Long.toString(value)), AlterConfigOp.OpType.SET);
     }
 
     private Admin admin() {
