@@ -29,6 +29,7 @@ public final class FarmYear implements AutoCloseable {
     private static final int WEEKS_OF_A_MONTH = 4;
     private static final int KEPT_DAYS = 7;
     private static final int RETENTION_DAYS = 14;
+    private static final int DAY_OF_REPLAY = 3;
     /** Until the jobs know a mission's devices. */
     private static final Duration KNOWN = Duration.ofSeconds(2);
 
@@ -47,6 +48,7 @@ public final class FarmYear implements AutoCloseable {
     private final Accounts accounts;
     private final Results results;
     private final SilentDevices silent;
+    private final Replays replays;
     private final PowerCut power;
     private final Deque<String> kept = new ArrayDeque<>();
     private final Map<Integer, Map<String, Double>> footprints = new TreeMap<>();
@@ -64,6 +66,7 @@ public final class FarmYear implements AutoCloseable {
         accounts = new Accounts(farm);
         results = new Results(farm, fleet, plots, accounts);
         silent = new SilentDevices(farm, fleet);
+        replays = new Replays(farm);
         power = new PowerCut(farm.data().resolve("kafka"), folder.resolve("cut"), new Random(SEED));
     }
 
@@ -119,10 +122,13 @@ public final class FarmYear implements AutoCloseable {
         List<String> missions = begin(week, number);
         if (number == 1) {
             silent.report();
+        } else if (number == DAY_OF_REPLAY) {
+            replays.start(name(week, 1, 0));
         }
         Thread.sleep(day.toMillis() / 2);
         if (number == DAYS_OF_A_WEEK - 1) {
             add(silent.told("week " + week, week));
+            add(replays.playedAndDeleted("week " + week));
         }
         end(missions, System.currentTimeMillis());
     }
