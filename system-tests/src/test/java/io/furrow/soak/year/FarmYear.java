@@ -20,6 +20,7 @@ import io.furrow.model.topic.Topics;
 import io.furrow.soak.devices.Verdicts;
 import io.furrow.soak.year.Accounts.DayMission;
 import io.furrow.soak.year.Accounts.Span;
+import io.furrow.suite.page.OpeningTime;
 
 /** A farm's weeks, a day in ten seconds, each week with another end; and what the suite holds after each. */
 public final class FarmYear implements AutoCloseable {
@@ -37,6 +38,7 @@ public final class FarmYear implements AutoCloseable {
     private static final Duration BETWEEN_LOOKS = Duration.ofSeconds(1);
     private static final double MAX_GROWTH = 1.2;
     private static final double MAX_START_GROWTH = 1.5;
+    private static final long MAX_OPENING_MILLIS = 3_000;
     private static final long SEED = 7;
 
     private final int weeks;
@@ -129,6 +131,7 @@ public final class FarmYear implements AutoCloseable {
         if (number == DAYS_OF_A_WEEK - 1) {
             add(silent.told("week " + week, week));
             add(replays.playedAndDeleted("week " + week));
+            openPage(week);
         }
         end(missions, System.currentTimeMillis());
     }
@@ -233,6 +236,19 @@ public final class FarmYear implements AutoCloseable {
 
     private void add(Check check) {
         verdicts.add(check.what(), check.figures(), check.differences());
+    }
+
+    /** In the fourth week and the last, while its missions run. */
+    private void openPage(int week) {
+        if (week != WEEKS_OF_A_MONTH && week != weeks) {
+            return;
+        }
+        List<String> devices = Fleet.devices();
+        long millis = OpeningTime.millis(farm.up().dashboard(), devices);
+        verdicts.add(
+                "the page opens, week " + week,
+                "%d ms until %d devices are on map and cards".formatted(millis, devices.size()),
+                millis <= MAX_OPENING_MILLIS ? List.of() : List.of("more than " + MAX_OPENING_MILLIS + " ms"));
     }
 
     private interface Start {
