@@ -63,10 +63,7 @@ command -v chromium >/dev/null 2>&1 || fail "There is no chromium. Install it: a
 
 prepare_source page
 suite=$home/launcher/target
-# Playwright's driver is for tests only: it is not in the suite's lib. The system tests come last, their path is the one that stays.
-(cd "$home" && ./mvnw -B -q -ntp -pl system-tests -am package dependency:build-classpath -Dmaven.test.skip.exec -Dshade.skip=true \
-    -Dspotless.check.skip -Dmdep.includeScope=test -Dmdep.outputFile="$run/path") \
-    >"$logs/path.log" 2>&1 || { grep -E '^\[ERROR\]' "$logs/path.log" | head -n 5 >&2; fail "The class path could not be made: $logs/path.log"; }
+browser_path
 
 check() {
     say "$*"

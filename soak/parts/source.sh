@@ -41,6 +41,14 @@ build_source() {
     touch "$built" "$home/launcher/target/furrow/built"
 }
 
+# browser_path: writes the class path of the system tests to $run/path.
+# Playwright's driver is for tests only: it is not in the suite's lib. The system tests come last, their path is the one that stays.
+browser_path() {
+    (cd "$home" && ./mvnw -B -q -ntp -pl system-tests -am package dependency:build-classpath -Dmaven.test.skip.exec -Dshade.skip=true \
+        -Dspotless.check.skip -Dmdep.includeScope=test -Dmdep.outputFile="$run/path") \
+        >"$logs/path.log" 2>&1 || { grep -E '^\[ERROR\]' "$logs/path.log" | head -n 5 >&2; fail "The class path could not be made: $logs/path.log"; }
+}
+
 # run_source CLASS ARGUMENTS…: its lines are shown with the seconds.
 run_source() {
     local class=$1 suite=$home/launcher/target

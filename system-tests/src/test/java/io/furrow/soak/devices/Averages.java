@@ -7,25 +7,32 @@ import java.util.List;
 import java.util.Locale;
 import java.util.Map;
 import java.util.TreeMap;
+import java.util.function.Function;
 
 import io.furrow.model.ngsi.Entity;
 
-/** The averages of fields by their definition: of each window the mean of the devices' medians, the broken device left out. */
-final class Averages {
-    private static final long WINDOW_MILLIS = 10_000;
+/**
+ * The averages of fields by their definition: of each window the mean of the devices' medians, the broken device left out.
+ *
+ * @param windowMillis length of a window
+ */
+public record Averages(long windowMillis) {
     /** From so many devices on one that is broken is told from the others. */
     private static final int VERIFIED = 3;
 
-    private Averages() {}
-
-    /** @return what each field's window says, by field and end, of the windows that lie within this time */
-    static Map<String, String> expected(List<ProgramEvent> sent, Map<String, String> fields, long from, long to) {
+    /**
+     * What each field's window says, by field and end, of the windows that lie within this time.
+     *
+     * @param fields in which field a device measured; null for none
+     */
+    public Map<String, String> expected(
+            List<ProgramEvent> sent, Function<ProgramEvent, String> fields, long from, long to) {
         Map<String, Map<String, List<Double>>> windows = new TreeMap<>();
         for (ProgramEvent each : sent) {
-            String field = fields.get(each.device());
-            long start = Math.floorDiv(each.time(), WINDOW_MILLIS) * WINDOW_MILLIS;
-            if (field != null && start >= from && start + WINDOW_MILLIS <= to) {
-                windows.computeIfAbsent(name(field, start + WINDOW_MILLIS), any -> new TreeMap<>())
+            String field = fields.apply(each);
+            long start = Math.floorDiv(each.time(), windowMillis) * windowMillis;
+            if (field != null && start >= from && start + windowMillis <= to) {
+                windows.computeIfAbsent(name(field, start + windowMillis), any -> new TreeMap<>())
                         .computeIfAbsent(each.device(), any -> new ArrayList<>())
                         .add(each.value());
             }
@@ -49,11 +56,11 @@ final class Averages {
     }
 
     /** @return what was found, by field and end; a second one of a window differs from any */
-    static Map<String, String> found(List<Entity> results, long from, long to) {
+    public Map<String, String> found(List<Entity> results, long from, long to) {
         Map<String, String> averages = new HashMap<>();
         for (Entity each : results) {
             long end = each.number("windowEnd").orElseThrow().longValue();
-            if (end - WINDOW_MILLIS >= from && end <= to) {
+            if (end - windowMillis >= from && end <= to) {
                 List<String> suspects = new ArrayList<>();
                 each.value("suspects").orElseThrow().forEach(suspect -> suspects.add(suspect.asText()));
                 String value = value(

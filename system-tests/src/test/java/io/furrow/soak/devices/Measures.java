@@ -21,6 +21,8 @@ final class Measures {
     /** A window is written when its end is the out-of-orderness ago, and the job has committed. */
     static final Duration KNOWN_AFTER = Duration.ofSeconds(15);
 
+    private static final Averages AVERAGES = new Averages(10_000);
+
     private final String kafka;
     private final Roster roster;
     private final Verdicts verdicts;
@@ -90,8 +92,8 @@ final class Measures {
                 .forEach(each -> fields.put(each.id(), each.field()));
         Set<String> late = late(Topics.TEMPERATURE_LATE);
         List<ProgramEvent> sent = inTime(events, late);
-        Map<String, String> expected = Averages.expected(sent, fields, from, to);
-        Map<String, String> found = Averages.found(read(Topics.TEMPERATURE), from, to);
+        Map<String, String> expected = AVERAGES.expected(sent, each -> fields.get(each.device()), from, to);
+        Map<String, String> found = AVERAGES.found(read(Topics.TEMPERATURE), from, to);
         List<String> differences = new ArrayList<>();
         Set<String> windows = new TreeSet<>(expected.keySet());
         windows.addAll(found.keySet());

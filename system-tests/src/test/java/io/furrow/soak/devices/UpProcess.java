@@ -35,7 +35,7 @@ public final class UpProcess implements AutoCloseable {
             "control",
             "health");
 
-    private final Path furrow;
+    private final List<String> furrow;
     private final Path folder;
     private final Map<String, Integer> ports = new LinkedHashMap<>();
     private final List<String> command = new ArrayList<>();
@@ -43,9 +43,15 @@ public final class UpProcess implements AutoCloseable {
 
     /** @param home of the checkout @param folder for its data and what it prints */
     public UpProcess(Path home, Path folder, List<String> options) throws IOException {
-        this.furrow = home.resolve("furrow");
+        this(List.of(home.resolve("furrow").toString()), folder, options);
+    }
+
+    /** @param furrow the words before its own that start it @param folder for its data and what it prints */
+    public UpProcess(List<String> furrow, Path folder, List<String> options) throws IOException {
+        this.furrow = furrow;
         this.folder = Files.createDirectories(folder);
-        command.addAll(List.of(furrow.toString(), "up", "--no-simulated-devices"));
+        command.addAll(furrow);
+        command.addAll(List.of("up", "--no-simulated-devices"));
         command.addAll(List.of("--data", folder.resolve("data").toString()));
         for (String port : PORTS) {
             ports.put(port, FreePort.orFree(0));
@@ -56,6 +62,10 @@ public final class UpProcess implements AutoCloseable {
 
     public URI api(String path) {
         return URI.create("http://127.0.0.1:" + ports.get("control") + path);
+    }
+
+    public URI dashboard() {
+        return URI.create("http://127.0.0.1:" + ports.get("dashboard"));
     }
 
     /** A further option, before the first start. */
@@ -106,7 +116,7 @@ public final class UpProcess implements AutoCloseable {
 
     /** Runs a command of {@code ./furrow} to its end. @return what it printed */
     public String run(String... words) throws IOException, InterruptedException {
-        List<String> all = new ArrayList<>(List.of(furrow.toString()));
+        List<String> all = new ArrayList<>(furrow);
         all.addAll(List.of(words));
         all.addAll(List.of("--api", api("").toString()));
         Path output = Files.createTempFile(folder, "command", ".out");

@@ -11,92 +11,129 @@ import java.util.Locale;
 import java.util.Map;
 import java.util.Random;
 import java.util.TreeMap;
-import java.util.concurrent.ExecutionException;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.mission.mongo.MissionCollections;
-import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
-import io.furrow.soak.control.Http;
-import io.furrow.soak.control.Until;
 import io.furrow.soak.devices.Verdicts;
 import io.furrow.soak.year.Accounts.DayMission;
+import io.furrow.soak.year.Accounts.Span;
+import io.furrow.suite.page.OpeningTime;
 
 /** A farm's weeks, a day in ten seconds, each week with another end; and what the suite holds after each. */
-public final class FarmYear {
+public final class FarmYear implements AutoCloseable {
     static final String DOMAIN = "year";
 
     private static final int DAYS_OF_A_WEEK = 7;
     private static final int WEEKS_OF_A_MONTH = 4;
     private static final int KEPT_DAYS = 7;
-    private static final Duration DAY = Duration.ofSeconds(10);
+    private static final int RETENTION_DAYS = 14;
+    private static final int DAY_OF_REPLAY = 3;
     /** Until the jobs know a mission's devices. */
     private static final Duration KNOWN = Duration.ofSeconds(2);
 
-    private static final Duration WORK = Duration.ofSeconds(5);
-    private static final Duration TIMEOUT = Duration.ofMinutes(1);
-    private static final Duration SETTLED = Duration.ofSeconds(12);
+    private static final Duration SETTLED = Duration.ofSeconds(30);
+    private static final Duration BETWEEN_LOOKS = Duration.ofSeconds(1);
     private static final double MAX_GROWTH = 1.2;
     private static final double MAX_START_GROWTH = 1.5;
+    private static final long MAX_OPENING_MILLIS = 3_000;
     private static final long SEED = 7;
 
     private final int weeks;
+    private final Duration day;
     private final Verdicts verdicts = new Verdicts();
     private final YearFarm farm;
     private final Fleet fleet;
+    private final Plots plots;
     private final Accounts accounts;
+    private final Results results;
+    private final SilentDevices silent;
+    private final Replays replays;
     private final PowerCut power;
     private final Deque<String> kept = new ArrayDeque<>();
     private final Map<Integer, Map<String, Double>> footprints = new TreeMap<>();
     private List<DayMission> ofTheWeek = new ArrayList<>();
+    private long from = System.currentTimeMillis();
     private double startSeconds;
 
-    private FarmYear(Path home, Path folder, int weeks) throws Exception {
+    /** @param furrow the words that start it @param folder for data and logs */
+    FarmYear(List<String> furrow, Path folder, int weeks, Duration day) throws Exception {
         this.weeks = weeks;
-        farm = new YearFarm(home, folder);
+        this.day = day;
+        farm = new YearFarm(furrow, folder);
         fleet = new Fleet(farm.standIn().contextBroker());
-        accounts = new Accounts(farm, fleet, verdicts);
+        plots = new Plots(farm);
+        accounts = new Accounts(farm);
+        results = new Results(farm, fleet, plots, accounts);
+        silent = new SilentDevices(farm, fleet);
+        replays = new Replays(farm);
         power = new PowerCut(farm.data().resolve("kafka"), folder.resolve("cut"), new Random(SEED));
     }
 
-    /** Arguments: the checkout, a folder for data and logs, how many weeks. */
+    /** Arguments: the checkout, a folder for data and logs, how many weeks, the seconds of a day. */
     public static void main(String... args) throws Exception {
         Runtime.getRuntime()
                 .addShutdownHook(new Thread(
                         () -> ProcessHandle.current().descendants().forEach(ProcessHandle::destroyForcibly), "stop"));
         FarmYear year = new FarmYear(
-                Path.of(args[0]).toAbsolutePath(), Path.of(args[1]).toAbsolutePath(), Integer.parseInt(args[2]));
-        try {
+                List.of(Path.of(args[0]).toAbsolutePath().resolve("furrow").toString()),
+                Path.of(args[1]).toAbsolutePath(),
+                Integer.parseInt(args[2]),
+                Duration.ofSeconds(Long.parseLong(args[3])));
+        try (year) {
             year.run();
         } finally {
             System.out.println();
-            year.verdicts.lines().stream()
-                    .filter(line -> !line.startsWith("holds"))
-                    .forEach(System.out::println);
+            year.differences().forEach(System.out::println);
         }
         System.exit(year.verdicts.hold() ? 0 : 1);
     }
 
-    private void run() throws Exception {
+    /** What did not hold. */
+    List<String> differences() {
+        return verdicts.lines().stream()
+                .filter(line -> !line.startsWith("holds"))
+                .toList();
+    }
+
+    void run() throws Exception {
         say("Mosquitto, the stand-ins of Orion and IoT Agent, and ./furrow up start");
         start(farm::start);
-        farm.up().run("domain", "create", DOMAIN);
+        farm.ask("POST", "/api/domains", JsonNodeFactory.instance.objectNode().put("domain", DOMAIN));
+        plots.start();
         fleet.start();
         for (int week = 1; week <= weeks; week++) {
-            for (int day = 1; day < DAYS_OF_A_WEEK; day++) {
-                List<String> missions = begin(week, day);
-                Thread.sleep(WORK.toMillis());
-                end(missions, System.currentTimeMillis());
-                Thread.sleep(DAY.minus(WORK).minus(KNOWN).toMillis());
+            long began = System.nanoTime();
+            silent.begin(week);
+            for (int number = 1; number < DAYS_OF_A_WEEK; number++) {
+                long evening = System.nanoTime() + day.toNanos();
+                day(week, number);
+                Thread.sleep(Math.max(0, (evening - System.nanoTime()) / 1_000_000));
             }
             endOfWeek(week);
+            say("week %d took %.1f s".formatted(week, (System.nanoTime() - began) / 1e9));
         }
         fleet.close();
         compare();
-        farm.close();
+    }
+
+    private void day(int week, int number) throws Exception {
+        plots.change(week, number);
+        List<String> missions = begin(week, number);
+        if (number == 1) {
+            silent.report();
+        } else if (number == DAY_OF_REPLAY) {
+            replays.start(name(week, 1, 0));
+        }
+        Thread.sleep(day.toMillis() / 2);
+        if (number == DAYS_OF_A_WEEK - 1) {
+            add(silent.told("week " + week, week));
+            add(replays.playedAndDeleted("week " + week));
+            openPage(week);
+        }
+        end(missions, System.currentTimeMillis());
     }
 
     private static String name(int week, int day, int mission) {
@@ -110,7 +147,7 @@ public final class FarmYear {
             ObjectNode plan = JsonNodeFactory.instance.objectNode().put("domain", DOMAIN);
             ArrayNode devices = plan.putArray("devices");
             Fleet.devices(mission).forEach(devices::add);
-            ask("POST", "/api/missions/" + name + "/start", plan);
+            farm.ask("POST", "/api/missions/" + name + "/start", plan);
             missions.add(name);
         }
         Thread.sleep(KNOWN.toMillis());
@@ -126,7 +163,7 @@ public final class FarmYear {
     }
 
     /** @param until what was reported before belongs to them */
-    private void end(List<String> missions, long until) throws InterruptedException, ExecutionException {
+    private void end(List<String> missions, long until) {
         for (int mission = 0; mission < Fleet.MISSIONS; mission++) {
             fleet.end(mission);
         }
@@ -134,20 +171,19 @@ public final class FarmYear {
                 ? new DayMission(each.name(), each.devices(), each.begun(), until)
                 : each);
         for (String name : missions) {
-            ask("POST", "/api/missions/" + name + "/stop", null);
+            farm.ask("POST", "/api/missions/" + name + "/stop", null);
             kept.add(name);
         }
         while (kept.size() > KEPT_DAYS * Fleet.MISSIONS) {
-            String old = kept.remove();
-            ask("DELETE", "/api/missions/" + old, null);
-            farm.forget(Topics.realtime(DOMAIN, old), MissionCollections.nameOf(old));
+            farm.forget(kept.remove());
         }
     }
 
     /** In the middle of the last day's missions; these go on afterwards. */
     private void endOfWeek(int week) throws Exception {
         List<String> missions = begin(week, DAYS_OF_A_WEEK);
-        Thread.sleep(WORK.toMillis() / 2);
+        Thread.sleep(day.toMillis() / 4);
+        fleet.awaitParted();
         String end;
         if (week % WEEKS_OF_A_MONTH == 0) {
             power.copy();
@@ -162,23 +198,57 @@ public final class FarmYear {
             end = "restart";
         }
         start(farm.up()::start);
-        Thread.sleep(WORK.toMillis());
+        String when = "week %d (%s)".formatted(week, end);
+        add(silent.told("after the end of " + when, week));
+        silent.end(week);
+        Thread.sleep(day.toMillis() / 2);
         long until = System.currentTimeMillis();
         end(missions, until);
-        Thread.sleep(SETTLED.toMillis());
-        accounts.settle("week %d (%s)".formatted(week, end), ofTheWeek, until, end.equals("restart"));
-        ofTheWeek = new ArrayList<>();
-        Map<String, Double> footprint = Footprint.of(farm, startSeconds);
-        footprints.put(week, footprint);
-        say("week %d: %s".formatted(week, footprint));
-        replay(name(week, 1, 0));
+        settle(new Span(when, from, until, end.equals("restart")));
+        add(silent.gone(when, week));
+        silent.forget(week);
+        from = until;
+        farm.retain(day.multipliedBy(RETENTION_DAYS));
+        footprints.put(week, Footprint.of(farm, startSeconds));
+        say("week %d: %s".formatted(week, footprints.get(week)));
     }
 
-    private void replay(String mission) {
-        ask(
-                "POST",
-                "/api/replays",
-                JsonNodeFactory.instance.objectNode().put("mission", mission).put("speed", 10));
+    /** Awaits what is under way. */
+    private void settle(Span span) throws Exception {
+        long end = System.nanoTime() + SETTLED.toNanos();
+        List<Check> checks = checks(span);
+        while (!checks.stream().allMatch(Check::holds) && System.nanoTime() < end) {
+            Thread.sleep(BETWEEN_LOOKS.toMillis());
+            checks = checks(span);
+        }
+        checks.forEach(this::add);
+        accounts.forget(span.until());
+        ofTheWeek = new ArrayList<>();
+    }
+
+    private List<Check> checks(Span span) throws Exception {
+        List<Check> checks = new ArrayList<>(accounts.of(span, ofTheWeek));
+        checks.add(results.encounters(span));
+        checks.add(results.averages(span));
+        checks.add(plots.shown(span.when()));
+        return checks;
+    }
+
+    private void add(Check check) {
+        verdicts.add(check.what(), check.figures(), check.differences());
+    }
+
+    /** In the fourth week and the last, while its missions run. */
+    private void openPage(int week) {
+        if (week != WEEKS_OF_A_MONTH && week != weeks) {
+            return;
+        }
+        List<String> devices = Fleet.devices();
+        long millis = OpeningTime.millis(farm.up().dashboard(), devices);
+        verdicts.add(
+                "the page opens, week " + week,
+                "%d ms until %d devices are on map and cards".formatted(millis, devices.size()),
+                millis <= MAX_OPENING_MILLIS ? List.of() : List.of("more than " + MAX_OPENING_MILLIS + " ms"));
     }
 
     private interface Start {
@@ -191,18 +261,19 @@ public final class FarmYear {
         startSeconds = Math.round((System.nanoTime() - began) / 1e8) / 10.0;
     }
 
-    /** Asks until it is granted: what it asks for is allowed, but perhaps not yet. */
-    private void ask(String method, String path, ObjectNode body) {
-        byte[] bytes = body == null ? null : NgsiJson.write(body);
-        Until.isTrue(
-                method + " " + path,
-                TIMEOUT,
-                () -> Http.send(method, farm.up().api(path), bytes).join().status() / 100 == 2);
-    }
-
-    /** The end with the fourth week. */
+    /** What retention has removed, and the end with the fourth week. */
     private void compare() {
-        if (weeks <= WEEKS_OF_A_MONTH) {
+        if (weeks < WEEKS_OF_A_MONTH) {
+            return;
+        }
+        try (ReportLog log = new ReportLog(farm.up().kafka())) {
+            long removed = log.removed(Topics.RAW);
+            verdicts.add(
+                    "retention",
+                    removed + " records of data.raw removed",
+                    removed > 0 ? List.of() : List.of("nothing was removed"));
+        }
+        if (weeks == WEEKS_OF_A_MONTH) {
             return;
         }
         Map<String, Double> before = footprints.get(WEEKS_OF_A_MONTH);
@@ -217,5 +288,11 @@ public final class FarmYear {
 
     private static void say(String words) {
         System.out.println(words);
+    }
+
+    @Override
+    public void close() {
+        fleet.close();
+        farm.close();
     }
 }

@@ -15,7 +15,7 @@ import com.mongodb.client.MongoClients;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.TopicDescription;
 
-/** What a suite holds: topics, partitions, collections, files, threads, heap after collection in MB, and how long its start took. */
+/** What a suite holds: topics, partitions, collections, alarms, files, threads, heap after collection in MB, and how long its start took. */
 final class Footprint {
     private static final long COMMAND_SECONDS = 60;
 
@@ -43,6 +43,8 @@ final class Footprint {
             }
             all.put("collections", collections);
         }
+        all.put("alarms", (double)
+                farm.up().get("/api/alarms?state=open&limit=10000").size());
         try (Stream<Path> files = Files.walk(farm.data())) {
             all.put("files", (double) files.count());
         }

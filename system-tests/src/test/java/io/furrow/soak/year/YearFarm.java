@@ -2,34 +2,60 @@ package io.furrow.soak.year;
 
 import java.io.IOException;
 import java.nio.file.Path;
+import java.time.Duration;
+import java.util.HashMap;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 import java.util.concurrent.ExecutionException;
+import java.util.concurrent.atomic.AtomicReference;
 
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
 import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.AlterConfigOp;
+import org.apache.kafka.clients.admin.ConfigEntry;
+import org.apache.kafka.common.config.ConfigResource;
 
+import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+import io.furrow.soak.control.Http;
 import io.furrow.soak.control.Mosquitto;
+import io.furrow.soak.control.Until;
 import io.furrow.soak.devices.StandInProcess;
 import io.furrow.soak.devices.UpProcess;
 
 /** Mosquitto, the stand-ins of context broker and IoT Agent, and {@code ./furrow up}, each a process of its own. */
 final class YearFarm implements AutoCloseable {
+    private static final Duration TIMEOUT = Duration.ofMinutes(1);
+    private static final int SEGMENTS = 4;
+
     private final Path data;
     private final Mosquitto mosquitto;
     private final StandInProcess standIn;
     private final UpProcess up;
     private final Tap tap;
+    private final Set<String> retained = new HashSet<>();
 
-    YearFarm(Path home, Path folder) throws IOException, InterruptedException {
+    /** @param furrow the words that start it, before {@code up} */
+    YearFarm(List<String> furrow, Path folder) throws IOException, InterruptedException {
         mosquitto = new Mosquitto(folder.resolve("mosquitto").toAbsolutePath());
         standIn = new StandInProcess(folder, mosquitto.uri());
         up = new UpProcess(
-                home,
+                furrow,
                 folder.resolve("up"),
-                List.of("--orion", standIn.contextBroker().toString(), "--start-timeout", "20s"));
+                List.of(
+                        "--orion",
+                        standIn.contextBroker().toString(),
+                        "--start-timeout",
+                        "5s",
+                        "--window",
+                        Results.WINDOW.toSeconds() + "s"));
         data = folder.resolve("up").resolve("data");
         tap = new Tap(up.port("notify"));
         up.with("--public-url", tap.publicUrl());
@@ -57,13 +83,71 @@ final class YearFarm implements AutoCloseable {
         return "mongodb://127.0.0.1:" + up.port("mongo");
     }
 
-    /** Does what the control plane and a retention of missions do after more time than there is here. */
-    void forget(String topic, String collection) throws InterruptedException, ExecutionException {
-        try (Admin admin = Admin.create(Map.of("bootstrap.servers", up.kafka()));
-                MongoClient client = MongoClients.create(mongo())) {
-            admin.deleteTopics(List.of(topic)).all().get();
-            client.getDatabase(MongoAccess.DATABASE).getCollection(collection).drop();
+    /** Asks until it is granted: what it asks for is allowed, but perhaps not yet. @return the answer */
+    JsonNode ask(String method, String path, ObjectNode body) {
+        byte[] bytes = body == null ? null : NgsiJson.write(body);
+        AtomicReference<Http.Answer> answer = new AtomicReference<>();
+        Until.isTrue(method + " " + path, TIMEOUT, () -> {
+            answer.set(Http.send(method, up.api(path), bytes).join());
+            return answer.get().status() / 100 == 2;
+        });
+        return answer.get().body();
+    }
+
+    /** Deletes a mission, and does what the control plane does a day later and a retention of missions would do. */
+    void forget(String mission) {
+        ask("DELETE", "/api/missions/" + mission, null);
+        try (MongoClient client = MongoClients.create(mongo())) {
+            deleteTopics(Topics.realtime(FarmYear.DOMAIN, mission));
+            client.getDatabase(MongoAccess.DATABASE)
+                    .getCollection(MissionCollections.nameOf(mission))
+                    .drop();
+        } catch (ExecutionException e) {
+            throw new IllegalStateException("not deleted: " + mission, e);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
         }
+    }
+
+    void deleteTopics(String... topics) throws InterruptedException, ExecutionException {
+        try (Admin admin = admin()) {
+            Set<String> known = admin.listTopics().names().get();
+            admin.deleteTopics(List.of(topics).stream().filter(known::contains).toList())
+                    .all()
+                    .get();
+        }
+    }
+
+    /** Gives a retention to topics of data that have none and are no mission's, as one does with Kafka's tools. */
+    void retain(Duration retention) throws InterruptedException, ExecutionException {
+        try (Admin admin = admin()) {
+            List<ConfigResource> topics = admin.listTopics().names().get().stream()
+                    .filter(name ->
+                            name.startsWith("data.") && !name.contains(".realtime.") && !Topics.isOfReplay(name))
+                    .filter(name -> !retained.contains(name))
+                    .map(name -> new ConfigResource(ConfigResource.Type.TOPIC, name))
+                    .toList();
+            Map<ConfigResource, java.util.Collection<AlterConfigOp>> changes = new HashMap<>();
+            admin.describeConfigs(topics).all().get().forEach((topic, config) -> {
+                retained.add(topic.name());
+                if (config.get("cleanup.policy").value().equals("delete")) {
+                    changes.put(
+                            topic,
+                            List.of(
+                                    set("retention.ms", retention.toMillis()),
+                                    set("segment.ms", retention.toMillis() / SEGMENTS)));
+                }
+            });
+            admin.incrementalAlterConfigs(changes).all().get();
+        }
+    }
+
+    private static AlterConfigOp set(String name, long value) {
+        return new AlterConfigOp(new ConfigEntry(name, Long.toString(value)), AlterConfigOp.OpType.SET);
+    }
+
+    private Admin admin() {
+        return Admin.create(Map.of("bootstrap.servers", up.kafka()));
     }
 
     /** Of the suite. */

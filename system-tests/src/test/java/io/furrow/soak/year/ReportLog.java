@@ -1,0 +1,76 @@
+package io.furrow.soak.year;
+
+import java.time.Duration;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.soak.year.Tap.Report;
+
+/** How often each report of a device is on a topic. */
+final class ReportLog implements AutoCloseable {
+    private static final String END_OF_REPLAY = "urn:ngsi-ld:Replay:";
+
+    private final KafkaConsumer<byte[], byte[]> consumer;
+
+    ReportLog(String kafka) {
+        Properties settings = new Properties();
+        settings.setProperty("bootstrap.servers", kafka);
+        settings.setProperty("isolation.level", "read_committed");
+        settings.setProperty("auto.offset.reset", "earliest");
+        settings.setProperty("enable.auto.commit", "false");
+        settings.setProperty("allow.auto.create.topics", "false");
+        consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer());
+    }
+
+    Map<Report, Integer> all(String topic) throws UnreadableException {
+        Map<Report, Integer> reports = new HashMap<>();
+        readOn(topic, new HashMap<>(), reports);
+        return reports;
+    }
+
+    /** @param read how far each partition was read before, and is now */
+    void readOn(String topic, Map<TopicPartition, Long> read, Map<Report, Integer> into) throws UnreadableException {
+        List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
+                .map(each -> new TopicPartition(topic, each.partition()))
+                .toList();
+        consumer.assign(partitions);
+        Map<TopicPartition, Long> begins = consumer.beginningOffsets(partitions);
+        partitions.forEach(each -> consumer.seek(each, Math.max(begins.get(each), read.getOrDefault(each, 0L))));
+        Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
+        while (ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
+            for (ConsumerRecord<byte[], byte[]> record : consumer.poll(Duration.ofMillis(100))) {
+                Report report = record.value() == null
+                        ? null
+                        : Report.of(Entity.parse(record.value()).json());
+                if (report != null && report.time() > 0 && !report.entity().startsWith(END_OF_REPLAY)) { // of a device
+                    into.merge(report, 1, Integer::sum);
+                }
+            }
+        }
+        partitions.forEach(each -> read.put(each, consumer.position(each)));
+    }
+
+    /** How many records retention has removed from the beginning of a topic. */
+    long removed(String topic) {
+        List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
+                .map(each -> new TopicPartition(topic, each.partition()))
+                .toList();
+        return consumer.beginningOffsets(partitions).values().stream()
+                .mapToLong(Long::longValue)
+                .sum();
+    }
+
+    @Override
+    public void close() {
+        consumer.close();
+    }
+}

@@ -1,0 +1,86 @@
+package io.furrow.soak.year;
+
+import java.time.Duration;
+import java.util.Map;
+import java.util.TreeMap;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.soak.control.Until;
+
+/**
+ * A mission of each week with a device that reports once and falls silent, and one that never reports. Of the first there is an
+ * alarm {@code silent-device}, of the second {@code missing-devices}, as long as the mission runs.
+ */
+final class SilentDevices {
+    private static final String FALLS_SILENT = "urn:ngsi-ld:Thermometer:falls-silent";
+    private static final String NEVER_REPORTS = "urn:ngsi-ld:Thermometer:never-reports";
+    private static final Map<String, String> ALARMS =
+            Map.of("silent-device", FALLS_SILENT, "missing-devices", NEVER_REPORTS);
+    private static final Duration TIMEOUT = Duration.ofSeconds(30);
+
+    private final YearFarm farm;
+    private final Fleet fleet;
+
+    SilentDevices(YearFarm farm, Fleet fleet) {
+        this.farm = farm;
+        this.fleet = fleet;
+    }
+
+    private static String mission(int week) {
+        return "silent-" + week;
+    }
+
+    void begin(int week) {
+        ObjectNode plan = JsonNodeFactory.instance.objectNode().put("domain", FarmYear.DOMAIN);
+        ArrayNode devices = plan.putArray("devices");
+        for (String id : new String[] {FALLS_SILENT, NEVER_REPORTS}) {
+            devices.addObject().put("id", id).put("type", "Thermometer").put("period", "PT1S");
+        }
+        farm.ask("POST", "/api/missions/" + mission(week) + "/start", plan);
+    }
+
+    /** When its mission is known. */
+    void report() {
+        fleet.reportOnce(FALLS_SILENT);
+    }
+
+    void end(int week) {
+        farm.ask("POST", "/api/missions/" + mission(week) + "/stop", null);
+    }
+
+    void forget(int week) {
+        farm.forget(mission(week));
+    }
+
+    /** Both alarms are there, and they are of this mission. */
+    Check told(String when, int week) {
+        Until.within(TIMEOUT, () -> open(week).equals(ALARMS));
+        return new Check(
+                "alarms of silent devices, " + when,
+                String.join(", ", open(week).keySet()),
+                Check.differences(ALARMS, open(week)));
+    }
+
+    Check gone(String when, int week) {
+        Until.within(TIMEOUT, () -> open(week).isEmpty());
+        return new Check("no alarm once their mission has ended, " + when, "", Check.differences(Map.of(), open(week)));
+    }
+
+    /** By kind, the devices of which there is an alarm. */
+    private Map<String, String> open(int week) {
+        Map<String, String> open = new TreeMap<>();
+        for (JsonNode alarm : farm.up().get("/api/alarms?limit=10000")) {
+            if (!alarm.path("state").asText().equals("closed")
+                    && alarm.path("subject").asText().equals("urn:ngsi-ld:Mission:" + mission(week))) {
+                open.put(
+                        alarm.path("kind").asText(),
+                        String.join(", ", alarm.path("devices").findValuesAsText("id")));
+            }
+        }
+        return open;
+    }
+}

@@ -1,0 +1,54 @@
+package io.furrow.soak.year;
+
+import java.lang.management.ManagementFactory;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.stream.Stream;
+
+import org.junit.jupiter.api.Tag;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** A month, a day in five seconds, with nothing beside it; the long form is {@code ./furrow soak year}. */
+@Timeout(540)
+@Tag("full")
+@Tag("page")
+class YearIT {
+    private static final int WEEKS = 4;
+
+    @TempDir
+    Path folder;
+
+    @Test
+    void isWhereItBelongsAfterEachWeekOfAMonth() throws Exception {
+        try (FarmYear month = new FarmYear(furrow(), folder, WEEKS, Duration.ofSeconds(5))) {
+            month.run();
+
+            assertThat(month.differences()).isEmpty();
+        }
+    }
+
+    /** The suite of this class path: {@code ./furrow} would build its own. */
+    private List<String> furrow() {
+        Stream<String> opens = ManagementFactory.getRuntimeMXBean().getInputArguments().stream()
+                .filter(argument -> argument.startsWith("--add-"));
+        return Stream.of(
+                        Stream.of(Path.of(System.getProperty("java.home"), "bin", "java")
+                                .toString()),
+                        opens,
+                        Stream.of(
+                                "-Xmx1g",
+                                "-XX:+UseParallelGC",
+                                "-Dfurrow.plugins=" + System.getProperty("furrow.plugins"),
+                                "-Dfurrow.home=" + folder,
+                                "-cp",
+                                System.getProperty("java.class.path"),
+                                "io.furrow.launcher.Furrow"))
+                .flatMap(words -> words)
+                .toList();
+    }
+}

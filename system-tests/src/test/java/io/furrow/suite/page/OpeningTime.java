@@ -1,0 +1,38 @@
+package io.furrow.suite.page;
+
+import java.net.URI;
+import java.util.List;
+
+import com.microsoft.playwright.Browser;
+import com.microsoft.playwright.Page;
+
+/** How long the page of a running farm takes to open. */
+public final class OpeningTime {
+    private static final String IS_THERE = """
+            async (ids) => {
+              const { store } = await import('/core/store.js');
+              const frame = document.querySelector('furrow-map canvas.map-canvas');
+              return frame !== null && ids.every((id) => store.entities.get(id)?.position
+                && document.querySelector(`furrow-cards li.card[data-id="${id}"]`) !== null);
+            }""";
+
+    private OpeningTime() {}
+
+    /** @param devices that must be on the map and among the cards @return ms from the navigation of a new window on */
+    public static long millis(URI dashboard, List<String> devices) {
+        try (Chromium chromium = Chromium.start();
+                FarmPage farm = new FarmPage(
+                        dashboard,
+                        chromium.browser()
+                                .newContext(new Browser.NewContextOptions()
+                                        .setViewportSize(Look.DESK.width(), Look.DESK.height())))) {
+            long began = System.nanoTime();
+            farm.open("");
+            farm.page()
+                    .waitForCondition(
+                            () -> Boolean.TRUE.equals(farm.page().evaluate(IS_THERE, devices)),
+                            new Page.WaitForConditionOptions().setTimeout(20_000));
+            return (System.nanoTime() - began) / 1_000_000;
+        }
+    }
+}
