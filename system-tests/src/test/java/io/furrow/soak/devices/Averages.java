@@ -2,6 +2,7 @@ package io.furrow.soak.devices;
 
 import java.time.Instant;
 import java.util.ArrayList;
+import java.util.Collection;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Locale;
@@ -56,7 +57,7 @@ public record Averages(long windowMillis) {
     }
 
     /** @return what was found, by field and end; a second one of a window differs from any */
-    public Map<String, String> found(List<Entity> results, long from, long to) {
+    public Map<String, String> found(Collection<Entity> results, long from, long to) {
         Map<String, String> averages = new HashMap<>();
         for (Entity each : results) {
             long end = each.number("windowEnd").orElseThrow().longValue();

@@ -81,9 +81,11 @@ final class Accounts {
         List<String> inMongo = new ArrayList<>();
         int expected = 0;
         int unsynced = 0;
+        Map<String, Map<Report, Integer>> topics =
+                log.all(missions.stream().map(Accounts::topic).toList());
         try (MongoClient mongo = MongoClients.create(farm.mongo())) {
             for (DayMission mission : missions) {
-                Map<Report, Integer> topic = log.all(Topics.realtime(FarmYear.DOMAIN, mission.name()));
+                Map<Report, Integer> topic = topics.get(topic(mission));
                 Map<Report, Integer> documents = documents(mongo, mission.name());
                 for (Report report : acknowledged) {
                     if (mission.holds(report)) {
@@ -109,6 +111,10 @@ final class Accounts {
                                 .formatted(expected, missions.size(), span.once() ? "once" : "there", unsynced),
                         onTopics),
                 new Check("reports in MongoDB, " + span.when(), "%d reports, each once".formatted(expected), inMongo));
+    }
+
+    private static String topic(DayMission mission) {
+        return Topics.realtime(FarmYear.DOMAIN, mission.name());
     }
 
     private static Map<Report, Integer> documents(MongoClient mongo, String mission) {

@@ -32,16 +32,26 @@ final class ReportLog implements AutoCloseable {
     }
 
     Map<Report, Integer> all(String topic) throws UnreadableException {
-        Map<Report, Integer> reports = new HashMap<>();
-        readOn(topic, new HashMap<>(), reports);
+        return all(List.of(topic)).get(topic);
+    }
+
+    /** By topic. */
+    Map<String, Map<Report, Integer>> all(List<String> topics) throws UnreadableException {
+        Map<String, Map<Report, Integer>> reports = new HashMap<>();
+        topics.forEach(topic -> reports.put(topic, new HashMap<>()));
+        read(topics, new HashMap<>(), reports);
         return reports;
     }
 
     /** @param read how far each partition was read before, and is now */
     void readOn(String topic, Map<TopicPartition, Long> read, Map<Report, Integer> into) throws UnreadableException {
-        List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
-                .map(each -> new TopicPartition(topic, each.partition()))
-                .toList();
+        read(List.of(topic), read, Map.of(topic, into));
+    }
+
+    private void read(List<String> topics, Map<TopicPartition, Long> read, Map<String, Map<Report, Integer>> into)
+            throws UnreadableException {
+        List<TopicPartition> partitions =
+                topics.stream().flatMap(topic -> partitions(topic).stream()).toList();
         consumer.assign(partitions);
         Map<TopicPartition, Long> begins = consumer.beginningOffsets(partitions);
         partitions.forEach(each -> consumer.seek(each, Math.max(begins.get(each), read.getOrDefault(each, 0L))));
@@ -52,19 +62,22 @@ final class ReportLog implements AutoCloseable {
                         ? null
                         : Report.of(Entity.parse(record.value()).json());
                 if (report != null && report.time() > 0 && !report.entity().startsWith(END_OF_REPLAY)) { // of a device
-                    into.merge(report, 1, Integer::sum);
+                    into.get(record.topic()).merge(report, 1, Integer::sum);
                 }
             }
         }
         partitions.forEach(each -> read.put(each, consumer.position(each)));
     }
 
-    /** How many records retention has removed from the beginning of a topic. */
-    long removed(String topic) {
-        List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
+    private List<TopicPartition> partitions(String topic) {
+        return consumer.partitionsFor(topic).stream()
                 .map(each -> new TopicPartition(topic, each.partition()))
                 .toList();
-        return consumer.beginningOffsets(partitions).values().stream()
+    }
+
+    /** How many records retention has removed from the beginning of a topic. */
+    long removed(String topic) {
+        return consumer.beginningOffsets(partitions(topic)).values().stream()
                 .mapToLong(Long::longValue)
                 .sum();
     }
