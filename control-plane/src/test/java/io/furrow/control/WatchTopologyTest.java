@@ -98,6 +98,7 @@ class WatchTopologyTest {
         farm.pass(Duration.ofSeconds(1));
         JsonNode closed = farm.newest(Topics.ALARMS);
         assertThat(closed.path("state").asText()).isEqualTo("closed");
+        assertThat(closed.path("count").asInt()).as("encounters").isEqualTo(1);
         assertThat(closed.path("reason").asText())
                 .isEqualTo("the encounter has ended, and the pair has had no other since");
     }

@@ -158,6 +158,14 @@ public record Alarm(
         return draft.build();
     }
 
+    /** The cause goes on; it is not counted again. */
+    Alarm lasting(Long newUntil, long now) {
+        AlarmDraft draft = new AlarmDraft(this);
+        draft.until = newUntil;
+        draft.seen = now;
+        return draft.build();
+    }
+
     /** Whoever was notified of it need not know that it will end. */
     Alarm ending(long newUntil) {
         AlarmDraft draft = new AlarmDraft(this);

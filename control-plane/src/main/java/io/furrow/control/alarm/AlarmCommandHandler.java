@@ -61,6 +61,16 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         }
     }
 
+    /** As {@link #raise}; an existing alarm does not count a cause that goes on. */
+    public void raiseOrExtend(Cause cause, long now) {
+        Alarm known = current(cause.kind(), cause.identity());
+        if (known == null) {
+            raise(cause, now);
+        } else {
+            records.alarms().put(known.alarm(), known.lasting(cause.until(now), now));
+        }
+    }
+
     /** As {@link #raise}; an existing alarm gets the words of the cause. */
     public void raiseReworded(Cause cause, long now) {
         Alarm known = current(cause.kind(), cause.identity());

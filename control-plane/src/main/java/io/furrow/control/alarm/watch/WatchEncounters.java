@@ -45,7 +45,7 @@ public final class WatchEncounters {
                 alarms.raiseAnew(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);
             }
             case "ongoing" ->
-                alarms.raise(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);
+                alarms.raiseOrExtend(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);
             case "ended" ->
                 alarms.endAt(AlarmKind.COLLISION, pair, now + holds.collision().toMillis());
             case "predicted" -> {
