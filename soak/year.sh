@@ -29,7 +29,7 @@ once. In the fourth week and the last the page must show all devices within 3 s.
 retention, topics, partitions, collections, alarms, files, threads and heap after collection are at most 1.2 times those of the fourth week, and the
 start takes at most 1.5 times as long.
 By options of ./furrow up are scaled the windows of averages (--window 2s) and the time that devices of a mission may take (--start-timeout 5s), by
-the period of its devices when one is silent (PT1S), by settings of its topics the retention of data (14 days, in segments of 3.5). For these
+the period of its devices when one is silent (PT1S), by settings of its topics the retention of data (1.75 times what the first week took). For these
 ./furrow up has no option, and the soak does it in its place: missions are deleted after a week, with topic (after a day) and collection
 (--mission-retention of ingest); topics of a replay when it was deleted (--replay-grace, an hour). Not scaled is when a device that never reported
 counts as silent, two minutes, more than there is between two restarts: missing-devices names it.

@@ -63,7 +63,8 @@ class FurrowCards extends HTMLElement {
     if (all) {
       this.order(true);
     } else if (!this.ordering) {
-      this.ordering = setTimeout(() => { this.ordering = null; this.order(false); }, ORDER_MILLIS);
+      // The first ones come soon.
+      this.ordering = setTimeout(() => { this.ordering = null; this.order(false); }, this.cards.size ? ORDER_MILLIS : REDRAW_MILLIS);
     }
   }
 

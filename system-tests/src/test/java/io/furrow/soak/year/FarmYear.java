@@ -29,7 +29,6 @@ public final class FarmYear implements AutoCloseable {
     private static final int DAYS_OF_A_WEEK = 7;
     private static final int WEEKS_OF_A_MONTH = 4;
     private static final int KEPT_DAYS = 7;
-    private static final int RETENTION_DAYS = 14;
     private static final int DAY_OF_REPLAY = 3;
     /** Until the jobs know a mission's devices. */
     private static final Duration KNOWN = Duration.ofSeconds(2);
@@ -113,6 +112,7 @@ public final class FarmYear implements AutoCloseable {
                 Thread.sleep(Math.max(0, (evening - System.nanoTime()) / 1_000_000));
             }
             endOfWeek(week);
+            farm.retain(Duration.ofNanos(System.nanoTime() - began));
             say("week %d took %.1f s".formatted(week, (System.nanoTime() - began) / 1e9));
         }
         fleet.close();
@@ -208,7 +208,6 @@ public final class FarmYear implements AutoCloseable {
         add(silent.gone(when, week));
         silent.forget(week);
         from = until;
-        farm.retain(day.multipliedBy(RETENTION_DAYS));
         footprints.put(week, Footprint.of(farm, startSeconds));
         say("week %d: %s".formatted(week, footprints.get(week)));
     }

@@ -34,6 +34,8 @@ import io.furrow.soak.devices.UpProcess;
 final class YearFarm implements AutoCloseable {
     private static final Duration TIMEOUT = Duration.ofMinutes(1);
     private static final int SEGMENTS = 4;
+    /** Longer than the slowest week, so that what is looked at after it is still there. */
+    private static final double RETENTION_WEEKS = 1.75;
 
     private final Path data;
     private final Mosquitto mosquitto;
@@ -41,6 +43,7 @@ final class YearFarm implements AutoCloseable {
     private final UpProcess up;
     private final Tap tap;
     private final Set<String> retained = new HashSet<>();
+    private long retentionMillis;
 
     /** @param furrow the words that start it, before {@code up} */
     YearFarm(List<String> furrow, Path folder) throws IOException, InterruptedException {
@@ -118,8 +121,13 @@ final class YearFarm implements AutoCloseable {
         }
     }
 
-    /** Gives a retention to topics of data that have none and are no mission's, as one does with Kafka's tools. */
-    void retain(Duration retention) throws InterruptedException, ExecutionException {
+    /**
+     * Gives a retention to topics of data that have none and are no mission's, as one does with Kafka's tools.
+     *
+     * @param week how long it took; the first counts
+     */
+    void retain(Duration week) throws InterruptedException, ExecutionException {
+        retentionMillis = retentionMillis == 0 ? (long) (RETENTION_WEEKS * week.toMillis()) : retentionMillis;
         try (Admin admin = admin()) {
             List<ConfigResource> topics = admin.listTopics().names().get().stream()
                     .filter(name ->
@@ -134,8 +142,8 @@ final class YearFarm implements AutoCloseable {
                     changes.put(
                             topic,
                             List.of(
-                                    set("retention.ms", retention.toMillis()),
-                                    set("segment.ms", retention.toMillis() / SEGMENTS)));
+                                    set("retention.ms", retentionMillis),
+                                    set("segment.ms", retentionMillis / SEGMENTS)));
                 }
             });
             admin.incrementalAlterConfigs(changes).all().get();
