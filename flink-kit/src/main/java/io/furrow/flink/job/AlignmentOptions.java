@@ -13,7 +13,7 @@ public final class AlignmentOptions {
             description =
                     "A partition that is ahead of the slowest one by more than this event time waits, as looked at"
                             + " ten times a second. Shorter: a backlog that is read unevenly takes less memory. Longer: fewer"
-                            + " waits where partitions differ by nature. 0s: none waits, as always with --idle-advance and in a replay. Default: 1min; 0s with --eager,"
+                            + " waits where partitions differ by nature. 0s: none waits, as always with --idle-advance and in a replay. Default: 2min; 0s with --eager,"
                             + " of which the answers would wait, too.")
     private Duration maxDrift;
 
@@ -23,7 +23,7 @@ public final class AlignmentOptions {
      * @param isPrompt whether the job answers before event time has come to a record
      */
     public Optional<Duration> maxDrift(boolean isPrompt) {
-        Duration otherwise = isPrompt ? Duration.ZERO : Duration.ofMinutes(1);
+        Duration otherwise = isPrompt ? Duration.ZERO : Duration.ofMinutes(2);
         return Optional.of(maxDrift == null ? otherwise : maxDrift).filter(drift -> !drift.isZero());
     }
 }

@@ -53,7 +53,7 @@ class KafkaConnectorsTest {
     @Test
     void letNoPartitionRunAheadUnlessThatIsSwitchedOff() {
         assertThat(alignment().isEnabled()).isTrue();
-        assertThat(alignment().getMaxAllowedWatermarkDrift()).isEqualTo(60_000);
+        assertThat(alignment().getMaxAllowedWatermarkDrift()).isEqualTo(120_000);
         assertThat(alignment("--max-drift", "5s").getMaxAllowedWatermarkDrift()).isEqualTo(5_000);
         assertThat(alignment("--max-drift", "0s").isEnabled()).isFalse();
     }

@@ -18,6 +18,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 /** From an alarm to who takes care of it. */
 @PageTest
 class AlarmsIT {
+    private static final AtomicInteger NUMBERS = new AtomicInteger(1_000);
     private static final String ANNOUNCED = "furrow-alarms [aria-live=assertive]";
     private static final LocatorAssertions.ContainsTextOptions TIMEOUT =
             new LocatorAssertions.ContainsTextOptions().setTimeout(90_000);
@@ -170,8 +171,8 @@ class AlarmsIT {
 
     /** Lets two robots stand side by side that have no alarm yet, and returns the name of the first. */
     private static String meet(PageSuite suite) throws Exception {
-        long number = 1_000 + System.nanoTime() % 1_000 * 10;
-        for (long each = number; each < number + 2; each++) {
+        int number = NUMBERS.getAndAdd(2);
+        for (int each = number; each < number + 2; each++) {
             String id = "urn:ngsi-ld:Robot:" + each;
             suite.produce("data.raw", id, """
                     {"id": "%s", "type": "Robot", "Time": {"type": "Number", "value": %d},
