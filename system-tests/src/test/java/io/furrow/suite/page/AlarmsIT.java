@@ -169,14 +169,14 @@ class AlarmsIT {
                         FarmPage.TIMEOUT);
     }
 
-    /** Lets two robots stand side by side that have no alarm yet, and returns the name of the first. */
+    /** Lets two robots stand side by side, far from all others, and returns the name of the first. */
     private static String meet(PageSuite suite) throws Exception {
         int number = NUMBERS.getAndAdd(2);
         for (int each = number; each < number + 2; each++) {
             String id = "urn:ngsi-ld:Robot:" + each;
             suite.produce("data.raw", id, """
                     {"id": "%s", "type": "Robot", "Time": {"type": "Number", "value": %d},
-                     "Latitude": {"type": "Number", "value": 40.3128}, "Longitude": {"type": "Number", "value": -3.484}}""".formatted(id, Instant.now().toEpochMilli())
+                     "Latitude": {"type": "Number", "value": 40.3%03d}, "Longitude": {"type": "Number", "value": -3.484}}""".formatted(id, Instant.now().toEpochMilli(), number - 1_000)
                     .getBytes(StandardCharsets.UTF_8));
         }
         return "Robot " + number;
