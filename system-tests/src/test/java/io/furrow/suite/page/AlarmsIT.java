@@ -18,6 +18,8 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 /** From an alarm to who takes care of it. */
 @PageTest
 class AlarmsIT {
+    private static final String ANNOUNCEMENT = "New alarm, critical: Robot ";
+    private static final String ROBOT = "urn:ngsi-ld:Robot:";
     private static final AtomicInteger NUMBERS = new AtomicInteger(1_000);
     private static final String ANNOUNCED = "furrow-alarms [aria-live=assertive]";
     private static final LocatorAssertions.ContainsTextOptions TIMEOUT =
@@ -108,11 +110,12 @@ class AlarmsIT {
     void tellsANewAlarmToScreenReadersAndCountsIt(PageSuite suite) throws Exception {
         FarmPage farm = suite.open("");
         farm.untilStore("store.primed && store.alarmsKnown");
-        String robot = meet(suite);
+        int robot = meet(suite);
 
-        assertThat(farm.find(ANNOUNCED)).containsText("New alarm, critical: " + robot, TIMEOUT);
+        assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);
         assertThat(farm.find(".alarm-count"))
                 .hasAttribute("aria-label", java.util.regex.Pattern.compile("[1-9]\\d* open alarms"));
+        forget(suite, robot);
     }
 
     @Tag("full")
@@ -151,35 +154,43 @@ class AlarmsIT {
         });
         farm.open("");
         farm.untilStore("store.primed && store.alarmsKnown");
-        String robot = meet(suite);
+        int robot = meet(suite);
 
-        assertThat(farm.find(ANNOUNCED)).containsText("New alarm, critical: " + robot, TIMEOUT);
+        assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);
         org.assertj.core.api.Assertions.assertThat(farm.page().evaluate("notified.length"))
                 .isEqualTo(0);
 
         farm.hide();
         farm.page().waitForCondition(() -> sockets.get() == 1, FarmPage.TIMEOUT);
-        String other = meet(suite);
+        int other = meet(suite);
         farm.page()
                 .waitForCondition(
                         () -> Boolean.TRUE.equals(farm.page()
                                 .evaluate(
-                                        "(name) => notified.some((each) => each.startsWith(`Furrow: critical alarm: ${name}`))",
+                                        "(robot) => notified.some((each) => each.startsWith(`Furrow: critical alarm: Robot ${robot}`))",
                                         other)),
                         FarmPage.TIMEOUT);
+        forget(suite, robot);
+        forget(suite, other);
     }
 
-    /** Lets two robots stand side by side, far from all others, and returns the name of the first. */
-    private static String meet(PageSuite suite) throws Exception {
+    /** Lets two robots stand side by side, away from all others, and returns the number of the first. */
+    private static int meet(PageSuite suite) throws Exception {
         int number = NUMBERS.getAndAdd(2);
+        double latitude = 40.312 + (number - 1_000) * 5e-5;
         for (int each = number; each < number + 2; each++) {
-            String id = "urn:ngsi-ld:Robot:" + each;
+            String id = ROBOT + each;
             suite.produce("data.raw", id, """
                     {"id": "%s", "type": "Robot", "Time": {"type": "Number", "value": %d},
-                     "Latitude": {"type": "Number", "value": 40.3%03d}, "Longitude": {"type": "Number", "value": -3.484}}""".formatted(id, Instant.now().toEpochMilli(), number - 1_000)
+                     "Latitude": {"type": "Number", "value": %s}, "Longitude": {"type": "Number", "value": -3.4822}}""".formatted(id, Instant.now().toEpochMilli(), latitude)
                     .getBytes(StandardCharsets.UTF_8));
         }
-        return "Robot " + number;
+        return number;
+    }
+
+    private static void forget(PageSuite suite, int number) throws Exception {
+        suite.forget(ROBOT + number);
+        suite.forget(ROBOT + (number + 1));
     }
 
     private static Locator.FilterOptions suspect() {
