@@ -68,8 +68,8 @@ public final class IngestOptions extends JobOptions {
             description =
                     "How many topics there may be of domains and missions that are not on service.domains and service.missions:"
                             + " each has partitions and a collection that stay. As many names that get no topic, of an event without"
-                            + " a domain or with --no-routes, are taken from one start to the next. A further name is a dead letter,"
-                            + " unknown-mission, and its event goes on without it. Default: ${DEFAULT-VALUE}.")
+                            + " a domain or with --no-routes, are taken per subtask from one start to the next. A further name is a"
+                            + " dead letter, unknown-mission, and its event goes on without it. Default: ${DEFAULT-VALUE}.")
     private int otherNames;
 
     @Option(

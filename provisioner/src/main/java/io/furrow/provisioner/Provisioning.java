@@ -64,6 +64,7 @@ final class Provisioning {
         this.forgets = settings.forgets();
         this.wanted = wanted;
         this.nanos = nanos;
+        this.asked = nanos.getAsLong();
     }
 
     /**

@@ -14,7 +14,7 @@ import io.furrow.model.topic.Topics;
 
 /**
  * The topics of missions and domains that were deleted, by {@code service.missions} and {@code service.domains}. Where the record
- * of a mission is compacted away, and with it its domain, the topic is looked for in all domains.
+ * of a mission is compacted away, and with it its domain, the topic is looked for in all domains, and left alone if several have it.
  */
 final class DeletedNames {
     private final Map<String, String> topics = new HashMap<>();
@@ -38,6 +38,9 @@ final class DeletedNames {
             String topic = isDomain ? Topics.realtime(record.key()) : ofMission(record);
             topics.put(name, topic);
             deleted.remove(topic);
+            if (!isDomain) {
+                withoutDomain.remove(record.key());
+            }
             return;
         }
         String topic = topics.remove(name);
@@ -55,12 +58,17 @@ final class DeletedNames {
         return !withoutDomain.isEmpty();
     }
 
-    /** Looks for the topics of missions whose domain is not known; within domains, a mission's name is of the control plane. */
+    /** Looks for the topics of missions whose domain is not known. */
     void find(Set<String> there) {
-        withoutDomain.forEach((mission, time) -> domains.stream()
-                .map(domain -> Topics.realtime(domain, mission))
-                .filter(topic -> there.contains(topic) && !topics.containsValue(topic))
-                .forEach(topic -> deleted.put(topic, time)));
+        withoutDomain.forEach((mission, time) -> {
+            List<String> found = domains.stream()
+                    .map(domain -> Topics.realtime(domain, mission))
+                    .filter(topic -> there.contains(topic) && !topics.containsValue(topic))
+                    .toList();
+            if (found.size() == 1) { // of several, devices may have named the others
+                deleted.put(found.get(0), time);
+            }
+        });
         withoutDomain.clear();
     }
 

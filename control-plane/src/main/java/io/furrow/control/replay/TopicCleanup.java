@@ -36,7 +36,7 @@ import static java.util.stream.Collectors.toMap;
 
 /**
  * Deletes the topic of a replay, and those of what was found in it, a grace period after the replay was over, then its status; and the
- * topic of a mission or domain, with its dead letters, a day after it was deleted, where nothing of the last day is in it, nothing was
+ * topic of a mission or domain, with its dead letters, a day after it was deleted, where nothing of the last day is in them, nothing was
  * written lately and no replay reads it. A topic that cannot be deleted is tried again later and keeps no other. Several instances may do so.
  */
 public final class TopicCleanup implements AutoCloseable {
@@ -167,7 +167,11 @@ public final class TopicCleanup implements AutoCloseable {
                 due.isEmpty() ? Set.of() : admin.listTopics().names().get();
         for (String topic : due) {
             attempt(topic, () -> {
-                if (there.contains(topic) && (replays.isUsed(topic) || !isQuiet(topic, moment, admin))) {
+                boolean quiet = true;
+                for (String each : withLetters(topic, there)) {
+                    quiet &= isQuiet(each, moment, admin); // of each, so that their times run together
+                }
+                if (!quiet) {
                     return;
                 }
                 refresh.run();
@@ -175,15 +179,19 @@ public final class TopicCleanup implements AutoCloseable {
                     removeMission(topic, there, admin);
                     names.forget(topic);
                     contents.remove(topic);
+                    contents.remove(Topics.dead(topic));
                 }
             });
         }
     }
 
+    private static List<String> withLetters(String topic, Set<String> there) {
+        return Stream.of(topic, Topics.dead(topic)).filter(there::contains).toList();
+    }
+
     private void removeMission(String topic, Set<String> there, Admin admin)
             throws ExecutionException, InterruptedException {
-        List<String> all =
-                Stream.of(topic, Topics.dead(topic)).filter(there::contains).toList();
+        List<String> all = withLetters(topic, there);
         if (!all.isEmpty()) {
             delete(all, admin);
             LOG.info("what {} belonged to was deleted more than {} ago; deleted {}", topic, GRACE_OF_MISSIONS, all);

@@ -63,6 +63,29 @@ class DeletedNamesTest {
         assertThat(names.by(200)).contains("data.north.realtime.sowing").hasSize(3);
     }
 
+    @Test
+    void haveNoTopicOfAMissionThatMayBeOfEitherDomain() {
+        take(Topics.DOMAINS, "north", "{}", 0);
+        take(Topics.DOMAINS, "south", "{}", 0);
+        take(Topics.MISSIONS, "run-1", null, 100);
+
+        names.find(Set.of("data.north.realtime.run-1", "data.south.realtime.run-1"));
+
+        assertThat(names.by(1_000)).isEmpty();
+    }
+
+    @Test
+    void haveNoTopicOfAnotherDomainForAMissionThatWasMadeAnew() {
+        take(Topics.DOMAINS, "north", "{}", 0);
+        take(Topics.DOMAINS, "south", "{}", 0);
+        take(Topics.MISSIONS, "weeding", null, 100);
+        take(Topics.MISSIONS, "weeding", "{\"domain\":\"north\"}", 200);
+
+        names.find(Set.of("data.south.realtime.weeding"));
+
+        assertThat(names.by(1_000)).isEmpty();
+    }
+
     private void take(String topic, String key, String value, long timestamp) {
         names.take(new ConsumerRecord<>(
                 topic,
