@@ -33,6 +33,7 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 import static java.util.stream.Collectors.toMap;
+import static java.util.stream.Collectors.toSet;
 
 /**
  * Deletes the topic of a replay, and those of what was found in it, a grace period after the replay was over, then its status; and the
@@ -101,12 +102,22 @@ public final class TopicCleanup implements AutoCloseable {
                     });
                 }
                 removeMissions(names, remains, admin, () -> topics.readToEnd(taking));
-                running.succeeded();
+                retries.keySet().retainAll(due(names, remains));
+                if (retries.isEmpty()) {
+                    running.succeeded();
+                }
                 running.pause(interval());
             }
         } catch (ExecutionException e) {
             throw new KafkaException("Kafka does not say which topics there are", e.getCause());
         }
+    }
+
+    private Set<String> due(DeletedNames names, FinishedReplays remains) {
+        return Stream.concat(
+                        names.by(clock.millis() - GRACE_OF_MISSIONS.toMillis()).stream(),
+                        remains.overBy(clock.millis() - grace.toMillis()).stream().map(FinishedReplays.Remains::topic))
+                .collect(toSet());
     }
 
     /** A deletion. */
@@ -115,7 +126,7 @@ public final class TopicCleanup implements AutoCloseable {
     }
 
     private void attempt(String topic, Removal removal) throws InterruptedException {
-        if (clock.millis() < retries.getOrDefault(topic, Long.MIN_VALUE)) {
+        if (worker.isClosing() || clock.millis() < retries.getOrDefault(topic, Long.MIN_VALUE)) {
             return;
         }
         try {
@@ -158,9 +169,6 @@ public final class TopicCleanup implements AutoCloseable {
     /** @param refresh reads what was asked for since */
     private void removeMissions(DeletedNames names, FinishedReplays replays, Admin admin, Runnable refresh)
             throws ExecutionException, InterruptedException {
-        if (names.lackDomains()) {
-            names.find(admin.listTopics().names().get());
-        }
         long moment = clock.millis() - GRACE_OF_MISSIONS.toMillis();
         List<String> due = names.by(moment);
         Set<String> there =
