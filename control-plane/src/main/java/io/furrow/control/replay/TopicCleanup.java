@@ -116,7 +116,8 @@ public final class TopicCleanup implements AutoCloseable {
     private Set<String> due(DeletedNames names, FinishedReplays remains) {
         return Stream.concat(
                         names.by(clock.millis() - GRACE_OF_MISSIONS.toMillis()).stream(),
-                        remains.overBy(clock.millis() - grace.toMillis()).stream().map(FinishedReplays.Remains::topic))
+                        remains.overBy(clock.millis() - grace.toMillis()).stream()
+                                .map(FinishedReplays.Remains::topic))
                 .collect(toSet());
     }
 
