@@ -161,8 +161,12 @@ function lineOf(alarm) {
 
 /** Those of its devices that are known here. An alarm of an older control plane names neither tenant nor path. */
 function entitiesOf(alarm) {
-  return (alarm.devices ?? []).map(({ id, type, service, servicePath }) =>
-    store.entities.get(store.identities.keyOf(id, scope(service, servicePath), type ?? '')) ?? (alarm.identity ? null : store.entities.get(store.identities.keyOfType(id, type)))).filter(Boolean);
+  return (alarm.devices ?? []).map(({ id, type, service, servicePath }) => {
+    const of = scope(service, servicePath);
+    return alarm.identity
+      ? store.entities.get(store.identities.keyIn(id, of, type ?? ''))
+      : store.entities.get(store.identities.keyOf(id, of, type ?? '')) ?? store.entities.get(store.identities.keyOfType(id, type));
+  }).filter(Boolean);
 }
 
 /** Leads to the first of its devices on the map. */

@@ -223,7 +223,7 @@ class TemperatureJobTest {
                 {"id": "Analytics:SuspectDevice:Temperature:t3", "type": "Analytics:SuspectDevice",
                  "device": {"type": "String", "value": "t3", "metadata": {}},
                  "deviceType": {"type": "String", "value": "Thermometer", "metadata": {}},
-             "attribute": {"type": "String", "value": "Temperature", "metadata": {}},
+                 "attribute": {"type": "String", "value": "Temperature", "metadata": {}},
                  "field": {"type": "String", "value": "north", "metadata": {}},
                  "value": {"type": "Float", "value": 60.0, "metadata": {}},
                  "averageTemperature": {"type": "Float", "value": 19.0, "metadata": {}},

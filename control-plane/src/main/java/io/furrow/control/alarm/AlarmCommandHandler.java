@@ -285,13 +285,9 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         passed.forEach(key -> records.mutes().put(key, null));
     }
 
-    /** Returns the alarm that is not closed; null if none. One of an older version, which has no identity, is that of its subject. */
+    /** Returns the alarm that is not closed; null if none. */
     private Alarm current(AlarmKind kind, String identity) {
-        String known = records.current().get(Cause.key(kind, identity));
-        if (known == null && AlarmLimit.KINDS.contains(kind)) {
-            String[] parts = identity.split("\\|", 4);
-            known = records.current().get(Cause.key(kind, parts[parts.length - 1]));
-        }
+        String known = Cause.stored(records.current()::get, kind, identity);
         return known == null ? null : records.alarms().get(known);
     }
 

@@ -74,7 +74,7 @@ final class AlarmLimit {
             return false;
         }
         Group group = group(cause.kind(), cause.group());
-        Counted before = counted.get(cause.key());
+        Counted before = Cause.stored(counted::get, cause.kind(), cause.identity());
         boolean known = before != null;
         if (!known && group.alarms() < MAX_ALARMS) {
             return false;
@@ -82,8 +82,11 @@ final class AlarmLimit {
         boolean hasRoom = group.counted() < MAX_COUNTED;
         Counted counting =
                 new Counted(cause.key(), cause.kind(), cause.group(), cause.devices(), cause.until(now), now);
-        if (known ? isNews(before, counting) : hasRoom) {
+        if (known ? !before.key().equals(cause.key()) || isNews(before, counting) : hasRoom) {
             counted.put(cause.key(), counting);
+            if (known && !before.key().equals(cause.key())) {
+                counted.put(before.key(), null);
+            }
         }
         if (!known && hasRoom) {
             store(new Group(
@@ -128,9 +131,9 @@ final class AlarmLimit {
         return true;
     }
 
-    /** Removes the counted cause of a kind and subject, if there is one. */
-    void end(AlarmKind kind, String subject) {
-        Counted known = counted.get(Cause.key(kind, subject));
+    /** Removes the counted cause of a kind and identity, if there is one. */
+    void end(AlarmKind kind, String identity) {
+        Counted known = Cause.stored(counted::get, kind, identity);
         if (known != null) {
             counted.put(known.key(), null);
             Group group = group(kind, known.group());
@@ -138,9 +141,9 @@ final class AlarmLimit {
         }
     }
 
-    /** Lets the counted cause of a kind and subject, if there is one, end at a time. */
-    void endAt(AlarmKind kind, String subject, long until) {
-        Counted known = counted.get(Cause.key(kind, subject));
+    /** Lets the counted cause of a kind and identity, if there is one, end at a time. */
+    void endAt(AlarmKind kind, String identity, long until) {
+        Counted known = Cause.stored(counted::get, kind, identity);
         if (known != null) {
             counted.put(
                     known.key(), new Counted(known.key(), kind, known.group(), known.devices(), until, known.seen()));

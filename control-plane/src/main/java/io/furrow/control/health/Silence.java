@@ -199,11 +199,11 @@ final class Silence {
         alarms.endOthers(KINDS, causes, "its devices report again or were stopped", now);
     }
 
-    /** Whether it is muted, by its id or by tenant, service path and id. */
+    /** Whether it is muted, by its id or its identity. */
     private boolean isMuted(Device device, long now) {
-        String identity = device.scope().identity(device.id());
+        String type = device.type() == null ? "" : device.type();
         return alarms.isMuted(AlarmKind.SILENT_DEVICE, device.id(), now)
-                || alarms.isMuted(AlarmKind.SILENT_DEVICE, identity, now);
+                || alarms.isMuted(AlarmKind.SILENT_DEVICE, device.scope().identity(type, device.id()), now);
     }
 
     /** Whether another alarm has the device already: its mission misses it since its start. */

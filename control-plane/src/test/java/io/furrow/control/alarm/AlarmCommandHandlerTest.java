@@ -104,6 +104,16 @@ class AlarmCommandHandlerTest {
     }
 
     @Test
+    void goesOnWithAnAlarmOfAResultThatNamedNoType() {
+        Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR);
+        handler.raise(cause.identifiedBy("farm|/||s"), NOW);
+        handler.raise(cause.identifiedBy("farm|/|Thermometer|s"), NOW + 10);
+        assertThat(current()).hasSize(1);
+        handler.end(AlarmKind.SUSPECT_SENSOR, "farm|/|Thermometer|s", "over", NOW + 20);
+        assertThat(current()).isEmpty();
+    }
+
+    @Test
     void mutesASubjectOfOneTenantOrOfAll() throws Exception {
         Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR);
         muteSensor("other|/|Thermometer|s");

@@ -41,7 +41,7 @@ public final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldA
         Map<String, DeviceVote> latest = new HashMap<>();
         DeviceVote newest = null; // by the version of the field: whose domain counts
         for (DeviceVote vote : votes) {
-            latest.values().removeIf(vote::replaces);
+            latest.remove(vote.untypedVoter());
             latest.put(vote.voter(), vote);
             newest = newest == null || vote.validFrom() > newest.validFrom() ? vote : newest;
         }

@@ -29,14 +29,14 @@ public record DeviceVote(
     static final Comparator<DeviceVote> NAMING =
             Comparator.comparing(DeviceVote::device).thenComparing(DeviceVote::typeOrNone);
 
-    /** Whether a vote of before types were told apart is that of the same device. */
-    boolean replaces(DeviceVote untyped) {
-        return untyped.type == null && type != null && device.equals(untyped.device);
-    }
-
     /** Type and id: no two devices of a field share it. */
     String voter() {
-        return typeOrNone() + "|" + device;
+        return typeOrNone().length() + ":" + typeOrNone() + device;
+    }
+
+    /** The same of the device's vote of before types were told apart. */
+    String untypedVoter() {
+        return "0:" + device;
     }
 
     String typeOrNone() {

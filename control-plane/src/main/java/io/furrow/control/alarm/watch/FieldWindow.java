@@ -31,7 +31,7 @@ public record FieldWindow(
     public record Suspect(String id, String type) {
         /** Tells it from other entities of the field's tenant and path. */
         public String key() {
-            return type.isEmpty() ? id : type + "|" + id;
+            return type.isEmpty() ? id : type.length() + ":" + type + id;
         }
     }
 
