@@ -72,7 +72,7 @@ export const texts = {
     cluster: '{count} devices, click to open', oneSpot: '{count} devices in one spot',
     columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects' },
     speed: '{speed} m/s',
-    phases: { predicted: 'predicted', provisional: 'predicted', started: 'too close', ongoing: 'too close', ended: 'over', crossed: 'crossed', confirms: 'too close' },
+    phases: { predicted: 'predicted', started: 'too close', ongoing: 'too close', ended: 'over', crossed: 'crossed' },
     faults: { 'no-number': 'no number', 'no-point': 'no point', 'out-of-range': 'outside the map', 'no-fix': 'no fix' },
     moreRows: 'and {count} more; search to find them',
     emptyTitle: 'No devices yet', emptyText: 'As soon as a device reports, it is here. Simulated ones come with',

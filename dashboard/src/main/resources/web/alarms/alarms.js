@@ -3,7 +3,7 @@ import { api } from '../core/api.js';
 import { age, clock, label, readable } from '../core/format.js';
 import { h, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
-import { scope } from '../core/identities.js';
+import { isIn, scope } from '../core/identities.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { arrange, isMuted } from './order.js';
@@ -163,15 +163,14 @@ function lineOf(alarm) {
 function entitiesOf(alarm) {
   return (alarm.devices ?? []).map(({ id, type, service, servicePath }) => {
     const of = scope(service, servicePath);
-    return alarm.identity
-      ? store.entities.get(store.identities.keyIn(id, of, type ?? ''))
-      : store.entities.get(store.identities.keyOf(id, of, type ?? '')) ?? store.entities.get(store.identities.keyOfType(id, type));
+    const entity = store.entities.get(store.identities.keyOf(id, of, type ?? ''));
+    return alarm.identity ? entity && isIn(entity.identity, of) && entity : entity ?? store.entities.get(store.identities.keyOfType(id, type));
   }).filter(Boolean);
 }
 
 /** Leads to the first of its devices on the map. */
 function show(alarm) {
-  const device = entitiesOf(alarm)[0]?.id ?? (store.entities.has(alarm.subject) ? alarm.subject : null);
+  const device = entitiesOf(alarm)[0]?.id ?? (!alarm.identity && store.entities.has(alarm.subject) ? alarm.subject : null);
   device && store.select(device, { reveal: true });
 }
 

@@ -47,13 +47,8 @@ export class Identities {
   /** The key of an entity that is named by its id: in the scope if there is one, else in any. With a type it is that of no other entity. */
   keyOf(id, of, type = '') {
     const all = this.all(id);
-    const other = type ? all.length > 0 && fullKey(of, type, id) : all[0]?.key;
-    return this.keyIn(id, of, type) ?? (other || id);
-  }
-
-  /** The same in the scope alone; undefined where it has none. */
-  keyIn(id, of, type = '') {
-    return this.all(id).find((each) => isIn(each, of) && (!type || each.type === type || each.type === ''))?.key;
+    const found = type ? all.find((each) => isIn(each, of) && (each.type === type || each.type === '')) : all.find((each) => isIn(each, of)) ?? all[0];
+    return found?.key ?? (all.length ? fullKey(of, type, id) : id);
   }
 
   /** The key of the first entity that has an id and a type; one of any type where none has. */
@@ -85,7 +80,7 @@ export function fullKey({ service, servicePath }, type, id) {
   return [service, servicePath, type, id].join('|');
 }
 
-function isIn(identity, { service, servicePath }) {
+export function isIn(identity, { service, servicePath }) {
   return identity.service === service && identity.servicePath === servicePath;
 }
 

@@ -117,11 +117,6 @@ export const Taking = (Base) => class extends Base {
     if (known && known.time > record.time) {
       return;
     }
-    if (phase === 'withdrawn') {
-      this.encounters.delete(pair);
-      this.tell('encounters');
-      return;
-    }
     if (phase === 'predicted' && known && (known.phase === 'started' || known.phase === 'ongoing')) {
       return;
     }

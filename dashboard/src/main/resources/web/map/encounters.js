@@ -77,7 +77,7 @@ function lookOf(encounter, palette) {
     const alpha = 0.9 * (1 - (store.now() - encounter.time) / FADING);
     return { colour: palette.muted, ink: palette.background, dash: [], alpha: Math.min(0.9, alpha) };
   }
-  return encounter.phase === 'predicted' || encounter.phase === 'provisional'
+  return encounter.phase === 'predicted'
     ? { colour: palette.warning, ink: palette.background, dash: [7, 5], alpha: 1 }
     : { colour: palette.critical, ink: palette['on-critical'], dash: [], alpha: 1 };
 }

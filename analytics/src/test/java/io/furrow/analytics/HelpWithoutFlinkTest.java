@@ -32,7 +32,6 @@ class HelpWithoutFlinkTest {
                 .contains(
                         "--fields=FILE",
                         "--fields-topic=TOPIC",
-                        "--empty-windows[=DURATION]",
                         "--window=DURATION",
                         "--suspect-floor=NUMBER",
                         "--delivery=MODE")

@@ -90,23 +90,23 @@ public final class ServiceTopics {
      */
     public static void prepare(ControlSettings settings) throws IOException {
         try (Admin admin = Admin.create(settings.client())) {
-            List<NewTopic> wanted = new ArrayList<>();
-            REQUESTS.forEach(name -> wanted.add(topic(name, settings, requestConfigs())));
-            COMPACTED.forEach(name -> wanted.add(topic(name, settings, stateConfigs(name))));
-            wanted.add(topic(Topics.AUDIT, settings, KEPT_LONG));
-            wanted.add(
+            List<NewTopic> desired = new ArrayList<>();
+            REQUESTS.forEach(name -> desired.add(topic(name, settings, requestConfigs())));
+            COMPACTED.forEach(name -> desired.add(topic(name, settings, stateConfigs(name))));
+            desired.add(topic(Topics.AUDIT, settings, KEPT_LONG));
+            desired.add(
                     topic(Topics.FIELDS, settings, Map.of(POLICY, "compact"))); // as an import makes it, never altered
             Stream.concat(DATA.stream(), DEAD.stream())
-                    .forEach(name -> wanted.add(
+                    .forEach(name -> desired.add(
                             topic(name, settings, Map.of(MAX_BYTES, Integer.toString(Limits.DEAD_LETTER_BYTES)))));
-            for (KafkaFuture<Void> made : admin.createTopics(wanted).values().values()) {
+            for (KafkaFuture<Void> made : admin.createTopics(desired).values().values()) {
                 await(made, true);
             }
             Map<ConfigResource, Collection<AlterConfigOp>> policies = new LinkedHashMap<>();
             REQUESTS.forEach(name -> set(policies, name, requestConfigs()));
             COMPACTED.forEach(name -> set(policies, name, stateConfigs(name)));
             await(admin.incrementalAlterConfigs(policies).all(), false);
-            awaitKnown(admin, wanted.stream().map(NewTopic::name).toList());
+            awaitKnown(admin, desired.stream().map(NewTopic::name).toList());
         } catch (KafkaException | ExecutionException | TimeoutException e) {
             throw new IOException(
                     "The topics service.* cannot be prepared at %s (%s). Check the address, and that the user may create and alter them."

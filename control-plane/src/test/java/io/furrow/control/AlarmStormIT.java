@@ -33,8 +33,8 @@ import io.furrow.control.alarm.action.StopRobots;
 import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.file.AccessToken;
 import io.furrow.model.ngsi.Entity;
@@ -192,7 +192,7 @@ class AlarmStormIT {
 
     private void want(String id, String type, Duration period) {
         DeviceVersion version = new DeviceVersion(id, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
-        WantedDevice device = WantedDevice.simulated(
+        DesiredDevice device = DesiredDevice.simulated(
                 version, type, id, true, period, NgsiJson.mapper().createObjectNode());
         producer.send(new ProducerRecord<>(Topics.DEVICES, version.key(), device.toBytes()));
     }

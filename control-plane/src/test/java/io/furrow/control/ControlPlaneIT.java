@@ -40,9 +40,9 @@ import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.Requests;
 import io.furrow.model.control.mission.MissionPlan;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -180,17 +180,17 @@ class ControlPlaneIT {
         assertThat(answers(Topics.REPLAY_MANAGER))
                 .hasSize(GROUPS + commands)
                 .allMatch(answer -> !answer.status().equals(CommandResult.ERROR));
-        Map<String, List<WantedReplay>> newest = newestOfGroups();
+        Map<String, List<DesiredReplay>> newest = newestOfGroups();
         assertThat(newest.keySet()).containsExactlyInAnyOrderElementsOf(groups);
         assertThat(newest.values()).allSatisfy(members -> {
-            WantedReplay one = members.get(0);
-            assertThat(one.wanted()).isEqualTo(ReplayStatus.State.RUNNING);
+            DesiredReplay one = members.get(0);
+            assertThat(one.desired()).isEqualTo(ReplayStatus.State.RUNNING);
             assertThat(one.speed()).isEqualTo(4);
             assertThat(one.seek().to()).isEqualTo(SOUGHT.toEpochMilli());
-            assertThat(members).extracting(WantedReplay::mission).containsExactlyInAnyOrder("north", "south");
+            assertThat(members).extracting(DesiredReplay::mission).containsExactlyInAnyOrder("north", "south");
             assertThat(members)
-                    .extracting(WantedReplay::wanted, WantedReplay::speed, WantedReplay::seek, WantedReplay::clock)
-                    .containsOnly(tuple(one.wanted(), one.speed(), one.seek(), one.clock()));
+                    .extracting(DesiredReplay::desired, DesiredReplay::speed, DesiredReplay::seek, DesiredReplay::clock)
+                    .containsOnly(tuple(one.desired(), one.speed(), one.seek(), one.clock()));
         });
     }
 
@@ -218,12 +218,12 @@ class ControlPlaneIT {
     }
 
     /** The newest record of each replay, by its group. */
-    private Map<String, List<WantedReplay>> newestOfGroups() throws Exception {
-        Map<String, WantedReplay> newest = new HashMap<>();
+    private Map<String, List<DesiredReplay>> newestOfGroups() throws Exception {
+        Map<String, DesiredReplay> newest = new HashMap<>();
         for (ConsumerRecord<String, byte[]> record : records(Topics.REPLAYS)) {
-            newest.put(record.key(), WantedReplay.read(record.key(), record.value()));
+            newest.put(record.key(), DesiredReplay.read(record.key(), record.value()));
         }
-        return newest.values().stream().collect(Collectors.groupingBy(WantedReplay::group));
+        return newest.values().stream().collect(Collectors.groupingBy(DesiredReplay::group));
     }
 
     @Test

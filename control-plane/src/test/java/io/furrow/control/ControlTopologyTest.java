@@ -258,8 +258,8 @@ class ControlTopologyTest {
                         "wrong-state",
                         "deleted",
                         "wrong-state");
-        List<TestRecord<String, byte[]>> wanted = farm.read(Topics.REPLAYS);
-        assertThat(ManagedFarm.text(wanted.get(wanted.size() - 1).value()))
+        List<TestRecord<String, byte[]>> desired = farm.read(Topics.REPLAYS);
+        assertThat(ManagedFarm.text(desired.get(desired.size() - 1).value()))
                 .contains("\"from\":1000,", "\"speed\":\"max\"", "\"wanted\":\"stopped\"")
                 .contains("\"seek\":{\"to\":5000,\"sequence\":5},\"step\":{\"total\":2,\"sequence\":4}")
                 .endsWith("\"sequence\":7}");

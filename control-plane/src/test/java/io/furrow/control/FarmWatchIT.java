@@ -30,8 +30,8 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.kafka.PartStatus;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.Requests;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.NgsiJson;
@@ -218,7 +218,7 @@ class FarmWatchIT {
     private void want() {
         DeviceVersion version =
                 new DeviceVersion(ROBOT, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
-        WantedDevice device = WantedDevice.simulated(
+        DesiredDevice device = DesiredDevice.simulated(
                 version,
                 null,
                 null,

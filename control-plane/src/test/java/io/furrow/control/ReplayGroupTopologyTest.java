@@ -15,10 +15,10 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.replay.DesiredReplay.Clock;
+import io.furrow.model.control.replay.DesiredReplay.Range;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
-import io.furrow.model.control.replay.WantedReplay.Clock;
-import io.furrow.model.control.replay.WantedReplay.Range;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -49,17 +49,17 @@ class ReplayGroupTopologyTest {
     }
 
     /** What is requested of both after a command, by one number. */
-    private WantedReplay wanted() throws Exception {
-        List<WantedReplay> all = new ArrayList<>();
+    private DesiredReplay desired() throws Exception {
+        List<DesiredReplay> all = new ArrayList<>();
         for (TestRecord<String, byte[]> record : farm.read(Topics.REPLAYS)) {
-            all.add(WantedReplay.read(record.key(), record.value()));
+            all.add(DesiredReplay.read(record.key(), record.value()));
         }
-        assertThat(all).hasSize(2).extracting(WantedReplay::mission).containsExactly("a", "b");
-        WantedReplay one = all.get(0);
+        assertThat(all).hasSize(2).extracting(DesiredReplay::mission).containsExactly("a", "b");
+        DesiredReplay one = all.get(0);
         assertThat(all).allSatisfy(each -> {
             assertThat(each.clock()).isEqualTo(one.clock());
             assertThat(each.sequence()).isEqualTo(one.sequence()).isGreaterThan(sequence);
-            assertThat(each.wanted()).isEqualTo(one.wanted());
+            assertThat(each.desired()).isEqualTo(one.desired());
             assertThat(each.seek()).isEqualTo(one.seek());
             assertThat(each.range()).isEqualTo(one.range());
             assertThat(each.speed()).isEqualTo(one.speed());
@@ -68,14 +68,14 @@ class ReplayGroupTopologyTest {
         return one;
     }
 
-    private WantedReplay steered(String group, String command, String status) throws Exception {
+    private DesiredReplay steered(String group, String command, String status) throws Exception {
         CommandResult answer = ask("'group':'" + group + "','command':" + command);
         assertThat(answer.json().path("status").asText())
                 .as(answer.json().toString())
                 .isEqualTo(status);
         assertThat(answer.json().path("group").asText()).isEqualTo(group);
         assertThat(answer.json().path("replays")).hasSize(2);
-        return wanted();
+        return desired();
     }
 
     @Test
@@ -83,7 +83,7 @@ class ReplayGroupTopologyTest {
         String group = start("");
 
         assertThat(group).matches("[0-9a-f]{8}");
-        WantedReplay one = wanted();
+        DesiredReplay one = desired();
         assertThat(one.replay()).isEqualTo("a." + group);
         assertThat(one.topic()).isEqualTo("data.a.replay." + group);
         assertThat(one.group()).isEqualTo(group);
@@ -104,7 +104,7 @@ class ReplayGroupTopologyTest {
         assertThat(answer.json().path("replays").toString()).isEqualTo("[\"b.%s\",\"a.%s\"]".formatted(group, group));
         assertThat(answer.json().path("topics").toString())
                 .isEqualTo("[\"data.b.replay.%s\",\"data.a.replay.%s\"]".formatted(group, group));
-        WantedReplay last = WantedReplay.read(farm.read(Topics.REPLAYS).get(3).value());
+        DesiredReplay last = DesiredReplay.read(farm.read(Topics.REPLAYS).get(3).value());
         assertThat(last.plan().from()).isEqualTo(30_000);
         assertThat(last.clock()).isEqualTo(new Clock(NOW + 60_000, 40_000));
     }
@@ -112,11 +112,11 @@ class ReplayGroupTopologyTest {
     @Test
     void pausesAndGoesOnWhereItStood() throws Exception {
         String group = start(",'speed':10");
-        wanted();
+        desired();
         farm.pass(Duration.ofSeconds(5)); // of which the clock ran 3 s
         assertThat(steered(group, "'pause'", "paused").clock()).isEqualTo(new Clock(NOW + 5000, 40_000));
         farm.pass(Duration.ofSeconds(60));
-        WantedReplay resumed = steered(group, "'resume'", "running");
+        DesiredReplay resumed = steered(group, "'resume'", "running");
         assertThat(resumed.clock()).isEqualTo(new Clock(NOW + 66_000, 40_000));
         assertThat(ask("'command':'resume','group':'" + group + "'").error()).contains("wrong-state");
     }
@@ -124,13 +124,13 @@ class ReplayGroupTopologyTest {
     @Test
     void jumpsTogether() throws Exception {
         String group = start("");
-        wanted();
+        desired();
         farm.pass(Duration.ofSeconds(5));
-        WantedReplay seeking = steered(group, "'seek','to':50000", "running");
-        assertThat(seeking.seek()).isEqualTo(new WantedReplay.Seek(50_000, seeking.sequence()));
+        DesiredReplay seeking = steered(group, "'seek','to':50000", "running");
+        assertThat(seeking.seek()).isEqualTo(new DesiredReplay.Seek(50_000, seeking.sequence()));
         assertThat(seeking.clock()).isEqualTo(new Clock(NOW + 6000, 50_000));
         steered(group, "'pause'", "paused");
-        WantedReplay held = steered(group, "'seek','to':60000", "paused");
+        DesiredReplay held = steered(group, "'seek','to':60000", "paused");
         assertThat(held.position(NOW + 1_000_000)).isEqualTo(60_000);
         for (String outside : List.of("9999", "90001")) {
             assertThat(ask("'command':'seek','group':'" + group + "','to':" + outside)
@@ -142,12 +142,12 @@ class ReplayGroupTopologyTest {
     @Test
     void changesItsSpeedWithoutAJump() throws Exception {
         String group = start("");
-        wanted();
+        desired();
         assertThat(steered(group, "'speed','speed':5", "running").clock())
                 .as("before it begins")
                 .isEqualTo(new Clock(NOW + 2000, 10_000));
         farm.pass(Duration.ofSeconds(5));
-        WantedReplay faster = steered(group, "'speed','speed':0.5", "running");
+        DesiredReplay faster = steered(group, "'speed','speed':0.5", "running");
         assertThat(faster.clock()).isEqualTo(new Clock(NOW + 5000, 25_000));
         assertThat(faster.position(NOW + 7000)).isEqualTo(26_000);
         assertThat(ask("'command':'speed','speed':'max','group':'" + group + "'")
@@ -158,21 +158,21 @@ class ReplayGroupTopologyTest {
     @Test
     void playsARangeOverAndOver() throws Exception {
         String group = start("");
-        wanted();
+        desired();
         farm.pass(Duration.ofSeconds(7));
-        WantedReplay inside = steered(group, "'loop','from':12000,'to':20000", "running");
+        DesiredReplay inside = steered(group, "'loop','from':12000,'to':20000", "running");
         assertThat(inside.range()).isEqualTo(new Range(12_000, 20_000));
         assertThat(inside.clock()).isEqualTo(new Clock(NOW + 7000, 15_000));
         assertThat(inside.seek()).isNull();
 
         farm.pass(Duration.ofSeconds(8)); // 23 s, begun again 3 s ago
-        WantedReplay all = steered(group, "'loop'", "running");
+        DesiredReplay all = steered(group, "'loop'", "running");
         assertThat(all.clock()).isEqualTo(new Clock(NOW + 15_000, 15_000));
         assertThat(all.range()).isNull();
 
-        WantedReplay outside = steered(group, "'loop','from':30000,'to':40000", "running");
+        DesiredReplay outside = steered(group, "'loop','from':30000,'to':40000", "running");
         assertThat(outside.clock()).isEqualTo(new Clock(NOW + 16_000, 30_000));
-        assertThat(outside.seek()).isEqualTo(new WantedReplay.Seek(30_000, outside.sequence()));
+        assertThat(outside.seek()).isEqualTo(new DesiredReplay.Seek(30_000, outside.sequence()));
         assertThat(ask("'command':'loop','from':91000,'to':95000,'group':'" + group + "'")
                         .error())
                 .contains("wrong-member");
@@ -181,9 +181,9 @@ class ReplayGroupTopologyTest {
     @Test
     void stopsAllAndForgetsEachWhenItIsOver() throws Exception {
         String group = start("");
-        wanted();
-        WantedReplay stopped = steered(group, "'stop'", "deleted");
-        assertThat(stopped.wanted()).isEqualTo(ReplayStatus.State.STOPPED);
+        desired();
+        DesiredReplay stopped = steered(group, "'stop'", "deleted");
+        assertThat(stopped.desired()).isEqualTo(ReplayStatus.State.STOPPED);
         for (String mission : List.of("a", "b")) {
             farm.pipe(
                     Topics.REPLAYS_STATUS,
@@ -208,11 +208,11 @@ class ReplayGroupTopologyTest {
     @Test
     void restsAtItsEndAsOne() throws Exception {
         String group = start("");
-        WantedReplay started = wanted();
+        DesiredReplay started = desired();
         farm.pass(Duration.ofMinutes(2));
         ended("a", group, started.sequence());
-        assertThat(steered(group, "'pause'", "paused").wanted()).as("b plays").isEqualTo(ReplayStatus.State.PAUSED);
-        WantedReplay resumed = steered(group, "'resume'", "running");
+        assertThat(steered(group, "'pause'", "paused").desired()).as("b plays").isEqualTo(ReplayStatus.State.PAUSED);
+        DesiredReplay resumed = steered(group, "'resume'", "running");
         ended("a", group, resumed.sequence());
         farm.pass(Duration.ofMinutes(30));
         ended("b", group, resumed.sequence());
@@ -220,7 +220,7 @@ class ReplayGroupTopologyTest {
         farm.pass(Duration.ofMinutes(59));
         assertThat(farm.read(Topics.REPLAYS)).as("together").isEmpty();
 
-        WantedReplay again = steered(group, "'seek','to':50000", "running");
+        DesiredReplay again = steered(group, "'seek','to':50000", "running");
         ended("a", group, again.sequence());
         ended("b", group, again.sequence());
         farm.pass(Duration.ofMinutes(61));
@@ -233,7 +233,7 @@ class ReplayGroupTopologyTest {
     @Test
     void refusesToSteerOneAloneAndSingleSteps() throws Exception {
         String group = start("");
-        wanted();
+        desired();
         for (String command : List.of("pause", "stop", "step")) {
             CommandResult alone = ask("'command':'" + command + "','replay':'a." + group + "'");
             assertThat(alone.error()).contains("wrong-state");

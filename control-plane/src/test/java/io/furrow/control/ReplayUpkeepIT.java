@@ -49,9 +49,9 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.Requests;
 import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -152,9 +152,9 @@ class ReplayUpkeepIT {
         kafka.createTopics(Stream.concat(gone.stream(), stay.stream())
                 .map(name -> new NewTopic(name, 1, (short) 1))
                 .toList());
-        send(Topics.REPLAYS, "a.0000000a", wanted("a", own));
+        send(Topics.REPLAYS, "a.0000000a", desired("a", own));
         send(Topics.REPLAYS_STATUS, "a.0000000a", over());
-        send(Topics.REPLAYS, "b.0000000b", wanted("b", "data.b.replay.0000000b"));
+        send(Topics.REPLAYS, "b.0000000b", desired("b", "data.b.replay.0000000b"));
         send(Topics.REPLAYS_STATUS, "b.0000000b", over()); // of before it was started again
         send(Topics.REPLAYS, "a.0000000a", null);
 
@@ -203,7 +203,7 @@ class ReplayUpkeepIT {
         send(
                 Topics.REPLAYS,
                 "played.0000000a",
-                WantedReplay.started("played", "data.played.replay.0000000a", plan, 1, 0, 1)
+                DesiredReplay.started("played", "data.played.replay.0000000a", plan, 1, 0, 1)
                         .toBytes());
 
         AtomicReference<Instant> clock =
@@ -273,8 +273,8 @@ class ReplayUpkeepIT {
         return admin.listTopics().names().get();
     }
 
-    private static byte[] wanted(String mission, String topic) {
-        return WantedReplay.started(mission, topic, ReplayPlan.PLAIN, 1, 0, 1).toBytes();
+    private static byte[] desired(String mission, String topic) {
+        return DesiredReplay.started(mission, topic, ReplayPlan.PLAIN, 1, 0, 1).toBytes();
     }
 
     private static byte[] over() {

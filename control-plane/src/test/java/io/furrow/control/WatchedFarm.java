@@ -19,8 +19,8 @@ import org.apache.kafka.streams.StreamsConfig;
 import org.apache.kafka.streams.TopologyTestDriver;
 import org.apache.kafka.streams.test.TestRecord;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -126,7 +126,7 @@ final class WatchedFarm implements AutoCloseable {
         Long until = running ? null : Long.valueOf(now.toEpochMilli());
         DeviceVersion version =
                 new DeviceVersion(id, "farm", "/", "north", mission, START.toEpochMilli(), until, 1, null);
-        WantedDevice device = WantedDevice.simulated(
+        DesiredDevice device = DesiredDevice.simulated(
                 version,
                 type,
                 type == null ? null : id,

@@ -136,10 +136,10 @@ final class PlatformServlet extends HttpServlet {
 
     private Map<TopicPartition, Long> offsets(Set<TopicPartition> partitions, OffsetSpec of)
             throws InterruptedException, ExecutionException, TimeoutException {
-        Map<TopicPartition, OffsetSpec> wanted = new HashMap<>();
-        partitions.forEach(each -> wanted.put(each, of));
+        Map<TopicPartition, OffsetSpec> desired = new HashMap<>();
+        partitions.forEach(each -> desired.put(each, of));
         Map<TopicPartition, Long> offsets = new HashMap<>();
-        admin.listOffsets(wanted)
+        admin.listOffsets(desired)
                 .all()
                 .get(TIMEOUT.toSeconds(), TimeUnit.SECONDS)
                 .forEach((partition, found) -> offsets.put(partition, found.offset()));
@@ -164,11 +164,11 @@ final class PlatformServlet extends HttpServlet {
             groups.add(group.groupId());
         }
         groups.sort(null);
-        Map<String, ListConsumerGroupOffsetsSpec> wanted = new HashMap<>();
-        groups.forEach(group -> wanted.put(group, new ListConsumerGroupOffsetsSpec()));
-        Map<String, Map<TopicPartition, OffsetAndMetadata>> committed = wanted.isEmpty()
+        Map<String, ListConsumerGroupOffsetsSpec> desired = new HashMap<>();
+        groups.forEach(group -> desired.put(group, new ListConsumerGroupOffsetsSpec()));
+        Map<String, Map<TopicPartition, OffsetAndMetadata>> committed = desired.isEmpty()
                 ? Map.of()
-                : admin.listConsumerGroupOffsets(wanted).all().get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
+                : admin.listConsumerGroupOffsets(desired).all().get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
         for (String group : groups) {
             Map<String, Long> lags = new TreeMap<>();
             committed.getOrDefault(group, Map.of()).forEach((partition, offset) -> {

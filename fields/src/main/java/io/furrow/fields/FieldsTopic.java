@@ -151,10 +151,10 @@ public final class FieldsTopic {
     }
 
     private void ensure() throws IOException {
-        NewTopic wanted = new NewTopic(Topics.FIELDS, Optional.of(1), Optional.empty())
+        NewTopic desired = new NewTopic(Topics.FIELDS, Optional.of(1), Optional.empty())
                 .configs(Map.of("cleanup.policy", "compact"));
         try (Admin admin = Admin.create(settings())) {
-            admin.createTopics(List.of(wanted)).all().get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
+            admin.createTopics(List.of(desired)).all().get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
         } catch (ExecutionException e) {
             if (!(e.getCause() instanceof TopicExistsException)) {
                 throw away("written to", e);

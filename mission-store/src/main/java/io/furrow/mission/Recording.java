@@ -36,12 +36,12 @@ public interface Recording extends AutoCloseable {
      * @param from events up to this cursor are counted
      * @param first where the recording is taken to begin: {@link Cursor#START} or later, the answer where no more events are requested
      * @param count from 1 to {@value CursorsBack#MAX}
-     * @param wanted asked for the events in any order, for some twice
+     * @param desired asked for the events in any order, for some twice
      * @throws IllegalArgumentException for any other count
      * @throws RecordingInterruptedException if the thread is interrupted meanwhile
      * @throws RecordingException if the recording cannot be read now
      */
-    default Cursor back(Cursor from, Cursor first, long count, Predicate<StoredEvent> wanted, PageLimits limits)
+    default Cursor back(Cursor from, Cursor first, long count, Predicate<StoredEvent> desired, PageLimits limits)
             throws RecordingException {
         CursorsBack.check(count);
         CursorsBack back = new CursorsBack(first, count);
@@ -52,7 +52,7 @@ public interface Recording extends AutoCloseable {
             page = read(next, limits);
             for (StoredEvent event : page.events()) {
                 if (Cursor.after(event).compareTo(from) <= 0) {
-                    back.add(Cursor.after(event), wanted.test(event));
+                    back.add(Cursor.after(event), desired.test(event));
                 }
             }
             next = page.next();

@@ -86,16 +86,16 @@ public abstract class RecordingContract {
                     Cursor from = cursor(random, ordered);
                     Cursor first = random.nextInt(3) == 0 ? cursor(random, ordered) : Cursor.START;
                     int count = 1 + random.nextInt(random.nextBoolean() ? 5 : 60);
-                    Predicate<StoredEvent> wanted = random.nextBoolean()
+                    Predicate<StoredEvent> desired = random.nextBoolean()
                             ? event -> true
                             : event -> event.id().hashCode() % 3 == 0;
                     PageLimits limits = new PageLimits(1 + random.nextInt(40), 1 + random.nextInt(8_000));
 
-                    Cursor back = recording.back(from, first, count, wanted, limits);
+                    Cursor back = recording.back(from, first, count, desired, limits);
 
                     assertThat(back)
                             .as("seed %d, round %d: %d from %s, not before %s", seed, round, count, from, first)
-                            .isEqualTo(back(ordered, from, first, count, wanted));
+                            .isEqualTo(back(ordered, from, first, count, desired));
                 }
             }
         }
@@ -110,12 +110,12 @@ public abstract class RecordingContract {
     }
 
     private static Cursor back(
-            List<StoredEvent> ordered, Cursor from, Cursor first, int count, Predicate<StoredEvent> wanted) {
+            List<StoredEvent> ordered, Cursor from, Cursor first, int count, Predicate<StoredEvent> desired) {
         List<StoredEvent> between = ordered.stream()
                 .filter(event -> Cursor.after(event).compareTo(from) <= 0
                         && Cursor.after(event).compareTo(first) > 0)
                 .toList();
-        List<StoredEvent> chosen = between.stream().filter(wanted).toList();
+        List<StoredEvent> chosen = between.stream().filter(desired).toList();
         return chosen.size() <= count ? first : Cursor.after(chosen.get(chosen.size() - count - 1));
     }
 

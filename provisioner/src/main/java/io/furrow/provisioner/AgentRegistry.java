@@ -241,10 +241,10 @@ final class AgentRegistry {
 
     /** Groups of missions that have no devices, and of a resource that was set before. */
     private List<Group> unneeded(Set<String> apiKeys) {
-        return unwantedGroups(apiKeys).filter(this::mayBeRemoved).toList();
+        return undesiredGroups(apiKeys).filter(this::mayBeRemoved).toList();
     }
 
-    private Stream<Group> unwantedGroups(Set<String> apiKeys) {
+    private Stream<Group> undesiredGroups(Set<String> apiKeys) {
         return ownGroups.values().stream()
                 .filter(group -> !apiKeys.contains(group.apiKey()) || !agent.isOfItsResource(group));
     }
@@ -264,7 +264,7 @@ final class AgentRegistry {
         return new Kept(
                 List.of(),
                 keptDevices().map(Registration::device).toList(),
-                unwantedGroups(apiKeys)
+                undesiredGroups(apiKeys)
                         .filter(group -> !mayBeRemoved(group))
                         .map(Group::mission)
                         .toList());

@@ -17,11 +17,11 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.ForeignTopic;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.topic.Topics;
 import io.furrow.provisioner.account.LoginReport;
 
@@ -35,7 +35,7 @@ final class ConnectionPublisher {
     private static final Logger LOG = LoggerFactory.getLogger(ConnectionPublisher.class);
 
     private final ProvisioningSettings settings;
-    private final WantedDevices wanted;
+    private final DesiredDevices desired;
     private final Producer<String, byte[]> producer;
     private final LongSupplier clock;
     private final Long since;
@@ -45,11 +45,11 @@ final class ConnectionPublisher {
     /** @param clock epoch ms */
     ConnectionPublisher(
             ProvisioningSettings settings,
-            WantedDevices wanted,
+            DesiredDevices desired,
             Producer<String, byte[]> producer,
             LongSupplier clock) {
         this.settings = settings;
-        this.wanted = wanted;
+        this.desired = desired;
         this.producer = producer;
         this.clock = clock;
         this.last = clock.getAsLong();
@@ -80,14 +80,14 @@ final class ConnectionPublisher {
                     FarmSecret.missionOf(user)
                             .ifPresent(mission -> byMission.merge(mission, report, ConnectionPublisher::both));
                 }));
-        wanted.all().forEach((key, device) -> {
+        desired.all().forEach((key, device) -> {
             LoginReport gateway = byMission.get(device.version().mission());
             LoginReport own = byDevice.get(device.device());
             LoginReport login = withFormer(published.get(key), own == null ? onlyLogin(gateway) : own);
             put(key, connection(device, login, published.get(key), isIn(registered, key)));
         });
         new HashSet<>(published.keySet())
-                .stream().filter(key -> !wanted.all().containsKey(key)).forEach(key -> put(key, null));
+                .stream().filter(key -> !desired.all().containsKey(key)).forEach(key -> put(key, null));
     }
 
     /** What else its gateway does another device may have caused. */
@@ -108,7 +108,7 @@ final class ConnectionPublisher {
     }
 
     private DeviceConnection connection(
-            WantedDevice device, LoginReport login, DeviceConnection former, Boolean isRegistered) {
+            DesiredDevice device, LoginReport login, DeviceConnection former, Boolean isRegistered) {
         String apiKey = settings.secret().get().apiKey(device.version().mission());
         return new DeviceConnection(
                 since,

@@ -8,8 +8,8 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -20,15 +20,15 @@ final class Failures {
     static final int ATTEMPTS = 3;
     private static final Logger LOG = LoggerFactory.getLogger(Failures.class);
 
-    private final WantedDevices wanted;
+    private final DesiredDevices desired;
     private final Producer<String, byte[]> producer;
     private final Map<String, Count> refusals = new HashMap<>();
     private final Map<String, Count> absences = new HashMap<>();
 
     private record Count(long sequence, int attempts) {}
 
-    Failures(WantedDevices wanted, Producer<String, byte[]> producer) {
-        this.wanted = wanted;
+    Failures(DesiredDevices desired, Producer<String, byte[]> producer) {
+        this.desired = desired;
         this.producer = producer;
     }
 
@@ -45,7 +45,7 @@ final class Failures {
 
     /** Of those that were wanted before nothing is said: they may well run. */
     void away(String reason) {
-        wanted.all().keySet().stream().filter(wanted::isFresh).toList().forEach(key -> count(absences, key, reason));
+        desired.all().keySet().stream().filter(desired::isFresh).toList().forEach(key -> count(absences, key, reason));
     }
 
     /** A step was done: the agent is not away, though it may be slow. */
@@ -54,7 +54,7 @@ final class Failures {
     }
 
     private void count(Map<String, Count> counts, String key, String reason) {
-        WantedDevice device = wanted.all().get(key);
+        DesiredDevice device = desired.all().get(key);
         long sequence = device.version().sequence();
         Count before = counts.get(key);
         int attempts = before == null || before.sequence() != sequence ? 1 : before.attempts() + 1;

@@ -16,8 +16,8 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.provisioner.Removals.Kept;
 import io.furrow.provisioner.account.DeviceAccounts;
@@ -38,7 +38,7 @@ final class Provisioning {
     private final Registrations registrations;
     private final SecretSource secret;
     private final DeviceAccounts accounts;
-    private final WantedDevices wanted;
+    private final DesiredDevices desired;
     private final LongSupplier nanos;
     private final boolean forgets;
     private final BatchSize batchSize = new BatchSize();
@@ -56,13 +56,13 @@ final class Provisioning {
     /** Since when all that the agent says that it has is wanted, by {@link #nanos}; null while it is not so. */
     private Long agreed;
 
-    Provisioning(ProvisioningSettings settings, WantedDevices wanted, LongSupplier nanos) {
+    Provisioning(ProvisioningSettings settings, DesiredDevices desired, LongSupplier nanos) {
         this.agent = new AgentClient(settings.agent());
         this.registrations = new Registrations(settings.secret());
         this.secret = settings.secret();
         this.accounts = new DeviceAccounts(settings);
         this.forgets = settings.forgets();
-        this.wanted = wanted;
+        this.desired = desired;
         this.nanos = nanos;
         this.asked = nanos.getAsLong();
     }
@@ -105,7 +105,7 @@ final class Provisioning {
             settled = false;
             agreed = null;
         }
-        removals.wanted(wanted.all().values());
+        removals.desired(desired.all().values());
     }
 
     /** Whether the farm's secret is another than at the last step: it was rotated, or the time of an older key is over. */
@@ -130,24 +130,24 @@ final class Provisioning {
         }
         used = now;
         start();
-        accounts.revoke(wanted.all().values(), removals.allowsAll());
+        accounts.revoke(desired.all().values(), removals.allowsAll());
         Map<String, String> refused = new TreeMap<>();
         Map<String, Registration> there = new LinkedHashMap<>();
         StepBudget budget = new StepBudget(STEP, nanos);
         boolean added = true;
-        for (FiwareScope scope : wanted.scopes()) {
+        for (FiwareScope scope : desired.scopes()) {
             added &= add(scope, budget, there, refused);
         }
-        Map<String, WantedDevice> known = new LinkedHashMap<>();
-        there.keySet().forEach(key -> known.put(key, wanted.all().get(key)));
+        Map<String, DesiredDevice> known = new LinkedHashMap<>();
+        there.keySet().forEach(key -> known.put(key, desired.all().get(key)));
         refused.putAll(accounts.grant(known, added));
-        wanted.provisioned(there.keySet());
+        desired.provisioned(there.keySet());
         registered = Set.copyOf(there.keySet());
         boolean removed = true;
         String stuck = null;
         List<String> keptDevices = new ArrayList<>();
         List<String> keptGroups = new ArrayList<>();
-        for (FiwareScope scope : wanted.scopes()) {
+        for (FiwareScope scope : desired.scopes()) {
             if (Registrations.hasTenant(scope)) {
                 String failure = remove(scope, budget);
                 stuck = failure == null ? stuck : failure;
@@ -191,7 +191,7 @@ final class Provisioning {
             FiwareScope scope, StepBudget budget, Map<String, Registration> there, Map<String, String> refused)
             throws IOException, InterruptedException {
         Map<Registration, String> missing = new LinkedHashMap<>();
-        for (Map.Entry<String, WantedDevice> each : in(scope).entrySet()) {
+        for (Map.Entry<String, DesiredDevice> each : in(scope).entrySet()) {
             try {
                 Registration registration = registrations.of(each.getValue());
                 if (registry(scope).has(registration)) {
@@ -245,7 +245,7 @@ final class Provisioning {
     }
 
     private Set<String> desiredDevices(FiwareScope scope) {
-        return in(scope).values().stream().map(WantedDevice::device).collect(Collectors.toSet());
+        return in(scope).values().stream().map(DesiredDevice::device).collect(Collectors.toSet());
     }
 
     private Set<String> desiredKeys(FiwareScope scope) {
@@ -267,10 +267,10 @@ final class Provisioning {
         return registry;
     }
 
-    private Map<String, WantedDevice> in(FiwareScope scope) {
-        Map<String, WantedDevice> devices = new LinkedHashMap<>();
-        wanted.all().forEach((key, device) -> {
-            if (WantedDevices.scope(device).equals(scope)) {
+    private Map<String, DesiredDevice> in(FiwareScope scope) {
+        Map<String, DesiredDevice> devices = new LinkedHashMap<>();
+        desired.all().forEach((key, device) -> {
+            if (DesiredDevices.scope(device).equals(scope)) {
                 devices.put(key, device);
             }
         });

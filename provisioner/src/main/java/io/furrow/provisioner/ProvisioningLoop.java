@@ -33,8 +33,8 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
 import io.furrow.model.control.Fault;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
@@ -59,7 +59,7 @@ final class ProvisioningLoop implements AutoCloseable {
 
     private final KafkaConsumer<String, byte[]> consumer;
     private final KafkaProducer<String, byte[]> producer;
-    private final WantedDevices wanted;
+    private final DesiredDevices desired;
     private final Properties client;
     /** Its address. */
     private final String agent;
@@ -78,16 +78,16 @@ final class ProvisioningLoop implements AutoCloseable {
     private boolean noted;
 
     ProvisioningLoop(ProvisioningSettings settings) {
-        this.wanted = new WantedDevices(settings.scope());
-        this.provisioning = new Provisioning(settings, wanted, System::nanoTime);
+        this.desired = new DesiredDevices(settings.scope());
+        this.provisioning = new Provisioning(settings, desired, System::nanoTime);
         this.pace = new RetrySchedule(System::nanoTime, settings.agent().interval());
         this.client = settings.client();
         this.agent = settings.agent().base().toString();
         this.consumer =
                 new KafkaConsumer<>(consumerSettings(client), new StringDeserializer(), new ByteArrayDeserializer());
         this.producer = new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer());
-        this.failures = new Failures(wanted, producer);
-        this.connections = new ConnectionPublisher(settings, wanted, producer, System::currentTimeMillis);
+        this.failures = new Failures(desired, producer);
+        this.connections = new ConnectionPublisher(settings, desired, producer, System::currentTimeMillis);
         consumer.subscribe(List.of(Topics.DEVICES), new Assignment());
     }
 
@@ -135,7 +135,7 @@ final class ProvisioningLoop implements AutoCloseable {
     private void take(ConsumerRecords<String, byte[]> records) {
         for (ConsumerRecord<String, byte[]> record : records) {
             try {
-                wanted.take(record.key(), record.value() == null ? null : WantedDevice.read(record.value()));
+                desired.take(record.key(), record.value() == null ? null : DesiredDevice.read(record.value()));
             } catch (UnreadableException e) {
                 LOG.warn("{}@{} is no wanted device and is passed over", record.topic(), record.offset(), e);
             }
@@ -148,7 +148,7 @@ final class ProvisioningLoop implements AutoCloseable {
     /** Processes what has arrived, without waiting. Returns whether anything has. */
     private boolean readLists() {
         ConsumerRecords<String, byte[]> records = lists.poll(Duration.ZERO);
-        records.forEach(record -> wanted.takeList(record.key(), record.value()));
+        records.forEach(record -> desired.takeList(record.key(), record.value()));
         return !records.isEmpty();
     }
 
@@ -179,7 +179,7 @@ final class ProvisioningLoop implements AutoCloseable {
     private boolean isCaughtUp() {
         if (unread.entrySet().removeIf(each -> consumer.position(each.getKey()) >= each.getValue())
                 && unread.isEmpty()) {
-            wanted.caughtUp();
+            desired.caughtUp();
             pace.hurry();
         }
         return unread.isEmpty() && lists.isCaughtUp();
@@ -263,7 +263,7 @@ final class ProvisioningLoop implements AutoCloseable {
                 return;
             }
             active = true;
-            wanted.clear();
+            desired.clear();
             failures.clear();
             connections.startAnew(publishedConnections());
             provisioning.startAnew(origin(partitions));

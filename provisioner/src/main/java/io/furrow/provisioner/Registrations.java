@@ -7,10 +7,10 @@ import java.util.function.Supplier;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.MeasuredAttribute;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -28,8 +28,8 @@ final class Registrations {
     }
 
     /** Whether a device is provisioned at all: simulated robots write to the context broker by themselves. */
-    static boolean isProvisioned(WantedDevice wanted) {
-        return wanted.type() != null && wanted.running() && !(wanted.simulated() && ROBOT.equals(wanted.type()));
+    static boolean isProvisioned(DesiredDevice desired) {
+        return desired.type() != null && desired.running() && !(desired.simulated() && ROBOT.equals(desired.type()));
     }
 
     /** Whether what the agent has was made here, maybe before a rotation: nobody else comes to the mission's API key. */
@@ -46,24 +46,24 @@ final class Registrations {
     }
 
     /** @throws RefusedByAgentException if the tenant is missing */
-    Registration of(WantedDevice wanted) throws RefusedByAgentException {
-        DeviceVersion version = wanted.version();
-        if (!hasTenant(WantedDevices.scope(wanted))) {
+    Registration of(DesiredDevice desired) throws RefusedByAgentException {
+        DeviceVersion version = desired.version();
+        if (!hasTenant(DesiredDevices.scope(desired))) {
             throw new RefusedByAgentException(
                     "it belongs to the default tenant, but the IoT Agent needs a tenant; name one with --fiware-service and start its mission again");
         }
         return new Registration(
-                wanted.device(),
+                desired.device(),
                 secret.get().apiKey(version.mission()),
                 version.id(),
-                wanted.type(),
-                new LinkedHashSet<>(MeasuredAttribute.of(wanted)),
-                new Registration.Fixed(version.domain(), version.mission(), place(wanted)),
+                desired.type(),
+                new LinkedHashSet<>(MeasuredAttribute.of(desired)),
+                new Registration.Fixed(version.domain(), version.mission(), place(desired)),
                 COMMANDS);
     }
 
-    private static Registration.Place place(WantedDevice wanted) {
-        JsonNode at = wanted.place();
+    private static Registration.Place place(DesiredDevice desired) {
+        JsonNode at = desired.place();
         return at == null
                 ? null
                 : new Registration.Place(

@@ -6,7 +6,7 @@ import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
 
-import io.furrow.model.device.WantedDevice;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.provisioner.AgentClient.Group;
 
 /**
@@ -82,8 +82,8 @@ final class Removals {
         return all;
     }
 
-    void wanted(Collection<WantedDevice> devices) {
-        for (WantedDevice device : devices) {
+    void desired(Collection<DesiredDevice> devices) {
+        for (DesiredDevice device : devices) {
             own.add(List.of(device.version().mission()));
             own.add(List.of(device.version().mission(), device.device()));
         }

@@ -18,7 +18,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
-import io.furrow.model.device.WantedDevice;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.file.AccessToken;
 import io.furrow.provisioner.Provisioning.Outcome;
 
@@ -28,17 +28,17 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 /** The resource of service groups. */
 class AgentResourceTest {
     private static final Outcome DONE = new Outcome(Map.of(), null, null, true);
-    private static final String API_KEY = Wanted.SECRET.apiKey("hoeing");
+    private static final String API_KEY = Desired.SECRET.apiKey("hoeing");
 
-    private final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);
-    private final WantedDevice device = Wanted.thermometer("hoeing", 1);
+    private final DesiredDevices desired = new DesiredDevices(Desired.SCOPE);
+    private final DesiredDevice device = Desired.thermometer("hoeing", 1);
 
     private FakeAgent agent;
 
     @BeforeEach
     void start() throws IOException {
         agent = FakeAgent.start();
-        wanted.take(device.version().key(), device);
+        desired.take(device.version().key(), device);
     }
 
     @AfterEach
@@ -55,7 +55,7 @@ class AgentResourceTest {
         JsonNode group = agent.groups.get(FakeAgent.key(resource, API_KEY));
         assertThat(group.path("resource").asText("none")).isEqualTo(resource);
 
-        wanted.take(device.version().key(), null);
+        desired.take(device.version().key(), null);
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.groups).isEmpty();
     }
@@ -115,8 +115,8 @@ class AgentResourceTest {
 
     private Provisioning provisioning(AgentSettings settings) {
         return new Provisioning(
-                new ProvisioningSettings(new Properties(), Wanted.SCOPE, Wanted.SECRET, settings, List.of()),
-                wanted,
+                new ProvisioningSettings(new Properties(), Desired.SCOPE, Desired.SECRET, settings, List.of()),
+                desired,
                 System::nanoTime);
     }
 }

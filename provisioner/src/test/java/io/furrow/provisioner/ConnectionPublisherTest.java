@@ -16,11 +16,11 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.ForeignTopic;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceConnection.UnreadablePayload;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.topic.Topics;
 import io.furrow.provisioner.account.LoginReport;
 
@@ -34,21 +34,21 @@ class ConnectionPublisherTest {
     private final MockProducer<String, byte[]> producer =
             new MockProducer<>(true, null, new StringSerializer(), new ByteArraySerializer());
     private final AtomicLong now = new AtomicLong(START);
-    private final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);
-    private final WantedDevice device = Wanted.thermometer("hoeing", 1);
+    private final DesiredDevices desired = new DesiredDevices(Desired.SCOPE);
+    private final DesiredDevice device = Desired.thermometer("hoeing", 1);
     private final String key = device.version().key();
-    private final String user = Wanted.SECRET.device("hoeing", device.device()).user();
+    private final String user = Desired.SECRET.device("hoeing", device.device()).user();
     private final Map<String, LoginReport> logins = new HashMap<>();
     private UnreadablePayload unreadable;
     private final ConnectionPublisher publisher = publisher(new ConnectionSources(
             List.of(() -> logins),
-            (apiKey, id) -> apiKey.equals(Wanted.SECRET.apiKey("hoeing")) && id.equals(device.device())
+            (apiKey, id) -> apiKey.equals(Desired.SECRET.apiKey("hoeing")) && id.equals(device.device())
                     ? Optional.ofNullable(unreadable)
                     : Optional.empty()));
 
     @BeforeEach
     void want() {
-        wanted.take(key, device);
+        desired.take(key, device);
     }
 
     @Test
@@ -69,7 +69,7 @@ class ConnectionPublisherTest {
     /** After a rotation, or on another mission, it tries with what it has. */
     @Test
     void countsLoginsWithOldCredentialsForTheDevice() throws Exception {
-        String old = Wanted.SECRET.device("weeding", device.device(), 3).user();
+        String old = Desired.SECRET.device("weeding", device.device(), 3).user();
         RefusedLogin refused = new RefusedLogin(7, START + 2, DeviceConnection.UNKNOWN_USER, old);
         logins.put(old, new LoginReport(null, refused, null));
         logins.put(user, new LoginReport(START + 1, null, null));
@@ -84,7 +84,7 @@ class ConnectionPublisherTest {
     @Test
     void takesTheLoginOfTheGatewayThatSpeaksForADevice() throws Exception {
         ForeignTopic foreign = new ForeignTopic(1, START, "/k/e/attrs");
-        logins.put(Wanted.SECRET.gateway("hoeing").user(), new LoginReport(START + 1, null, foreign));
+        logins.put(Desired.SECRET.gateway("hoeing").user(), new LoginReport(START + 1, null, foreign));
 
         publish(Set.of(key));
 
@@ -102,7 +102,7 @@ class ConnectionPublisherTest {
         publish(null);
         assertThat(producer.history()).hasSize(2);
 
-        wanted.take(key, Wanted.stopped(device));
+        desired.take(key, Desired.stopped(device));
         publish(null);
         publish(null);
         assertThat(producer.history()).hasSize(3);
@@ -139,8 +139,15 @@ class ConnectionPublisherTest {
 
     private ConnectionPublisher publisher(ConnectionSources sources) {
         ProvisioningSettings settings = new ProvisioningSettings(
-                new Properties(), Wanted.SCOPE, SecretSource.of(Wanted.SECRET), null, List.of(), true, sources, false);
-        return new ConnectionPublisher(settings, wanted, producer, now::get);
+                new Properties(),
+                Desired.SCOPE,
+                SecretSource.of(Desired.SECRET),
+                null,
+                List.of(),
+                true,
+                sources,
+                false);
+        return new ConnectionPublisher(settings, desired, producer, now::get);
     }
 
     private void publish(Set<String> registered) {

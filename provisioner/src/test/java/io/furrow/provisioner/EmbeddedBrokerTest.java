@@ -32,9 +32,9 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class EmbeddedBrokerTest {
     private static final LiveAccounts ACCOUNTS = new LiveAccounts();
-    private static final String KEY = "/" + Wanted.SECRET.apiKey("hoeing");
+    private static final String KEY = "/" + Desired.SECRET.apiKey("hoeing");
     private static final long TIMEOUT_MS = 20_000;
-    private static final FarmSecret.Login DEVICE = Wanted.SECRET.device("hoeing", "d");
+    private static final FarmSecret.Login DEVICE = Desired.SECRET.device("hoeing", "d");
 
     private static EmbeddedMqtt mqtt;
 
@@ -74,7 +74,9 @@ class EmbeddedBrokerTest {
     @BeforeEach
     void listen() throws MqttException {
         ACCOUNTS.replace(
-                List.of(MqttAccount.device(Wanted.SECRET, "hoeing", "d"), MqttAccount.gateway(Wanted.SECRET, "hoeing")),
+                List.of(
+                        MqttAccount.device(Desired.SECRET, "hoeing", "d"),
+                        MqttAccount.gateway(Desired.SECRET, "hoeing")),
                 Set.of());
         agent = connect(new FarmSecret.Login("agent", "plough"));
         agent.subscribe(
@@ -129,9 +131,9 @@ class EmbeddedBrokerTest {
     @Test
     void closesTheConnectionOfAUserWhoseAccountIsRemoved() throws MqttException {
         MqttClient device = connect(DEVICE);
-        MqttClient gateway = connect(Wanted.SECRET.gateway("hoeing"));
+        MqttClient gateway = connect(Desired.SECRET.gateway("hoeing"));
 
-        ACCOUNTS.replace(List.of(MqttAccount.gateway(Wanted.SECRET, "hoeing")), Set.of());
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(Desired.SECRET, "hoeing")), Set.of());
 
         await().until(() -> !device.isConnected());
         assertThat(gateway.isConnected()).isTrue();
@@ -157,7 +159,7 @@ class EmbeddedBrokerTest {
     }
 
     @Test
-    void shutsOutWhoIsNoLongerWanted() throws MqttException {
+    void shutsOutWhoIsNoLongerDesired() throws MqttException {
         leave(connect(DEVICE));
         ACCOUNTS.replace(List.of(), Set.of());
 
@@ -168,8 +170,8 @@ class EmbeddedBrokerTest {
 
     @Test
     void letsAMissionHaveTheNameOfAUserOfTheStart() throws MqttException {
-        ACCOUNTS.replace(List.of(MqttAccount.gateway(Wanted.SECRET, "agent")), Set.of());
-        MqttClient gateway = connect(Wanted.SECRET.gateway("agent"));
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(Desired.SECRET, "agent")), Set.of());
+        MqttClient gateway = connect(Desired.SECRET.gateway("agent"));
 
         assertThatThrownBy(() -> gateway.subscribe("#", 1)).isInstanceOf(MqttException.class);
         leave(gateway);

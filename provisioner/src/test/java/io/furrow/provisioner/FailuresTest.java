@@ -9,23 +9,23 @@ import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
-import io.furrow.model.device.WantedDevice;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class FailuresTest {
     private final MockProducer<String, byte[]> producer =
             new MockProducer<>(true, null, new StringSerializer(), new ByteArraySerializer());
-    private final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);
-    private final Failures failures = new Failures(wanted, producer);
-    private final WantedDevice device = Wanted.thermometer("hoeing", 1);
+    private final DesiredDevices desired = new DesiredDevices(Desired.SCOPE);
+    private final Failures failures = new Failures(desired, producer);
+    private final DesiredDevice device = Desired.thermometer("hoeing", 1);
     private final String key = device.version().key();
 
     @BeforeEach
     void want() {
-        wanted.caughtUp();
-        wanted.take(key, device);
+        desired.caughtUp();
+        desired.take(key, device);
     }
 
     @Test

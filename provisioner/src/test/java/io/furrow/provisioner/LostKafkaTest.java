@@ -11,8 +11,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.provisioner.Provisioning.Outcome;
 import io.furrow.provisioner.Removals.Origin;
 import io.furrow.provisioner.account.MosquittoFiles;
@@ -30,7 +30,7 @@ class LostKafkaTest extends ProvisioningFixture {
     Path directory;
 
     @Test
-    void keepsTheAccountsAndDevicesThatAnotherKafkaWanted() throws Exception {
+    void keepsTheAccountsAndDevicesThatAnotherKafkaDesired() throws Exception {
         provisionTen();
 
         provisioning = provisioning(files(false), new Origin("topic-2", true));
@@ -50,11 +50,11 @@ class LostKafkaTest extends ProvisioningFixture {
     void keepsTheDevicesOfTheAgentWhereNoFileSaysForWhichKafkaTheyAre() throws Exception {
         provisionTen();
 
-        provisioning = provisioning(settings(SecretSource.of(Wanted.SECRET), false), EMPTY);
+        provisioning = provisioning(settings(SecretSource.of(Desired.SECRET), false), EMPTY);
         assertThat(provisioning.step().kept().devices()).hasSize(10);
         assertThat(agent.deviceIds()).hasSize(10);
 
-        provisioning = provisioning(settings(SecretSource.of(Wanted.SECRET), false), SAME);
+        provisioning = provisioning(settings(SecretSource.of(Desired.SECRET), false), SAME);
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.deviceIds()).isEmpty();
     }
@@ -63,8 +63,8 @@ class LostKafkaTest extends ProvisioningFixture {
     void addsAndRemovesDevicesOfItsOwnBesideThoseThatItKeeps() throws Exception {
         provisionTen();
         provisioning = provisioning(files(false), EMPTY);
-        WantedDevice known = Wanted.thermometer("hoeing", 1);
-        WantedDevice fresh = Wanted.thermometer("weeding", 1);
+        DesiredDevice known = Desired.thermometer("hoeing", 1);
+        DesiredDevice fresh = Desired.thermometer("weeding", 1);
 
         want(known);
         want(fresh);
@@ -72,8 +72,8 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(users()).hasSize(11);
         assertThat(agent.deviceIds()).hasSize(11);
 
-        want(Wanted.stopped(known));
-        want(Wanted.stopped(fresh));
+        want(Desired.stopped(known));
+        want(Desired.stopped(fresh));
         assertThat(provisioning.step().kept().devices()).hasSize(9);
         assertThat(users()).hasSize(9);
         assertThat(agent.deviceIds()).hasSize(9).doesNotContain(known.device(), fresh.device());
@@ -83,11 +83,11 @@ class LostKafkaTest extends ProvisioningFixture {
     @Test
     void leavesADeviceInItsMissionThatAnotherKafkaWants() throws Exception {
         String id = "d";
-        WantedDevice there = Wanted.device("Thermometer", "hoeing", id, 1);
+        DesiredDevice there = Desired.device("Thermometer", "hoeing", id, 1);
         want(there);
         provisioning(files(false), SAME).step();
-        WantedDevice moved = Wanted.device("Thermometer", "weeding", id, 1);
-        wanted.take(there.version().key(), null);
+        DesiredDevice moved = Desired.device("Thermometer", "weeding", id, 1);
+        desired.take(there.version().key(), null);
         want(moved);
         provisioning = provisioning(files(false), EMPTY);
 
@@ -112,7 +112,7 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(Files.readString(passwords())).contains("the topic topic-2").doesNotContain("topic-1");
 
-        wanted.clear();
+        desired.clear();
         assertThat(provisioning(files(false), EMPTY).step()).isEqualTo(DONE);
         assertThat(users()).isEmpty();
         assertThat(agent.deviceIds()).isEmpty();
@@ -140,8 +140,8 @@ class LostKafkaTest extends ProvisioningFixture {
     @Test
     void takesNoEmptyAnswerOfTheAgentForAllThatItHas() throws Exception {
         provisionTen();
-        want(Wanted.thermometer("weeding", 1));
-        provisioning = provisioning(settings(SecretSource.of(Wanted.SECRET), false), EMPTY);
+        want(Desired.thermometer("weeding", 1));
+        provisioning = provisioning(settings(SecretSource.of(Desired.SECRET), false), EMPTY);
         agent.garbage = NOTHING;
         assertThat(provisioning.step()).isEqualTo(DONE);
 
@@ -167,14 +167,14 @@ class LostKafkaTest extends ProvisioningFixture {
     /** The thief has the login of generation 0, the device that of generation 1. */
     @Test
     void doesNotAcceptALoginAgainThatWasRevoked() throws Exception {
-        WantedDevice device = Wanted.thermometer("hoeing", 1);
+        DesiredDevice device = Desired.thermometer("hoeing", 1);
         want(device);
         provisioning = provisioning(files(false), SAME);
         provisioning.step();
         want(device.withGeneration(1));
         provisioning.step();
 
-        wanted.clear();
+        desired.clear();
         want(device);
         provisioning = provisioning(files(false), EMPTY);
         assertThat(provisioning.step().refused().get(device.version().key()))
@@ -183,10 +183,10 @@ class LostKafkaTest extends ProvisioningFixture {
 
         want(device.withGeneration(1));
         assertThat(provisioning.step()).isEqualTo(DONE);
-        want(Wanted.stopped(device).withGeneration(1));
+        want(Desired.stopped(device).withGeneration(1));
         provisioning.step();
         assertThat(users()).isEmpty();
-        wanted.clear();
+        desired.clear();
         want(device);
         assertThat(provisioning(files(true), new Origin("topic-3", false))
                         .step()
@@ -200,7 +200,7 @@ class LostKafkaTest extends ProvisioningFixture {
     void removesOnlyAccountsOfAKeyWhoseTimeIsOver() throws Exception {
         provisionTen();
         FarmSecret rotated =
-                Wanted.SECRET.rotated(Instant.now(), Instant.EPOCH, false).at(Instant.now());
+                Desired.SECRET.rotated(Instant.now(), Instant.EPOCH, false).at(Instant.now());
 
         Outcome outcome =
                 provisioning(files(SecretSource.of(rotated), false), EMPTY).step();
@@ -209,13 +209,13 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(outcome.kept().devices()).hasSize(10);
     }
 
-    private static String user(WantedDevice device, int generation) {
-        return Wanted.SECRET.device("hoeing", device.device(), generation).user();
+    private static String user(DesiredDevice device, int generation) {
+        return Desired.SECRET.device("hoeing", device.device(), generation).user();
     }
 
     private void wantTen() {
         for (int i = 1; i <= 10; i++) {
-            want(Wanted.thermometer("hoeing", i));
+            want(Desired.thermometer("hoeing", i));
         }
     }
 
@@ -227,18 +227,18 @@ class LostKafkaTest extends ProvisioningFixture {
         askLater();
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(users()).hasSize(10);
-        wanted.clear();
+        desired.clear();
     }
 
     private ProvisioningSettings files(boolean forgets) {
-        return files(SecretSource.of(Wanted.SECRET), forgets);
+        return files(SecretSource.of(Desired.SECRET), forgets);
     }
 
     private ProvisioningSettings files(SecretSource secret, boolean forgets) {
         List<MqttAccounts> files = List.of(new MosquittoFiles(passwords(), directory.resolve("rules"), null));
         return new ProvisioningSettings(
                 new Properties(),
-                Wanted.SCOPE,
+                Desired.SCOPE,
                 secret,
                 AgentSettings.at(agent.uri()),
                 files,

@@ -26,7 +26,7 @@ import static org.awaitility.Awaitility.await;
 
 /** The written files in a real Mosquitto that reads them again while it runs. */
 class MosquittoIT {
-    private static final FarmSecret SECRET = Wanted.SECRET;
+    private static final FarmSecret SECRET = Desired.SECRET;
     private static final String KEY = "/" + SECRET.apiKey("hoeing");
     private static final String OTHER_KEY = "/" + SECRET.apiKey("weeding");
     /** With signs that mean something in the files. */
@@ -128,7 +128,7 @@ class MosquittoIT {
     }
 
     @Test
-    void shutsADeviceOutThatIsNoLongerWantedAndKeepsTheAgent() throws Exception {
+    void shutsADeviceOutThatIsNoLongerDesiredAndKeepsTheAgent() throws Exception {
         try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
             files.replace(List.of(), Set.of());
 
@@ -161,11 +161,11 @@ class MosquittoIT {
         List<String> lines = new ArrayList<>(Files.readAllLines(broker.passwords()));
         lines.add(0, MosquittoPassword.line(theirs));
         Files.write(broker.passwords(), lines);
-        List<MqttAccount> wanted = new ArrayList<>(ACCOUNTS);
-        wanted.add(MqttAccount.device(SECRET, "hoeing", "theirs"));
-        wanted.add(MqttAccount.device(SECRET, "hoeing", "late"));
+        List<MqttAccount> desired = new ArrayList<>(ACCOUNTS);
+        desired.add(MqttAccount.device(SECRET, "hoeing", "theirs"));
+        desired.add(MqttAccount.device(SECRET, "hoeing", "late"));
 
-        assertThat(files.replace(wanted, Set.of())).containsOnlyKeys(theirs.user());
+        assertThat(files.replace(desired, Set.of())).containsOnlyKeys(theirs.user());
 
         broker.comesIn(SECRET.device("hoeing", "late")).close();
         broker.connect(theirs, "theirs").close();

@@ -18,7 +18,7 @@ import static org.awaitility.Awaitility.await;
 
 /** What a real Mosquitto logs. */
 class MosquittoLogIT {
-    private static final FarmSecret.Login DEVICE = Wanted.SECRET.device("hoeing", "d");
+    private static final FarmSecret.Login DEVICE = Desired.SECRET.device("hoeing", "d");
 
     @TempDir
     Path directory;
@@ -27,9 +27,9 @@ class MosquittoLogIT {
     void saysWhenADeviceConnectedAndWhereItPublishedThoughItMayNot() throws Exception {
         long start = Instant.now().getEpochSecond() * 1000;
         try (Mosquitto broker = new Mosquitto(directory)) {
-            broker.files().replace(List.of(MqttAccount.device(Wanted.SECRET, "hoeing", "d")), Set.of());
+            broker.files().replace(List.of(MqttAccount.device(Desired.SECRET, "hoeing", "d")), Set.of());
             try (MqttPeer device = broker.comesIn(DEVICE)) {
-                device.publish("/" + Wanted.SECRET.apiKey("hoeing") + "/d/attrs", "1");
+                device.publish("/" + Desired.SECRET.apiKey("hoeing") + "/d/attrs", "1");
                 device.publish("/key/e/attrs", "2");
             }
             MosquittoLog log = new MosquittoLog(broker.log());

@@ -28,8 +28,8 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.control.Fault;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.topic.Topics;
 import io.furrow.provisioner.account.LiveAccounts;
 
@@ -65,8 +65,8 @@ class ProvisionerIT {
 
     @Test
     void followsTheTopicAndRemovesAfterARestartWhatWentInTheMeantime() {
-        WantedDevice one = Wanted.thermometer("hoeing", 1);
-        WantedDevice two = Wanted.thermometer("hoeing", 2);
+        DesiredDevice one = Desired.thermometer("hoeing", 1);
+        DesiredDevice two = Desired.thermometer("hoeing", 2);
         try (Provisioner provisioner = provisioner()) {
             put(one);
             put(two);
@@ -77,7 +77,7 @@ class ProvisionerIT {
         try (Provisioner provisioner = provisioner()) {
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
             assertThat(agent.deviceIds()).containsExactly(two.device());
-            put(Wanted.stopped(two));
+            put(Desired.stopped(two));
             await().atMost(TIMEOUT).until(() -> agent.apiKeys().isEmpty());
             assertThat(agent.deviceIds()).isEmpty();
             assertThat(provisioner).isNotNull();
@@ -90,9 +90,9 @@ class ProvisionerIT {
 
     @Test
     void saysWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() {
-        WantedDevice before = Wanted.thermometer("hoeing", 1);
-        WantedDevice after = Wanted.thermometer("hoeing", 2);
-        WantedDevice disliked = Wanted.thermometer("hoeing", 3);
+        DesiredDevice before = Desired.thermometer("hoeing", 1);
+        DesiredDevice after = Desired.thermometer("hoeing", 2);
+        DesiredDevice disliked = Desired.thermometer("hoeing", 3);
         agent.disliked.add(disliked.device());
         try (Provisioner provisioner = provisioner()) {
             put(before);
@@ -120,15 +120,15 @@ class ProvisionerIT {
 
     @Test
     void restoresWhatARestartedAgentHasLostAtTheNextInterval() {
-        put(Wanted.thermometer("hoeing", 1));
-        put(Wanted.thermometer("hoeing", 2));
+        put(Desired.thermometer("hoeing", 1));
+        put(Desired.thermometer("hoeing", 2));
         try (Provisioner provisioner = provisioner()) {
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
 
             agent.restart();
 
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
-            assertThat(agent.apiKeys()).containsExactly(Wanted.SECRET.apiKey("hoeing"));
+            assertThat(agent.apiKeys()).containsExactly(Desired.SECRET.apiKey("hoeing"));
             assertThat(provisioner).isNotNull();
         }
         assertThat(statuses()).isEmpty();
@@ -137,7 +137,7 @@ class ProvisionerIT {
     /** A Kafka that knows nothing of them says so on a topic until it is told to forget them. */
     @Test
     void keepsWhatAnotherKafkaHasProvisioned() throws Exception {
-        put(Wanted.thermometer("hoeing", 1));
+        put(Desired.thermometer("hoeing", 1));
         try (Provisioner provisioner = provisioner()) {
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
             assertThat(provisioner).isNotNull();
@@ -169,13 +169,13 @@ class ProvisionerIT {
     @Test
     void leavesTheWorkToOneOfTwoInstancesAndThenToTheOther() {
         Provisioner first = provisioner();
-        put(Wanted.thermometer("hoeing", 1));
+        put(Desired.thermometer("hoeing", 1));
         await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
         try (Provisioner second = provisioner()) {
-            put(Wanted.thermometer("hoeing", 2));
+            put(Desired.thermometer("hoeing", 2));
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
             first.close();
-            put(Wanted.thermometer("weeding", 1));
+            put(Desired.thermometer("weeding", 1));
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 3);
             assertThat(second).isNotNull();
         } finally {
@@ -193,8 +193,8 @@ class ProvisionerIT {
     private ProvisioningSettings settings(boolean forgets) {
         return new ProvisioningSettings(
                 client(),
-                Wanted.SCOPE,
-                SecretSource.of(Wanted.SECRET),
+                Desired.SCOPE,
+                SecretSource.of(Desired.SECRET),
                 AgentSettings.at(agent.uri()).withInterval(Duration.ofSeconds(1)),
                 List.of(accounts),
                 false,
@@ -210,7 +210,7 @@ class ProvisionerIT {
                 topic(Topics.FAULTS)));
     }
 
-    private void put(WantedDevice device) {
+    private void put(DesiredDevice device) {
         producer.send(new ProducerRecord<>(Topics.DEVICES, device.version().key(), device.toBytes()));
         producer.flush();
     }

@@ -16,8 +16,8 @@ import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.provisioner.Provisioning.Outcome;
 import io.furrow.provisioner.account.LiveAccounts;
 
@@ -28,9 +28,9 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 @Tag("full")
 class ProvisioningFailuresTest {
     private static final Outcome DONE = new Outcome(Map.of(), null, null, true);
-    private static final String KEY = FakeAgent.key("/iot/json", Wanted.SECRET.apiKey("hoeing"));
+    private static final String KEY = FakeAgent.key("/iot/json", Desired.SECRET.apiKey("hoeing"));
 
-    private final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);
+    private final DesiredDevices desired = new DesiredDevices(Desired.SCOPE);
 
     private FakeAgent agent;
     private Provisioning provisioning;
@@ -143,9 +143,9 @@ class ProvisioningFailuresTest {
 
     @Test
     void removesTheOthersThoughTheAgentFailsOnOneDevice() throws Exception {
-        List<WantedDevice> devices = want(3);
+        List<DesiredDevice> devices = want(3);
         provisioning.step();
-        devices.forEach(device -> wanted.take(device.version().key(), null));
+        devices.forEach(device -> desired.take(device.version().key(), null));
         agent.broken.add(id(1));
 
         Outcome outcome = provisioning.step();
@@ -163,11 +163,11 @@ class ProvisioningFailuresTest {
     /** Time passes in requests only: three seconds in each. */
     @Test
     void removesManySlowDevicesInStepsThatLeaveTimeToPoll() throws Exception {
-        List<WantedDevice> devices = want(100);
+        List<DesiredDevice> devices = want(100);
         while (!provisioning.step().done()) {
             assertThat(agent.deviceIds()).hasSizeLessThan(100);
         }
-        devices.forEach(device -> wanted.take(device.version().key(), null));
+        devices.forEach(device -> desired.take(device.version().key(), null));
         agent.onChange = () -> now += Duration.ofSeconds(3).toNanos();
 
         int steps = 0;
@@ -189,7 +189,7 @@ class ProvisioningFailuresTest {
     void changesNothingWhileTheAgentAnswersWhatItCannotRead(String garbage) throws Exception {
         want(2);
         provisioning.step();
-        wanted.take(key(1), null);
+        desired.take(key(1), null);
         agent.changes.clear();
         agent.garbage = garbage;
 
@@ -218,13 +218,13 @@ class ProvisioningFailuresTest {
     @Test
     void refusesADeviceOfTheDefaultTenantWithoutHarmToOthers() throws Exception {
         want(1);
-        WantedDevice device = Wanted.thermometer("old", 1);
+        DesiredDevice device = Desired.thermometer("old", 1);
         DeviceVersion of = device.version();
         DeviceVersion version =
                 new DeviceVersion(of.id(), "", "/", of.domain(), of.mission(), 0, null, of.sequence(), null);
-        wanted.take(
+        desired.take(
                 version.key(),
-                WantedDevice.simulated(
+                DesiredDevice.simulated(
                         version, device.type(), device.device(), true, device.period(), device.settings()));
 
         Outcome outcome = provisioning.step();
@@ -242,11 +242,11 @@ class ProvisioningFailuresTest {
         return new Provisioning(
                 new ProvisioningSettings(
                         new Properties(),
-                        Wanted.SCOPE,
-                        Wanted.SECRET,
+                        Desired.SCOPE,
+                        Desired.SECRET,
                         AgentSettings.at(agent.uri()),
                         List.of(new LiveAccounts())),
-                wanted,
+                desired,
                 () -> now);
     }
 
@@ -255,15 +255,15 @@ class ProvisioningFailuresTest {
     }
 
     private static String key(int number) {
-        return Wanted.SCOPE.identity(id(number));
+        return Desired.SCOPE.identity(id(number));
     }
 
-    private List<WantedDevice> want(int count) {
-        List<WantedDevice> devices = new ArrayList<>();
+    private List<DesiredDevice> want(int count) {
+        List<DesiredDevice> devices = new ArrayList<>();
         for (int i = 1; i <= count; i++) {
-            WantedDevice device = Wanted.thermometer("hoeing", i);
+            DesiredDevice device = Desired.thermometer("hoeing", i);
             devices.add(device);
-            wanted.take(device.version().key(), device);
+            desired.take(device.version().key(), device);
         }
         return devices;
     }

@@ -17,8 +17,8 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.provisioner.Provisioning.Outcome;
 import io.furrow.provisioner.account.LiveAccounts;
 import io.furrow.provisioner.account.MqttAccount;
@@ -30,9 +30,9 @@ abstract class ProvisioningFixture {
     /** The Kafka whose devices were provisioned before. */
     static final Removals.Origin SAME = new Removals.Origin("topic-1", true);
 
-    static final String KEY = Wanted.SECRET.apiKey("hoeing");
+    static final String KEY = Desired.SECRET.apiKey("hoeing");
 
-    final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);
+    final DesiredDevices desired = new DesiredDevices(Desired.SCOPE);
     final LiveAccounts accounts = new LiveAccounts();
     /** How many accounts there were after each change. */
     final List<Integer> counts = new ArrayList<>();
@@ -56,11 +56,11 @@ abstract class ProvisioningFixture {
     }
 
     Provisioning provisioning() {
-        return provisioning(settings(SecretSource.of(Wanted.SECRET), false), SAME);
+        return provisioning(settings(SecretSource.of(Desired.SECRET), false), SAME);
     }
 
     Provisioning provisioning(ProvisioningSettings settings, Removals.Origin origin) {
-        Provisioning begun = new Provisioning(settings, wanted, () -> System.nanoTime() + passed.get());
+        Provisioning begun = new Provisioning(settings, desired, () -> System.nanoTime() + passed.get());
         begun.startAnew(origin);
         return begun;
     }
@@ -68,15 +68,15 @@ abstract class ProvisioningFixture {
     ProvisioningSettings settings(SecretSource secret, boolean gateways) {
         return new ProvisioningSettings(
                 new Properties(),
-                Wanted.SCOPE,
+                Desired.SCOPE,
                 secret,
                 AgentSettings.at(agent.uri()),
                 List.of(accounts, new Counted()),
                 gateways);
     }
 
-    void want(WantedDevice device) {
-        wanted.take(device.version().key(), device);
+    void want(DesiredDevice device) {
+        desired.take(device.version().key(), device);
     }
 
     /** The next step asks the agent again, so late that an answer as before counts. */

@@ -10,8 +10,8 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.provisioner.Provisioning.Outcome;
 
@@ -23,8 +23,8 @@ class ProvisioningTest extends ProvisioningFixture {
 
     @Test
     void provisionsTheDevicesOfAMissionUnderItsKeyWithItsNameInEveryMeasure() throws Exception {
-        want(Wanted.thermometer("hoeing", 1));
-        want(Wanted.device("WeatherStation", "hoeing", "station", 1));
+        want(Desired.thermometer("hoeing", 1));
+        want(Desired.device("WeatherStation", "hoeing", "station", 1));
 
         assertThat(provisioning.step()).isEqualTo(DONE);
 
@@ -49,9 +49,9 @@ class ProvisioningTest extends ProvisioningFixture {
 
     @Test
     void leavesRobotsAndWhatReportsByItselfAlone() throws Exception {
-        want(Wanted.device("Robot", "hoeing", "robot", 1));
-        want(WantedDevice.simulated(
-                Wanted.thermometer("hoeing", 1).version(),
+        want(Desired.device("Robot", "hoeing", "robot", 1));
+        want(DesiredDevice.simulated(
+                Desired.thermometer("hoeing", 1).version(),
                 null,
                 null,
                 true,
@@ -66,8 +66,8 @@ class ProvisioningTest extends ProvisioningFixture {
 
     @Test
     void givesEachDeviceAnAccountOnceTheAgentKnowsIt() throws Exception {
-        want(Wanted.thermometer("hoeing", 1));
-        want(Wanted.thermometer("hoeing", 2));
+        want(Desired.thermometer("hoeing", 1));
+        want(Desired.thermometer("hoeing", 2));
         agent.away = true;
         assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("503");
         assertThat(counts).isEmpty();
@@ -77,7 +77,7 @@ class ProvisioningTest extends ProvisioningFixture {
 
         assertThat(counts).containsExactly(2);
         String device = "urn:ngsi-ld:Thermometer:hoeing-1";
-        var login = Wanted.SECRET.device("hoeing", device);
+        var login = Desired.SECRET.device("hoeing", device);
         assertThat(accounts.knows(login.user(), login.password().getBytes())).isTrue();
         assertThat(accounts.mayWrite(login.user(), "/" + KEY + "/" + device + "/attrs"))
                 .isTrue();
@@ -85,12 +85,12 @@ class ProvisioningTest extends ProvisioningFixture {
 
     @Test
     void givesMissionsAGatewayOnlyWhereOneIsUsed() throws Exception {
-        want(Wanted.thermometer("hoeing", 1));
-        String gateway = Wanted.SECRET.gateway("hoeing").user();
+        want(Desired.thermometer("hoeing", 1));
+        String gateway = Desired.SECRET.gateway("hoeing").user();
         provisioning.step();
         assertThat(accounts.mayRead(gateway, "/" + KEY + "/+/cmd")).isFalse();
 
-        provisioning = provisioning(settings(SecretSource.of(Wanted.SECRET), true), SAME);
+        provisioning = provisioning(settings(SecretSource.of(Desired.SECRET), true), SAME);
         provisioning.step();
 
         assertThat(counts).containsExactly(1, 2);
@@ -99,22 +99,22 @@ class ProvisioningTest extends ProvisioningFixture {
 
     @Test
     void takesAwayWhatIsStoppedAndWhatIsDeleted() throws Exception {
-        WantedDevice first = Wanted.thermometer("hoeing", 1);
-        WantedDevice second = Wanted.thermometer("weeding", 1);
+        DesiredDevice first = Desired.thermometer("hoeing", 1);
+        DesiredDevice second = Desired.thermometer("weeding", 1);
         want(first);
         want(second);
         provisioning.step();
 
-        want(Wanted.stopped(first));
+        want(Desired.stopped(first));
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.deviceIds()).containsExactly(second.device());
-        assertThat(agent.apiKeys()).containsExactly(Wanted.SECRET.apiKey("weeding"));
+        assertThat(agent.apiKeys()).containsExactly(Desired.SECRET.apiKey("weeding"));
         assertThat(accounts.mayRead(
-                        Wanted.SECRET.device("hoeing", first.device()).user(),
+                        Desired.SECRET.device("hoeing", first.device()).user(),
                         "/" + KEY + "/" + first.device() + "/cmd"))
                 .isFalse();
 
-        wanted.take(second.version().key(), null);
+        desired.take(second.version().key(), null);
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.deviceIds()).isEmpty();
         assertThat(agent.apiKeys()).isEmpty();
@@ -123,8 +123,8 @@ class ProvisioningTest extends ProvisioningFixture {
 
     @Test
     void changesNothingAfterARestartButLeftoversOfItsOwn() throws Exception {
-        want(Wanted.thermometer("hoeing", 1));
-        want(Wanted.thermometer("gone", 1));
+        want(Desired.thermometer("hoeing", 1));
+        want(Desired.thermometer("gone", 1));
         provisioning.step();
         ObjectNode foreign = JsonNodeFactory.instance
                 .objectNode()
@@ -133,8 +133,8 @@ class ProvisioningTest extends ProvisioningFixture {
         agent.devices.put("foreign", foreign);
         agent.changes.clear();
 
-        wanted.clear();
-        want(Wanted.thermometer("hoeing", 1));
+        desired.clear();
+        want(Desired.thermometer("hoeing", 1));
         assertThat(provisioning().step()).isEqualTo(DONE);
 
         assertThat(agent.changes)
@@ -144,9 +144,9 @@ class ProvisioningTest extends ProvisioningFixture {
 
     @Test
     void provisionsAnewWhatTheAgentHasOtherwise() throws Exception {
-        want(Wanted.device("Thermometer", "hoeing", "d", 1));
+        want(Desired.device("Thermometer", "hoeing", "d", 1));
         provisioning.step();
-        want(Wanted.device("Camera", "hoeing", "d", 2));
+        want(Desired.device("Camera", "hoeing", "d", 2));
 
         assertThat(provisioning.step()).isEqualTo(DONE);
 
@@ -157,7 +157,7 @@ class ProvisioningTest extends ProvisioningFixture {
     void refusesADeviceThatSomebodyElseHasProvisioned() throws Exception {
         agent.devices.put(
                 "d", JsonNodeFactory.instance.objectNode().put("device_id", "d").put("apikey", "secret"));
-        WantedDevice device = Wanted.device("Thermometer", "hoeing", "d", 1);
+        DesiredDevice device = Desired.device("Thermometer", "hoeing", "d", 1);
         want(device);
 
         assertThat(provisioning.step().refused().get(device.version().key())).contains("somebody else has provisioned");
@@ -167,7 +167,7 @@ class ProvisioningTest extends ProvisioningFixture {
     @Test
     void makesTheOthersOfABatchThoughTheAgentRefusesSome() throws Exception {
         for (int i = 1; i <= 250; i++) {
-            want(Wanted.thermometer("hoeing", i));
+            want(Desired.thermometer("hoeing", i));
             if (i <= 120) {
                 agent.disliked.add("urn:ngsi-ld:Thermometer:hoeing-" + i);
             }
@@ -196,7 +196,7 @@ class ProvisioningTest extends ProvisioningFixture {
     @Test
     void takesNoAccountAwayWhileAnAgentThatHasLostItsMemoryLearns() throws Exception {
         for (int i = 1; i <= 250; i++) {
-            want(Wanted.thermometer("hoeing", i));
+            want(Desired.thermometer("hoeing", i));
         }
         while (!provisioning.step().done()) {
             assertThat(agent.deviceIds()).hasSizeLessThan(250);
@@ -215,10 +215,10 @@ class ProvisioningTest extends ProvisioningFixture {
 
     @Test
     void saysOfADeviceThatSomebodyElseHasItsUser() throws Exception {
-        WantedDevice device = Wanted.thermometer("hoeing", 1);
+        DesiredDevice device = Desired.thermometer("hoeing", 1);
         want(device);
-        want(Wanted.thermometer("hoeing", 2));
-        refused.put(Wanted.SECRET.device("hoeing", device.device()).user(), "somebody else's");
+        want(Desired.thermometer("hoeing", 2));
+        refused.put(Desired.SECRET.device("hoeing", device.device()).user(), "somebody else's");
 
         assertThat(provisioning.step().refused())
                 .containsExactly(Map.entry(device.version().key(), "somebody else's"));
@@ -233,10 +233,10 @@ class ProvisioningTest extends ProvisioningFixture {
         ObjectNode settings = (ObjectNode) NgsiJson.mapper().readTree("""
                 {"at": {"latitude": 40.3, "longitude": -3.5}, "attributes": [
                   {"object_id": "t", "name": "Temperature", "unit": "CEL"}, {"object_id": "ph", "name": "Acidity", "type": "Float"}]}""");
-        DeviceVersion version = Wanted.thermometer("hoeing", 1).version();
-        want(new WantedDevice(version, "Thermometer", "probe", true, null, false, settings, null, 0));
-        want(new WantedDevice(
-                Wanted.thermometer("hoeing", 2).version(),
+        DeviceVersion version = Desired.thermometer("hoeing", 1).version();
+        want(new DesiredDevice(version, "Thermometer", "probe", true, null, false, settings, null, 0));
+        want(new DesiredDevice(
+                Desired.thermometer("hoeing", 2).version(),
                 "Thermometer",
                 "simulated",
                 true,

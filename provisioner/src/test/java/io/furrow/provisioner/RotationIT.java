@@ -28,9 +28,9 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.kafka.secret.SecretFile;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.kafka.secret.SecretTopic;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.FarmSecretCodec;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.topic.Topics;
 
 import static io.furrow.provisioner.Mosquitto.AGENT;
@@ -47,8 +47,8 @@ class RotationIT {
     @TempDir
     Path directory;
 
-    private final WantedDevice first = Wanted.thermometer("hoeing", 1);
-    private final WantedDevice second = Wanted.thermometer("hoeing", 2);
+    private final DesiredDevice first = Desired.thermometer("hoeing", 1);
+    private final DesiredDevice second = Desired.thermometer("hoeing", 2);
     private final List<AutoCloseable> open = new ArrayList<>();
     private final MovedClock clock = new MovedClock();
     private EmbeddedKafka kafka;
@@ -72,7 +72,7 @@ class RotationIT {
         file = Files.writeString(directory.resolve("secret"), FarmSecretCodec.write(old));
         secret = SecretFile.open(file, new SecretTopic(client(), null), clock);
         open(Provisioner.start(new ProvisioningSettings(
-                client(), Wanted.SCOPE, secret, AgentSettings.at(iotAgent.uri()), List.of(broker.files()), false)));
+                client(), Desired.SCOPE, secret, AgentSettings.at(iotAgent.uri()), List.of(broker.files()), false)));
         put(first, second);
     }
 
@@ -133,7 +133,7 @@ class RotationIT {
         await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(secret.problem())
                         .hasValueSatisfying(why -> assertThat(why).contains("this farm has another secret")));
-        WantedDevice third = Wanted.thermometer("hoeing", 3);
+        DesiredDevice third = Desired.thermometer("hoeing", 3);
         put(third);
 
         MqttPeer added = open(broker.comesIn(old.device("hoeing", third.device())));
@@ -149,10 +149,10 @@ class RotationIT {
         return rotated;
     }
 
-    private void put(WantedDevice... devices) {
+    private void put(DesiredDevice... devices) {
         try (KafkaProducer<String, byte[]> producer =
                 new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer())) {
-            for (WantedDevice device : devices) {
+            for (DesiredDevice device : devices) {
                 producer.send(
                         new ProducerRecord<>(Topics.DEVICES, device.version().key(), device.toBytes()));
             }

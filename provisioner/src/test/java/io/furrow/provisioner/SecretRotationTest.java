@@ -7,8 +7,8 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.device.WantedDevice;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -19,24 +19,24 @@ class SecretRotationTest extends ProvisioningFixture {
     void acceptsOldAndNewPasswordsWhileASecretIsRotatedAndDoesNotProvisionAnew() throws Exception {
         Secret secret = new Secret();
         provisioning = provisioning(settings(secret, false), SAME);
-        WantedDevice device = Wanted.thermometer("hoeing", 1);
+        DesiredDevice device = Desired.thermometer("hoeing", 1);
         want(device);
         provisioning.step();
         assertThat(provisioning.isSecretChanged()).isFalse();
         agent.changes.clear();
         Instant until = Instant.parse("2026-03-01T08:00:00Z");
-        FarmSecret rotated = Wanted.SECRET.rotated(until.minusSeconds(60), until, false);
+        FarmSecret rotated = Desired.SECRET.rotated(until.minusSeconds(60), until, false);
 
         secret.current = rotated.at(until.minusSeconds(1));
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(knows(Wanted.SECRET.device("hoeing", device.device()))).isTrue();
+        assertThat(knows(Desired.SECRET.device("hoeing", device.device()))).isTrue();
         assertThat(knows(rotated.device("hoeing", device.device()))).isTrue();
 
         secret.current = rotated.at(until);
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(knows(Wanted.SECRET.device("hoeing", device.device()))).isFalse();
+        assertThat(knows(Desired.SECRET.device("hoeing", device.device()))).isFalse();
         assertThat(knows(rotated.device("hoeing", device.device()))).isTrue();
         assertThat(agent.changes).isEmpty();
         assertThat(counts).containsExactly(1, 2, 1);
@@ -45,9 +45,9 @@ class SecretRotationTest extends ProvisioningFixture {
     @Test
     void movesWhatHasAnApiKeyOfAnOlderKeyAndLeavesWhatOthersHave() throws Exception {
         Secret secret = new Secret();
-        WantedDevice device = Wanted.thermometer("hoeing", 1);
+        DesiredDevice device = Desired.thermometer("hoeing", 1);
         want(device);
-        want(Wanted.thermometer("gone", 1));
+        want(Desired.thermometer("gone", 1));
         provisioning(settings(secret, false), SAME).step();
         agent.devices.put(
                 "foreign",
@@ -55,10 +55,10 @@ class SecretRotationTest extends ProvisioningFixture {
                         .objectNode()
                         .put("device_id", "foreign")
                         .put("apikey", "secret"));
-        wanted.clear();
+        desired.clear();
         want(device);
         secret.current =
-                Wanted.SECRET.rotated(Instant.now(), Instant.EPOCH, true).at(Instant.now());
+                Desired.SECRET.rotated(Instant.now(), Instant.EPOCH, true).at(Instant.now());
 
         assertThat(provisioning(settings(secret, false), SAME).step()).isEqualTo(DONE);
 
@@ -72,8 +72,8 @@ class SecretRotationTest extends ProvisioningFixture {
     /** A stolen device must not wait for an agent. */
     @Test
     void refusesAnOldPasswordThoughTheAgentIsAway() throws Exception {
-        WantedDevice stolen = Wanted.thermometer("hoeing", 1);
-        WantedDevice other = Wanted.thermometer("hoeing", 2);
+        DesiredDevice stolen = Desired.thermometer("hoeing", 1);
+        DesiredDevice other = Desired.thermometer("hoeing", 2);
         want(stolen);
         want(other);
         provisioning.step();
@@ -82,14 +82,14 @@ class SecretRotationTest extends ProvisioningFixture {
         want(stolen.withGeneration(1));
 
         assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("503");
-        assertThat(knows(Wanted.SECRET.device("hoeing", stolen.device()))).isFalse();
-        assertThat(knows(Wanted.SECRET.device("hoeing", other.device()))).isTrue();
+        assertThat(knows(Desired.SECRET.device("hoeing", stolen.device()))).isFalse();
+        assertThat(knows(Desired.SECRET.device("hoeing", other.device()))).isTrue();
 
         agent.away = false;
         provisioning.step();
-        assertThat(knows(Wanted.SECRET.device("hoeing", stolen.device(), 1))).isTrue();
-        assertThat(knows(Wanted.SECRET.device("hoeing", stolen.device()))).isFalse();
-        assertThat(knows(Wanted.SECRET.device("hoeing", other.device()))).isTrue();
+        assertThat(knows(Desired.SECRET.device("hoeing", stolen.device(), 1))).isTrue();
+        assertThat(knows(Desired.SECRET.device("hoeing", stolen.device()))).isFalse();
+        assertThat(knows(Desired.SECRET.device("hoeing", other.device()))).isTrue();
         assertThat(agent.changes)
                 .filteredOn(change -> change.startsWith("DELETE"))
                 .isEmpty();
@@ -97,7 +97,7 @@ class SecretRotationTest extends ProvisioningFixture {
 
     @Test
     void doesNothingWithASecretThatIsNotTheFarms() throws Exception {
-        want(Wanted.thermometer("hoeing", 1));
+        want(Desired.thermometer("hoeing", 1));
         provisioning.step();
         agent.changes.clear();
         counts.clear();
@@ -110,13 +110,13 @@ class SecretRotationTest extends ProvisioningFixture {
 
         assertThat(agent.changes).isEmpty();
         assertThat(counts).isEmpty();
-        assertThat(knows(Wanted.SECRET.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")))
+        assertThat(knows(Desired.SECRET.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")))
                 .isTrue();
     }
 
     /** The farm's secret, as long as nobody says that it is not. */
     private static final class Secret implements SecretSource {
-        private FarmSecret current = Wanted.SECRET;
+        private FarmSecret current = Desired.SECRET;
         private String foreign;
 
         @Override

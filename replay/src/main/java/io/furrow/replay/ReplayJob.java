@@ -34,7 +34,7 @@ public final class ReplayJob {
 
         DataStream<TopicRecord> records = env.fromSource(
                         new ReplaySource(
-                                options.wanted(),
+                                options.desired(),
                                 recordings,
                                 options.pages(),
                                 ReplayTopics.of(options, topics(options))),

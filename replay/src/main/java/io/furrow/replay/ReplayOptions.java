@@ -25,16 +25,16 @@ import io.furrow.mission.PageLimits;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.MongoRecordings;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.time.Instants;
 import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.recording.JobRecordings;
 import io.furrow.replay.recording.RecordingSources;
 import io.furrow.replay.recording.TopicHistories;
+import io.furrow.replay.source.DesiredReplays;
 import io.furrow.replay.source.ReplaysTopic;
-import io.furrow.replay.source.WantedReplays;
 
 /** The options of the job {@code replay}. */
 @Command(
@@ -216,7 +216,7 @@ public final class ReplayOptions extends JobOptions {
     }
 
     /** Those of {@code service.replays}, or the one that these options describe. */
-    WantedReplays wanted() {
+    DesiredReplays desired() {
         if (!once) {
             return new ReplaysTopic(this);
         }
@@ -246,8 +246,8 @@ public final class ReplayOptions extends JobOptions {
                 ReplayPlan.Stamps.ORIGINAL,
                 null,
                 List.of());
-        WantedReplay wanted = WantedReplay.started(mission, onto, plan, speed(), System.currentTimeMillis(), 0);
-        return new WantedReplays.One(replay, wanted.toBytes());
+        DesiredReplay desired = DesiredReplay.started(mission, onto, plan, speed(), System.currentTimeMillis(), 0);
+        return new DesiredReplays.One(replay, desired.toBytes());
     }
 
     private ReplayPlan.Source source() {

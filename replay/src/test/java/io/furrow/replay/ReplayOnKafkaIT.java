@@ -21,16 +21,16 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.mission.StoredEvent;
 import io.furrow.mission.file.ArchiveLine;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
 import static io.furrow.replay.ReplaySuite.TIME;
+import static io.furrow.replay.ReplaySuite.desired;
 import static io.furrow.replay.ReplaySuite.header;
-import static io.furrow.replay.ReplaySuite.wanted;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -84,18 +84,18 @@ class ReplayOnKafkaIT {
     void doesWhatItIsTold() throws Exception {
         suite.store("m", 100, 1_000);
         suite.run(null, "--parallelism", "2");
-        suite.want(wanted("m", 1, State.RUNNING, 1));
+        suite.want(desired("m", 1, State.RUNNING, 1));
         await().until(() -> suite.status("m") != null
                 && suite.status("m").progress() != null
                 && suite.status("m").progress().events() > 0);
-        suite.want(wanted("m", 1, State.PAUSED, 2));
+        suite.want(desired("m", 1, State.PAUSED, 2));
         awaitStatus("m", State.PAUSED, 2);
 
-        WantedReplay sought = seeking(wanted("m", 1, State.PAUSED, 3), TIME + 50_000);
+        DesiredReplay sought = seeking(desired("m", 1, State.PAUSED, 3), TIME + 50_000);
         suite.want(sought);
         awaitStatus("m", State.PAUSED, 3);
         await().until(() -> played("m", "1", "prime").size() == 4);
-        suite.want(seeking(wanted("m", ReplayCommand.MAX, State.RUNNING, 4), TIME + 50_000));
+        suite.want(seeking(desired("m", ReplayCommand.MAX, State.RUNNING, 4), TIME + 50_000));
         await().until(() -> {
             ReplayStatus status = suite.status("m");
             return status.state() == State.ENDED && status.settled() && status.sequence() == 4;
@@ -117,15 +117,15 @@ class ReplayOnKafkaIT {
         assertThat(suite.status("m").progress().primes()).isEqualTo(4);
     }
 
-    private static WantedReplay seeking(WantedReplay w, long to) {
-        return w.seeking(to, 3).wanted(w.wanted(), w.sequence());
+    private static DesiredReplay seeking(DesiredReplay w, long to) {
+        return w.seeking(to, 3).desired(w.desired(), w.sequence());
     }
 
     @Test
     void stepsBackAndPlaysARangeOverAndOver() throws Exception {
         suite.store("m", 100, 1_000);
         suite.run(null, "--parallelism", "1", "--page-events", "7");
-        WantedReplay paused = wanted("m", 1, State.PAUSED, 1).stepping(20, 1);
+        DesiredReplay paused = desired("m", 1, State.PAUSED, 1).stepping(20, 1);
         suite.want(paused);
         await().until(() -> played("m", "0", "event").size() == 20);
 
@@ -135,9 +135,9 @@ class ReplayOnKafkaIT {
                 .isEqualTo("e00014");
         assertThat(played("m", "1", "prime")).hasSize(4);
         suite.want(paused.stepping(-5, 2)
-                .within(new WantedReplay.Range(TIME + 30_000, TIME + 33_000), 3)
+                .within(new DesiredReplay.Range(TIME + 30_000, TIME + 33_000), 3)
                 .at(ReplayCommand.MAX, 3)
-                .wanted(State.RUNNING, 3));
+                .desired(State.RUNNING, 3));
 
         await().until(() -> played("m", "3", "event").size() == 3);
         assertThat(ids("m", "2")).containsExactly("e00030", "e00031", "e00032");
@@ -189,10 +189,10 @@ class ReplayOnKafkaIT {
                 JsonNodeFactory.instance.objectNode().put("id", "urn:d0").put("type", "T"));
     }
 
-    private static WantedReplay of(String mission, ReplayPlan.Source source) {
+    private static DesiredReplay of(String mission, ReplayPlan.Source source) {
         ReplayPlan plan =
                 new ReplayPlan(source, null, null, false, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
-        return WantedReplay.started(
+        return DesiredReplay.started(
                 mission, Topics.replay(mission, "0a1b2c3d"), plan, 1, System.currentTimeMillis(), 1);
     }
 
@@ -202,7 +202,7 @@ class ReplayOnKafkaIT {
         List<String> missions = List.of("a", "b", "c");
         for (String mission : missions) {
             suite.store(mission, 1_500, 10);
-            suite.want(wanted(mission, 1, State.RUNNING, 1));
+            suite.want(desired(mission, 1, State.RUNNING, 1));
         }
         JobID job = suite.run(null, "--parallelism", "1", "--delivery", "exactly-once");
         await().until(() ->
@@ -230,7 +230,7 @@ class ReplayOnKafkaIT {
     void failsWhereItsTopicIsDeletedAndHoldsUpNoOther() throws Exception {
         for (String mission : List.of("m", "other")) {
             suite.store(mission, 400, 100);
-            suite.want(wanted(mission, 1, State.RUNNING, 1));
+            suite.want(desired(mission, 1, State.RUNNING, 1));
         }
         suite.run(null, "--parallelism", "1");
         for (String mission : List.of("m", "other")) {
@@ -247,7 +247,7 @@ class ReplayOnKafkaIT {
         ReplayStatus other = suite.status("other");
         assertThat(other.state()).isEqualTo(State.RUNNING);
         assertThat(other.progress().slipMillis()).isZero();
-        suite.want(wanted("other", ReplayCommand.MAX, State.RUNNING, 2));
+        suite.want(desired("other", ReplayCommand.MAX, State.RUNNING, 2));
         awaitStatus("other", State.ENDED, 2);
         await().untilAsserted(() -> assertThat(numbers("other")).isEqualTo(all(400)));
     }
@@ -257,9 +257,9 @@ class ReplayOnKafkaIT {
     void waitsForMongoAndFailsWhatIsUnknown() throws Exception {
         suite.store("m", 400, 100);
         suite.run(null, "--parallelism", "1", "--page-events", "20");
-        suite.want(wanted("unknown", 1, State.RUNNING, 1));
+        suite.want(desired("unknown", 1, State.RUNNING, 1));
         awaitStatus("unknown", State.FAILED, 1);
-        suite.want(wanted("m", 1, State.RUNNING, 1));
+        suite.want(desired("m", 1, State.RUNNING, 1));
         await().until(() ->
                 suite.status("m") != null && suite.status("m").progress().events() > 20);
 
@@ -270,7 +270,7 @@ class ReplayOnKafkaIT {
             assertThat(suite.status("m").progress().waiting()).isNotNull();
         });
         suite.startMongo();
-        suite.want(wanted("m", ReplayCommand.MAX, State.RUNNING, 2));
+        suite.want(desired("m", ReplayCommand.MAX, State.RUNNING, 2));
 
         awaitStatus("m", State.ENDED, 2);
         await().untilAsserted(() -> assertThat(numbers("m")).isEqualTo(all(400)));

@@ -41,10 +41,10 @@ import io.furrow.mission.mongo.EventDocumentCodec;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.Topics;
 
 /** Kafka, Flink and MongoDB's stand-in for the time of a test, and the job {@code replay} on them. */
@@ -111,14 +111,14 @@ final class ReplaySuite implements AutoCloseable {
         }
     }
 
-    static WantedReplay wanted(String mission, double speed, State state, long sequence) {
-        return WantedReplay.started(mission, Topics.replay(mission, "0a1b2c3d"), ReplayPlan.PLAIN, speed, 0, sequence)
-                .wanted(state, sequence);
+    static DesiredReplay desired(String mission, double speed, State state, long sequence) {
+        return DesiredReplay.started(mission, Topics.replay(mission, "0a1b2c3d"), ReplayPlan.PLAIN, speed, 0, sequence)
+                .desired(state, sequence);
     }
 
-    void want(WantedReplay wanted) throws Exception {
+    void want(DesiredReplay desired) throws Exception {
         producer.send(new ProducerRecord<>(
-                        Topics.REPLAYS, wanted.replay().getBytes(StandardCharsets.UTF_8), wanted.toBytes()))
+                        Topics.REPLAYS, desired.replay().getBytes(StandardCharsets.UTF_8), desired.toBytes()))
                 .get();
     }
 

@@ -11,7 +11,7 @@ import picocli.CommandLine.UnmatchedArgumentException;
 
 import io.furrow.flink.JobUids;
 import io.furrow.flink.job.JobCommandLine;
-import io.furrow.replay.source.WantedReplays;
+import io.furrow.replay.source.DesiredReplays;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -33,18 +33,18 @@ class ReplayUidsTest {
     void playsOneMissionOnce() {
         ReplayOptions once = options("--mongo", "mongodb://h", "--once", "--mission", "m", "--speed", "max");
 
-        assertThat(once.wanted().isBounded()).isTrue();
+        assertThat(once.desired().isBounded()).isTrue();
         assertThat(JobUids.of(ReplayJob.assemble(once))).doesNotContain("write-statuses");
     }
 
     @Test
     void boundsTheMissionByWhatReplaysAreBoundedBy() {
-        WantedReplays once = options(
+        DesiredReplays once = options(
                         "--mongo mongodb://h --once --mission m --from 1970-01-01T00:00:01Z --to 1970-01-01T00:00:02Z"
                                 .split(" "))
-                .wanted();
+                .desired();
 
-        assertThat(new String(((WantedReplays.One) once).wanted(), StandardCharsets.UTF_8))
+        assertThat(new String(((DesiredReplays.One) once).desired(), StandardCharsets.UTF_8))
                 .contains("\"from\":1000", "\"to\":2000");
     }
 
@@ -77,7 +77,7 @@ class ReplayUidsTest {
     void refusesWhatCannotBePlayed(String args, String reason) {
         ReplayOptions options = options(("--mongo mongodb://h " + args).split(" +"));
 
-        assertThatThrownBy(options::wanted)
+        assertThatThrownBy(options::desired)
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining(reason);
     }

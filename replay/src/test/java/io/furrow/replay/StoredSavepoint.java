@@ -7,9 +7,9 @@ import java.util.stream.Stream;
 
 import org.apache.flink.api.common.JobID;
 
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 
 import static org.awaitility.Awaitility.await;
 
@@ -53,7 +53,7 @@ final class StoredSavepoint {
     }
 
     /** With a step to each of the events that are played. */
-    static WantedReplay paused() {
-        return ReplaySuite.wanted(MISSION, 1, State.PAUSED, 1).stepping(PLAYED, 1);
+    static DesiredReplay paused() {
+        return ReplaySuite.desired(MISSION, 1, State.PAUSED, 1).stepping(PLAYED, 1);
     }
 }

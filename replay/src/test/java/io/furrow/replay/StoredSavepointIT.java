@@ -59,7 +59,7 @@ class StoredSavepointIT {
     void goesOnWithTheNextEvent(Path savepoint) throws Exception {
         suite.store(StoredSavepoint.MISSION, StoredSavepoint.EVENTS, 1_000);
         suite.want(StoredSavepoint.paused());
-        suite.want(ReplaySuite.wanted(StoredSavepoint.MISSION, ReplayCommand.MAX, State.RUNNING, 2));
+        suite.want(ReplaySuite.desired(StoredSavepoint.MISSION, ReplayCommand.MAX, State.RUNNING, 2));
 
         suite.run(savepoint.toUri().toString(), "--parallelism", "1");
         await().until(() -> {

@@ -225,12 +225,12 @@ public final class BadAmongGood implements AutoCloseable {
             }
         }
         for (int i = 0; i < kinds.size(); i++) {
-            int wanted = times * (bad / kinds.size() + (i < bad % kinds.size() ? 1 : 0));
+            int desired = times * (bad / kinds.size() + (i < bad % kinds.size() ? 1 : 0));
             int found = letters.getOrDefault(kinds.get(i).kind(), 0);
             System.out.printf(
                     "%6d %-16s %s%n", found, kinds.get(i).reason(), kinds.get(i).kind());
-            if (found != wanted) {
-                faults.add(found + " dead letters instead of " + wanted + ": "
+            if (found != desired) {
+                faults.add(found + " dead letters instead of " + desired + ": "
                         + kinds.get(i).kind());
             }
         }

@@ -8,11 +8,6 @@ import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
 import io.furrow.analytics.clock.LaggingPosition;
 import io.furrow.analytics.collision.debounce.DebounceEncounters;
-import io.furrow.analytics.collision.eager.Arrival;
-import io.furrow.analytics.collision.eager.ProvisionalProximity;
-import io.furrow.analytics.collision.eager.RaiseAlarms;
-import io.furrow.analytics.collision.eager.SpotPairs;
-import io.furrow.analytics.collision.eager.TrackArrivals;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Pair;
 import io.furrow.analytics.collision.encounter.PairObservation;
@@ -39,16 +34,8 @@ public record CollisionDetection(
         DataStream<CellOverflow> overflows) {
     /** Detects in event time; {@code fixes} carry timestamps equal to {@link PositionFix#time} and watermarks. */
     public static CollisionDetection define(KeyedStream<PositionFix, Device> fixes, CollisionRules rules) {
-        return define(fixes, rules, false);
-    }
-
-    /** @param eager whether pairs that are close by what has arrived are emitted before the watermark decides */
-    public static CollisionDetection define(
-            KeyedStream<PositionFix, Device> fixes, CollisionRules rules, boolean eager) {
         SingleOutputStreamOperator<CellUpdate> updates = fixes.transform(
-                        "Track devices through the grid",
-                        TypeInformation.of(CellUpdate.class),
-                        new TrackDevices(rules, eager))
+                        "Track devices through the grid", TypeInformation.of(CellUpdate.class), new TrackDevices(rules))
                 .uid("track-devices");
 
         SingleOutputStreamOperator<PairObservation> sightings = updates.keyBy(CellUpdate::cell)
@@ -66,7 +53,7 @@ public record CollisionDetection(
         DataStream<Encounter> lasting = rules.steadiness().isNone() ? encounters : steady(encounters, rules);
 
         return new CollisionDetection(
-                eager ? alarmed(lasting, updates.getSideOutput(TrackDevices.ACCEPTED), rules) : lasting,
+                lasting,
                 updates.getSideOutput(TrackDevices.LATE),
                 updates.getSideOutput(TrackDevices.LAGGING),
                 sightings.getSideOutput(MatchPairs.OVERFLOWS));
@@ -78,26 +65,5 @@ public record CollisionDetection(
                 .process(new DebounceEncounters(rules))
                 .uid("debounce-encounters")
                 .name("Debounce encounters of each pair");
-    }
-
-    /** Beside the exact stages, never instead of them. */
-    private static DataStream<Encounter> alarmed(
-            DataStream<Encounter> encounters, DataStream<PositionFix> accepted, CollisionRules rules) {
-        DataStream<Arrival> arrivals = DataStreamUtils.reinterpretAsKeyedStream(
-                        accepted, PositionFix::device, TypeInformation.of(Device.class))
-                .process(new TrackArrivals(rules))
-                .uid("track-arrivals")
-                .name("Track arrivals through the grid");
-
-        DataStream<ProvisionalProximity> glimpses = arrivals.keyBy(Arrival::cell)
-                .process(new SpotPairs(rules))
-                .uid("spot-pairs")
-                .name("Spot pairs in each cell");
-
-        return DataStreamUtils.reinterpretAsKeyedStream(encounters, Encounter::pair, TypeInformation.of(Pair.class))
-                .connect(glimpses.keyBy(ProvisionalProximity::pair))
-                .process(new RaiseAlarms(rules))
-                .uid("raise-alarms")
-                .name("Raise alarms of each pair");
     }
 }

@@ -22,11 +22,10 @@ public final class CollisionEntity {
                 .integer(CollisionResult.TIME, Epochs.original(encounter.time()));
         device(entity, CollisionResult.FIRST, encounter.first());
         device(entity, CollisionResult.SECOND, encounter.second());
-        entity.text(CollisionResult.ENCOUNTER, encounter.id(pair))
+        return entity.text(CollisionResult.ENCOUNTER, encounter.id(pair))
                 .text(CollisionResult.PHASE, encounter.phase().code())
                 .number(CollisionResult.MIN_DISTANCE, encounter.minDistance())
                 .integer(CollisionResult.START_TIME, Epochs.original(encounter.startTime()));
-        return encounter.confirms().isEmpty() ? entity : entity.text(CollisionResult.CONFIRMS, encounter.confirms());
     }
 
     /** An entity of its own, {@code Analytics:Collision:<pair>:<phase>}: the pair's encounter stays as it is. */

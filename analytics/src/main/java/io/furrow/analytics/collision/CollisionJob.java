@@ -83,8 +83,7 @@ public final class CollisionJob {
         KeyedStream<PositionFix, Device> fixes = DataStreamUtils.reinterpretAsKeyedStream(
                 carried, PositionFix::device, TypeInformation.of(Device.class));
 
-        DataStream<TopicRecord> results = results(
-                        CollisionDetection.define(fixes, options.rules(), options.eager()), options)
+        DataStream<TopicRecord> results = results(CollisionDetection.define(fixes, options.rules()), options)
                 .union(
                         clocks(options).delays(in.records()),
                         read.getSideOutput(DeadLetters.TAG),

@@ -37,14 +37,6 @@ public final class CollisionOptions extends AnalyticsOptions {
     private String devices;
 
     @Option(
-            names = "--eager",
-            description =
-                    "Also tell at once, as provisional, of pairs that are close by what has arrived; a start names"
-                            + " what it confirms, the rest is withdrawn. Exact records stay the same. Positions that come"
-                            + " too late for those take part, if their device reported no newer one.")
-    private boolean eager;
-
-    @Option(
             names = "--overflow-output",
             paramLabel = "TOPIC",
             defaultValue = Topics.COLLISION_OVERFLOW,
@@ -75,11 +67,6 @@ public final class CollisionOptions extends AnalyticsOptions {
         } catch (IllegalArgumentException e) {
             throw refused(e.getMessage(), e);
         }
-    }
-
-    @Override
-    public boolean eager() {
-        return eager;
     }
 
     /** What is done about the clocks of devices. */

@@ -2,6 +2,7 @@ package io.furrow.analytics.collision;
 
 import java.io.Serializable;
 import java.time.Duration;
+import java.util.TreeMap;
 
 import io.furrow.analytics.collision.debounce.DebounceRules;
 import io.furrow.analytics.collision.grid.CellRules;
@@ -80,11 +81,16 @@ public record CollisionRules(
                         cells);
     }
 
-    /** The same for positions of which one may have ceased to count before the other came. */
-    public CollisionRules whileBothCount() {
-        Duration last = timeToLive().minusMillis(1);
-        Duration apart = maxSkew().isZero() || maxSkew().compareTo(last) > 0 ? last : maxSkew();
-        return apart.isZero() ? this : with(new PositionRules(timeToLive(), apart, positions.zones()));
+    /** Equal for rules by which the same pairs are close, in this and in another JVM. */
+    public String digest() {
+        return "%s %s %s %s %s %08x"
+                .formatted(
+                        thresholds.meters(),
+                        new TreeMap<>(thresholds.ofTypes()),
+                        timeToLive(),
+                        maxSkew(),
+                        cells,
+                        positions.zones().toString().hashCode());
     }
 
     /** The greatest threshold of any pair. */

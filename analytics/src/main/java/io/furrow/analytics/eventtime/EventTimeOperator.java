@@ -10,7 +10,7 @@ import java.util.NavigableMap;
 import java.util.PriorityQueue;
 import java.util.Set;
 import java.util.TreeMap;
-import java.util.function.BiFunction;
+import java.util.function.BiConsumer;
 import java.util.function.ToLongFunction;
 
 import org.apache.flink.api.common.state.ValueState;
@@ -146,17 +146,22 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
     }
 
     /**
-     * Replaces what is remembered of each key, null for nothing; before the first message.
+     * Forgets what is remembered of each key; before the first message.
      *
-     * @param revision takes what is remembered and what takes records
+     * @param waiting whether messages that wait are forgotten too
+     * @param last takes what was remembered and what takes records
      */
-    protected final void revise(BiFunction<S, Collector<O>, S> revision) {
+    protected final void forget(boolean waiting, BiConsumer<S, Collector<O>> last) {
         for (Slot<K, M, S> slot : List.copyOf(slots.values())) {
             if (slot.remembered != null) {
-                slot.remembered = revision.apply(slot.remembered, out);
-                slot.changed = true;
-                settle(slot);
+                last.accept(slot.remembered, out);
             }
+            slot.remembered = null;
+            if (waiting) {
+                slot.waiting.clear();
+            }
+            slot.changed = true;
+            settle(slot);
         }
     }
 

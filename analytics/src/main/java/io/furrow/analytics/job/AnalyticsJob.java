@@ -23,8 +23,7 @@ public final class AnalyticsJob {
     public static StreamExecutionEnvironment assemble(
             AnalyticsOptions options,
             BiFunction<StreamExecutionEnvironment, DataStream<TopicRecord>, DataStream<TopicRecord>> definition) {
-        StreamExecutionEnvironment env =
-                options.eager() ? JobEnvironment.createPrompt(options) : JobEnvironment.create(options);
+        StreamExecutionEnvironment env = JobEnvironment.create(options);
         DataStream<TopicRecord> records = KafkaInput.reportedChanges(env, options, options.maxDrift());
         KafkaOutput.writeAll(
                 definition.apply(env, records), options, options.topics().settings(Set.of()));

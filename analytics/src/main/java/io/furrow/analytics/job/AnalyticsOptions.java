@@ -25,11 +25,6 @@ public abstract class AnalyticsOptions extends JobOptions {
         results = new ResultTopics(output, lateOutput);
     }
 
-    /** Whether results are also emitted before event time has reached them. */
-    public boolean eager() {
-        return false;
-    }
-
     /** Settings of the topics that the job creates. */
     public TopicOptions topics() {
         return topics;
@@ -37,7 +32,7 @@ public abstract class AnalyticsOptions extends JobOptions {
 
     /** How far partitions may be apart in event time; empty for any distance. */
     public Optional<Duration> maxDrift() {
-        return alignment.maxDrift(eager());
+        return alignment.maxDrift();
     }
 
     public String output() {

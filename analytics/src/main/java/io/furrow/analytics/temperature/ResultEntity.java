@@ -4,8 +4,6 @@ import java.io.Serializable;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-import io.furrow.analytics.temperature.suspect.SuspectDevice;
-import io.furrow.analytics.temperature.suspect.Verdict;
 import io.furrow.analytics.temperature.window.FieldAverage;
 import io.furrow.analytics.temperature.window.RobustMean;
 import io.furrow.flink.record.ResultRecord;
@@ -46,33 +44,8 @@ record ResultEntity(String attribute, String topic) implements Serializable {
         if (!result.domain().isEmpty()) {
             entity.freeText("Domain", result.domain());
         }
-        return record(result.field(), entity, result.scope(), result.windowEnd() - 1);
-    }
-
-    /** Key = device id; timestamp = the last instant of the window that was one too many. */
-    TopicRecord of(SuspectDevice suspect) {
-        Verdict last = suspect.last();
-        String id = FieldResult.SUSPECT_TYPE + ":" + title() + ":" + last.device();
-        EntityBuilder entity = Entity.builder(id, FieldResult.SUSPECT_TYPE)
-                .text("device", last.device())
-                .text("deviceType", last.type() == null ? "" : last.type())
-                .text("attribute", attribute)
-                .text(FieldResult.FIELD, last.field())
-                .number("value", last.value())
-                .number(FieldResult.average(title()), last.mean())
-                .integer("windows", suspect.windows())
-                .integer("since", original(suspect.since(), last.windowEnd()))
-                .integer(FieldResult.WINDOW_START, original(last.windowStart(), last.windowEnd()))
-                .integer(FieldResult.WINDOW_END, original(last.windowEnd(), last.windowEnd()));
-        if (!last.domain().isEmpty()) {
-            entity.freeText("Domain", last.domain());
-        }
-        return record(last.device(), entity, last.scope(), last.time());
-    }
-
-    private TopicRecord record(String key, EntityBuilder entity, InputScope scope, long time) {
-        String output = Topics.resultOf(scope.topic(), topic);
-        return ResultRecord.of(output, key, entity, scope.fiware(), time, SOURCE);
+        String output = Topics.resultOf(result.scope().topic(), topic);
+        return ResultRecord.of(output, result.field(), entity, result.scope().fiware(), result.windowEnd() - 1, SOURCE);
     }
 
     /** A time in the epoch of a window, of which the first may begin before 1970. */

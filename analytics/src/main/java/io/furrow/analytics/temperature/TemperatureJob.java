@@ -12,20 +12,14 @@ import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.field.KnownFields;
 import io.furrow.analytics.field.RecognizeFields;
 import io.furrow.analytics.job.AnalyticsJob;
-import io.furrow.analytics.temperature.suspect.AverageVotes;
 import io.furrow.analytics.temperature.suspect.DeviceVote;
-import io.furrow.analytics.temperature.suspect.SuspectDevice;
-import io.furrow.analytics.temperature.suspect.TrackSuspects;
-import io.furrow.analytics.temperature.suspect.Verdict;
 import io.furrow.analytics.temperature.suspect.VoteStage;
 import io.furrow.analytics.temperature.window.FieldAverage;
-import io.furrow.analytics.temperature.window.FillEmptyWindows;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.DeduplicateById;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
 import io.furrow.flink.time.KeyedLatenessOperator;
-import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
 import io.furrow.flink.time.TimelessBroadcastOperator;
 
 /** The job {@code temperature}: the average temperature of each field in event-time windows, one entity per field and window. */
@@ -79,43 +73,13 @@ public final class TemperatureJob {
 
         SingleOutputStreamOperator<FieldAverage> averages = VoteStage.average(votes, options);
 
-        DataStream<FieldAverage> results =
-                options.emptyWindows().isZero() ? averages : fillEmptyWindows(averages, fields, in, options);
-
         ResultEntity form = new ResultEntity(options.attribute(), options.output());
         DataStream<TopicRecord> described =
-                results.map(form::of).uid("describe-averages").name("Describe averages as entities");
+                averages.map(form::of).uid("describe-averages").name("Describe averages as entities");
 
         DataStream<TopicRecord> dead =
                 readings.getSideOutput(DeadLetters.TAG).union(fields.getSideOutput(DeadLetters.TAG));
-        DataStream<TopicRecord> all = described.union(
+        return described.union(
                 VoteStage.late(votes, options), new ClockStage("temperature", options).delays(in.records()), dead);
-        return options.suspectAfter() == 0 ? all : all.union(reportSuspects(averages, form, options));
-    }
-
-    private static SingleOutputStreamOperator<FieldAverage> fillEmptyWindows(
-            DataStream<FieldAverage> averages, DataStream<TopicRecord> fields, Inputs in, TemperatureOptions options) {
-        return averages.keyBy(FieldAverage::fieldIdentity)
-                .connect(fields.broadcast())
-                .transform(
-                        "Fill empty windows",
-                        TypeInformation.of(FieldAverage.class),
-                        new KeyedTimelessBroadcastOperator<>(
-                                new FillEmptyWindows(in.fields().atStart(), options), List.of(KnownFields.BROADCAST)))
-                .uid("fill-empty-windows");
-    }
-
-    private static DataStream<TopicRecord> reportSuspects(
-            SingleOutputStreamOperator<FieldAverage> averages, ResultEntity form, TemperatureOptions options) {
-        return averages.getSideOutput(AverageVotes.VERDICTS)
-                .keyBy(Verdict::deviceIdentity)
-                .transform(
-                        "Follow suspect devices",
-                        TypeInformation.of(SuspectDevice.class),
-                        new KeyedLatenessOperator<>(new TrackSuspects(options.suspectAfter(), options.suspectMemory())))
-                .uid("track-suspects")
-                .map(form::of)
-                .uid("describe-suspects")
-                .name("Describe suspect devices as entities");
     }
 }

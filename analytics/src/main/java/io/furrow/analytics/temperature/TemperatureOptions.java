@@ -76,36 +76,6 @@ public final class TemperatureOptions extends AnalyticsOptions {
     private Double suspectFloor;
 
     @Option(
-            names = "--empty-windows",
-            paramLabel = "DURATION",
-            arity = "0..1",
-            fallbackValue = "1d",
-            defaultValue = "0s",
-            description =
-                    "Give a result of 0 devices for each window of a field without a reading, from its first reading on "
-                            + "until it has been silent this long (${FALLBACK-VALUE} if not said). Default: no results of empty windows.")
-    private Duration emptyWindows;
-
-    @Option(
-            names = "--suspect-after",
-            paramLabel = "N",
-            defaultValue = "0",
-            description =
-                    "Report a device as Analytics:SuspectDevice that was set aside in N windows in a row; again only after "
-                            + "it was not in between. Windows of fewer than three devices, or without it, do not count. Default: none is "
-                            + "reported.")
-    private int suspectAfter;
-
-    @Option(
-            names = "--suspect-memory",
-            paramLabel = "DURATION",
-            defaultValue = "1d",
-            description =
-                    "How long a device that was set aside is remembered when nothing comes from it any more. Longer: a "
-                            + "device that is silent for long is not reported twice, more state. Default: ${DEFAULT-VALUE}.")
-    private Duration suspectMemory;
-
-    @Option(
             names = "--repeat-window",
             paramLabel = "DURATION",
             description = "How long an event is remembered, so that a repetition counts once. Default: --window plus "
@@ -170,23 +140,6 @@ public final class TemperatureOptions extends AnalyticsOptions {
             throw refused("--suspect-floor must be 0 or a positive number", null);
         }
         return floor;
-    }
-
-    /** How long a silent field gives results; zero where it gives none. */
-    public Duration emptyWindows() {
-        return emptyWindows;
-    }
-
-    /** After how many windows in a row a suspect device is reported; 0 where none is. */
-    public int suspectAfter() {
-        if (suspectAfter < 0) {
-            throw refused("--suspect-after must be 1 or more windows, or left out", null);
-        }
-        return suspectAfter;
-    }
-
-    public Duration suspectMemory() {
-        return positive("--suspect-memory", suspectMemory);
     }
 
     public Duration repeatWindow() {

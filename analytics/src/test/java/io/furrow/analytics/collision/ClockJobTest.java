@@ -70,15 +70,6 @@ class ClockJobTest {
     }
 
     @Test
-    void tellsOfTheSlowOneAtOnceWhereEager() throws Exception {
-        List<Entity> told = entities(run(20, "--eager"), "data.collision");
-
-        assertThat(told)
-                .extracting(entity -> entity.text("phase").orElseThrow())
-                .containsExactlyInAnyOrder("provisional", "withdrawn");
-    }
-
-    @Test
     void setsAsideWhatIsFromTheFuture() throws Exception {
         long future = System.currentTimeMillis() + Duration.ofHours(2).toMillis() - START;
         TopicRecord foreign = robot("foreign", 0, future);

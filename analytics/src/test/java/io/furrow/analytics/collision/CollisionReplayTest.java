@@ -9,7 +9,6 @@ import java.util.Random;
 
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
-import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
@@ -21,11 +20,9 @@ import io.furrow.analytics.Seeds;
 import io.furrow.flink.record.TopicRecord;
 
 import static io.furrow.analytics.collision.ReportedRun.START;
-import static io.furrow.analytics.collision.ReportedRun.entity;
 import static io.furrow.analytics.collision.ReportedRun.options;
 import static io.furrow.analytics.collision.ReportedRun.robot;
 import static io.furrow.analytics.collision.ReportedRun.run;
-import static org.assertj.core.api.Assertions.assertThat;
 
 /** Four robots to and fro on 40 meters for a minute, played four times. */
 class CollisionReplayTest {
@@ -45,22 +42,6 @@ class CollisionReplayTest {
         Replayed.assertThatEpochsAreAsAlone(
                 Replayed.epochs(arrivals(), START + 20_000),
                 records -> run(options, records.toArray(TopicRecord[]::new)));
-    }
-
-    @Test
-    void raisesNoAlarmOfRobotsOfTwoEpochs() throws Exception {
-        List<TopicRecord> replay = Replayed.epochs(arrivals(), START + 20_000).stream()
-                .flatMap(List::stream)
-                .toList();
-
-        List<TopicRecord> written =
-                run(options("--input", Replayed.TOPIC, "--eager"), replay.toArray(TopicRecord[]::new));
-
-        assertThat(written)
-                .filteredOn(record -> entity(record).text("phase").orElse("").equals("provisional"))
-                .isNotEmpty()
-                .extracting(record -> entity(record).text("encounter").orElseThrow())
-                .allMatch(id -> id.matches("[^~]+~[0-9]+(|:[0-9])~[0-9]+\\1"));
     }
 
     /** Up to 1.5 s in disorder. */

@@ -31,7 +31,7 @@ class CollisionUidsTest {
     /** Flink restores no state whose key is of another version. */
     @Test
     void keepsTheFormatsOfItsKeys() throws Exception {
-        CollisionOptions options = options("--horizon", "10s", "--crossed", "--eager", "--dwell", "1s");
+        CollisionOptions options = options("--horizon", "10s", "--crossed", "--dwell", "1s");
 
         assertThat(JobUids.keyFormats(CollisionJob.assemble(options)))
                 .containsOnly(

@@ -8,7 +8,6 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.TreeMap;
-import java.util.TreeSet;
 import java.util.stream.IntStream;
 
 import io.furrow.analytics.temperature.RandomCases.Arrival;
@@ -115,57 +114,12 @@ final class BatchRecomputation {
         Map<String, Map<String, Object>> results = new HashMap<>();
         windows.forEach((field, ofField) -> {
             ofField.forEach((start, window) -> results.put(name(field, start), result(window)));
-            if (random.fillsEmptyWindows()) {
-                ofField.keySet().forEach(start -> fill(field, start, results));
-            }
         });
         return results;
     }
 
     private String name(String field, long start) {
         return field + " " + start + " " + (lastInstant(start) + 1);
-    }
-
-    /** The empty windows that follow one with a reading. */
-    private void fill(String field, long after, Map<String, Map<String, Object>> results) {
-        TreeMap<Long, Window> heard = windows.get(field);
-        long start = after + random.setting().slide();
-        while (!heard.containsKey(start) && (start < heard.lastKey() || lastInstant(start) <= watermark)) {
-            Change version = at(field, lastInstant(start));
-            version = version == null ? at(field, start) : version;
-            if (version == null) {
-                return;
-            }
-            results.put(
-                    name(field, start),
-                    Map.of("devices", 0, "suspects", "[]", "quality", "unverified", "Domain", version.domain()));
-            start += random.setting().slide();
-        }
-    }
-
-    /** "Device end" of each report that a device was set aside in two windows in a row. */
-    Set<String> suspects() {
-        TreeMap<String, TreeMap<Long, Boolean>> verdicts = new TreeMap<>();
-        windows.forEach((field, ofField) -> ofField.forEach((start, window) -> {
-            Map<String, Object> result = result(window);
-            if (result.get("quality").equals("robust")) {
-                for (String device : window.devices.keySet()) {
-                    boolean aside = ((String) result.get("suspects")).contains('"' + device + '"');
-                    verdicts.computeIfAbsent(device, unused -> new TreeMap<>()).merge(start, aside, Boolean::logicalOr);
-                }
-            }
-        }));
-        Set<String> reports = new TreeSet<>();
-        verdicts.forEach((device, ofDevice) -> {
-            int inRow = 0;
-            for (Map.Entry<Long, Boolean> each : ofDevice.entrySet()) {
-                inRow = each.getValue() ? inRow + 1 : 0;
-                if (inRow == 2) {
-                    reports.add(device + " " + (lastInstant(each.getKey()) + 1));
-                }
-            }
-        });
-        return reports;
     }
 
     private Map<String, Object> result(Window window) {

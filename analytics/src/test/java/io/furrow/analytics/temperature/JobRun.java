@@ -126,7 +126,6 @@ record JobRun(JobID id, List<TopicRecord> records) {
         BinaryOperator<Entity> later = (first, second) -> second;
         return to(topic).stream()
                 .map(JobRun::entity)
-                .filter(result -> !result.type().equals("Analytics:SuspectDevice"))
                 .collect(Collectors.toMap(JobRun::fieldAndWindow, result -> result, later, TreeMap::new))
                 .values()
                 .stream()

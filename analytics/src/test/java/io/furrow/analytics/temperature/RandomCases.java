@@ -159,11 +159,6 @@ record RandomCases(
         return readings.stream().map(Arrival::record).toList();
     }
 
-    /** Whether the results of empty windows are compared: without live changes nothing depends on who knows first. */
-    boolean fillsEmptyWindows() {
-        return inBounds && changes.stream().allMatch(change -> change.before() == 0);
-    }
-
     /** Of each reading how many changes the job must have taken that were not known at the start. */
     int[] changesBefore() {
         int[] before = new int[readings.size()];
@@ -213,8 +208,6 @@ record RandomCases(
                 "--out-of-orderness=" + bound + "ms",
                 "--allowed-lateness=" + setting.lateness() + "ms",
                 "--repeat-window=1h", // a repetition that comes after it would be one more late reading
-                "--suspect-floor=" + setting.floor(),
-                "--suspect-after=" + (inBounds ? 2 : 0),
-                "--empty-windows=" + (fillsEmptyWindows() ? "1d" : "0s"));
+                "--suspect-floor=" + setting.floor());
     }
 }

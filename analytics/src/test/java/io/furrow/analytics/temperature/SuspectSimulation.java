@@ -52,7 +52,7 @@ record SuspectSimulation(int trials, double floor) {
 
     /** The share of trials in which all devices that are off by this many standard deviations are named in one of the windows. */
     double namedWithin(int windows, int devices, double step, double... off) {
-        List<String> wanted = IntStream.range(0, off.length)
+        List<String> desired = IntStream.range(0, off.length)
                 .mapToObj(SuspectSimulation::name)
                 .sorted()
                 .toList();
@@ -61,7 +61,7 @@ record SuspectSimulation(int trials, double floor) {
         for (int trial = 0; trial < trials; trial++) {
             double place = random.nextDouble();
             for (int window = 0; window < windows; window++) {
-                if (suspects(random, devices, SIGMA, step, place, off).containsAll(wanted)) {
+                if (suspects(random, devices, SIGMA, step, place, off).containsAll(desired)) {
                     named++;
                     break;
                 }

@@ -97,20 +97,6 @@ class TemperatureOptionsTest {
     }
 
     @Test
-    void leaveEmptyWindowsAndReportsOfSuspectsOutUnlessAsked() {
-        assertThat(Farm.options(Farm.FIELDS).emptyWindows()).isZero();
-        assertThat(Farm.options(Farm.FIELDS, "--empty-windows").emptyWindows()).isEqualTo(Duration.ofDays(1));
-        assertThat(Farm.options(Farm.FIELDS, "--empty-windows=1h").emptyWindows())
-                .isEqualTo(Duration.ofHours(1));
-        assertThat(Farm.options(Farm.FIELDS).suspectAfter()).isZero();
-        assertThat(Farm.options(Farm.FIELDS, "--suspect-after=3").suspectAfter())
-                .isEqualTo(3);
-        assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--suspect-after=-1").suspectAfter())
-                .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--suspect-after must be");
-    }
-
-    @Test
     void refuseToStartWithoutUsableFields() {
         assertThatThrownBy(() -> TemperatureJob.assemble(Farm.options(Path.of("no.geojson"))))
                 .isInstanceOf(ParameterException.class)

@@ -22,9 +22,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 @Timeout(60)
 class TemperatureReplayTest {
     private static final Logger LOG = LoggerFactory.getLogger(TemperatureReplayTest.class);
-    private static final String[] OPTIONS = {
-        "--input", Replayed.TOPIC, "--window", "14s", "--slide", "7s", "--suspect-after=2", "--empty-windows=20s"
-    };
+    private static final String[] OPTIONS = {"--input", Replayed.TOPIC, "--window", "14s", "--slide", "7s"};
     private static final long START = 1_700_000_000_000L;
 
     @RegisterExtension

@@ -1,6 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -39,11 +38,10 @@ class TemperatureRestartTest {
         new Restarts(flink, folder).changeNothing(3, Case::new);
     }
 
-    /** State of 0.1.0 names no types: what has no reading after it has none, all else is equal. */
     @Test
     void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
             throws Exception {
-        new Restarts(flink, folder).goOnFromReleases("temperature", new Case(1, false));
+        new Restarts(flink, folder).goOnFromReleases("temperature", new Case(1));
     }
 
     /** One device is defective, one falls silent; some readings are late, some come twice, and some are corrections. */
@@ -53,14 +51,8 @@ class TemperatureRestartTest {
 
         private final List<Arrival> arrivals = new ArrayList<>();
         private final boolean corrects;
-        private final boolean comparesTypes;
 
         Case(long seed) {
-            this(seed, true);
-        }
-
-        Case(long seed, boolean comparesTypes) {
-            this.comparesTypes = comparesTypes;
             Random random = Restarts.random(seed);
             corrects = random.nextBoolean();
             for (int i = 0; i < 480; i++) {
@@ -103,27 +95,15 @@ class TemperatureRestartTest {
                     "--parallelism=" + parallelism,
                     "--window=20s",
                     "--slide=10s",
-                    "--allowed-lateness=" + (corrects ? "15s" : "0s"),
-                    "--suspect-after=3",
-                    "--empty-windows");
+                    "--allowed-lateness=" + (corrects ? "15s" : "0s"));
         }
 
         @Override
         public DataStream<TopicRecord> define(
                 StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) {
             TemperatureOptions job = (TemperatureOptions) options;
-            DataStream<TopicRecord> results = TemperatureJob.define(
+            return TemperatureJob.define(
                     new TemperatureJob.Inputs(records, FieldInput.of(env, job, job.fields())), job);
-            return comparesTypes
-                    ? results
-                    : results.map(Case::withoutTypes).uid("without-types").returns(results.getType());
-        }
-
-        private static TopicRecord withoutTypes(TopicRecord record) {
-            String value = new String(record.value(), StandardCharsets.UTF_8);
-            String types =
-                    "\"(suspectTypes|deviceType)\":\\{\"type\":\"\\w+\",\"value\":[^{}]*,\"metadata\":\\{\\}\\},";
-            return record.withValue(value.replaceAll(types, "").getBytes(StandardCharsets.UTF_8));
         }
 
         @Override
@@ -133,7 +113,7 @@ class TemperatureRestartTest {
 
         @Override
         public List<String> judges() {
-            return List.of("Deduplicate events by id", "Cast one vote per device", "Follow suspect devices");
+            return List.of("Deduplicate events by id", "Cast one vote per device");
         }
 
         /** A corrected result replaces the one before. */

@@ -12,11 +12,4 @@ class TemperatureUidsTest {
         assertThat(JobUids.of(TemperatureJob.assemble(Farm.options(Farm.FIELDS))))
                 .isEqualTo(JobUids.checkedIn("temperature-file"));
     }
-
-    @Test
-    void keepsTheUidsOfStagesThatOptionsAdd() {
-        assertThat(JobUids.of(
-                        TemperatureJob.assemble(Farm.options(Farm.FIELDS, "--empty-windows", "--suspect-after=3"))))
-                .isEqualTo(JobUids.checkedIn("temperature-all"));
-    }
 }

@@ -18,6 +18,7 @@ import org.junit.jupiter.api.Test;
 import io.furrow.analytics.temperature.suspect.DeviceVote;
 import io.furrow.analytics.temperature.suspect.VoteStage;
 import io.furrow.analytics.temperature.window.FieldAverage;
+import io.furrow.analytics.temperature.window.RobustMean;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.position.Position;
 
@@ -73,6 +74,22 @@ class WindowStateTest {
         averages.processWatermark(2 * MINUTE);
         assertThat(averages.numKeyedStateEntries()).isZero();
         assertThat(averages.numEventTimeTimers()).isZero();
+    }
+
+    @Test
+    void averagesTakeAVoteOfBeforeTypesWereToldApartForThatOfTheSameDevice() throws Exception {
+        KeyedOneInputStreamOperatorTestHarness<String, DeviceVote, FieldAverage> averages = operator("average-votes");
+        averages.processElement(vote(null, "t0", 60), MINUTE - 1);
+        averages.processElement(vote(null, "t1", 60), MINUTE - 1);
+        averages.processElement(vote("Thermometer", "t0", 18), MINUTE - 1);
+        averages.processElement(vote("Station", "t0", 18), MINUTE - 1);
+
+        averages.processWatermark(MINUTE - 1);
+        assertThat(averages.extractOutputValues())
+                .singleElement()
+                .extracting(FieldAverage::average)
+                .returns(3, RobustMean::devices)
+                .returns(32.0, RobustMean::plainMean);
     }
 
     @Test
@@ -160,7 +177,11 @@ class WindowStateTest {
     }
 
     private static DeviceVote vote(String device, double value) {
-        return new DeviceVote("north", "canary", 0, Farm.INPUT, device, value, 0, MINUTE, "Thermometer");
+        return vote("Thermometer", device, value);
+    }
+
+    private static DeviceVote vote(String type, String device, double value) {
+        return new DeviceVote("north", "canary", 0, Farm.INPUT, device, value, 0, MINUTE, type);
     }
 
     private <I, O> KeyedOneInputStreamOperatorTestHarness<String, I, O> operator(String uid) throws Exception {

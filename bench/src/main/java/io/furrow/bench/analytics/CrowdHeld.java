@@ -31,7 +31,7 @@ public record CrowdHeld(
      * @param warmUp before the lag counts
      * @param measured for how long it does
      */
-    public record Plan(int devices, boolean eager, Duration warmUp, Duration measured) {}
+    public record Plan(int devices, Duration warmUp, Duration measured) {}
 
     /** Whether no result was more than 10 s behind, and all of the fleet was found. */
     public boolean isHeld() {
@@ -44,8 +44,6 @@ public record CrowdHeld(
                 plan.devices(),
                 "others",
                 others,
-                "eager",
-                plan.eager(),
                 "seconds",
                 lags.size(),
                 "max lag ms",

@@ -1,13 +1,10 @@
 package io.furrow.bench.analytics;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
 import java.util.Properties;
 import java.util.stream.IntStream;
 
-import org.HdrHistogram.ConcurrentHistogram;
-import org.HdrHistogram.Histogram;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.common.TopicPartition;
@@ -18,21 +15,16 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.bench.analytics.load.FleetTopic;
 
-/** Follows the topic of results: how far event time has come in it, and how long after their time alarms are there. */
+/** Follows the topic of results: how far event time has come in it. */
 final class FoundReader implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(FoundReader.class);
-    private static final String PROVISIONAL = "\"provisional\"";
 
     private final KafkaConsumer<byte[], byte[]> consumer;
     private final Thread thread = new Thread(this::read, "bench-found");
-    private final Histogram alarms = new ConcurrentHistogram(3);
-    private final boolean eager;
     private volatile long newest = Long.MIN_VALUE;
     private volatile long count;
 
-    /** @param eager whether alarms are looked for */
-    FoundReader(Properties kafka, String topic, boolean eager) {
-        this.eager = eager;
+    FoundReader(Properties kafka, String topic) {
         Properties properties = new Properties();
         properties.putAll(kafka);
         consumer = new KafkaConsumer<>(properties, new ByteArrayDeserializer(), new ByteArrayDeserializer());
@@ -53,11 +45,6 @@ final class FoundReader implements AutoCloseable {
         return count;
     }
 
-    /** Milliseconds from a pair's newer position to its alarm here. */
-    Histogram alarms() {
-        return alarms;
-    }
-
     @SuppressWarnings("NonAtomicOperationOnVolatileField") // one thread reads
     private void read() {
         try (consumer) {
@@ -65,9 +52,6 @@ final class FoundReader implements AutoCloseable {
                 for (ConsumerRecord<byte[], byte[]> record : consumer.poll(Duration.ofMillis(200))) {
                     newest = Math.max(newest, record.timestamp());
                     count++;
-                    if (eager && new String(record.value(), StandardCharsets.UTF_8).contains(PROVISIONAL)) {
-                        alarms.recordValue(Math.max(0, System.currentTimeMillis() - record.timestamp()));
-                    }
                 }
             }
         } catch (WakeupException e) {

@@ -8,7 +8,6 @@ import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
 
 import com.sun.management.OperatingSystemMXBean;
-import org.HdrHistogram.Histogram;
 
 import io.furrow.analytics.collision.CollisionJob;
 import io.furrow.analytics.collision.CollisionOptions;
@@ -24,9 +23,6 @@ import io.furrow.flink.job.JobCommandLine;
 public final class TopicMeasurement {
     private static final Duration TIMEOUT = Duration.ofMinutes(10);
     private static final long POLL_INTERVAL_MS = 20;
-    private static final long ALARMS_POLL_INTERVAL_S = 5;
-    private static final long PROMPT_MS = 1000;
-    private static final Duration WARM_UP_AT_MOST = Duration.ofMinutes(4);
     /** The default of jobs. */
     static final int CHECKPOINTS_SECONDS = 10;
 
@@ -57,7 +53,7 @@ public final class TopicMeasurement {
             double bare = BareReader.perSecond(topic, devices);
             long span = 1000 * records / devices;
             Running job = start(topic, parallelism, List.of());
-            try (FoundReader found = new FoundReader(cluster.kafka(), topic.results(), false)) {
+            try (FoundReader found = new FoundReader(cluster.kafka(), topic.results())) {
                 Reading from = await(found, Fleet.START + span / 4);
                 Reading to = await(found, Fleet.START + span - BEHIND_MS);
                 double updates = (to.event - from.event) / 1000.0 * devices;
@@ -142,7 +138,7 @@ public final class TopicMeasurement {
             Backlog.Reading reading = new Backlog.Reading(plan);
             long begin = System.nanoTime();
             Running job = start(topic, 2, List.of("--max-drift", plan.maxDrift()));
-            try (FoundReader found = new FoundReader(cluster.kafka(), topic.results(), false);
+            try (FoundReader found = new FoundReader(cluster.kafka(), topic.results());
                     GroupLag lag = new GroupLag(cluster.kafka(), topic.name(), jobName())) {
                 while (found.newest() < plan.end() - BEHIND_MS) {
                     TimeUnit.SECONDS.sleep(Backlog.POLL_INTERVAL_SECONDS);
@@ -155,35 +151,6 @@ public final class TopicMeasurement {
         }
     }
 
-    /** How long after a position its alarm is in the topic of results, in whole milliseconds. */
-    public Histogram alarms(int devices, int parallelism, Duration measured) throws Exception {
-        try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
-            Thread fleet = new Thread(() -> topic.report(devices, Fleet.SIDE), "bench-fleet");
-            Running job = start(topic, parallelism, List.of("--eager"));
-            fleet.start();
-            try (FoundReader found = new FoundReader(cluster.kafka(), topic.results(), true)) {
-                awaitPromptness(found);
-                found.alarms().reset();
-                TimeUnit.MILLISECONDS.sleep(measured.toMillis());
-                return found.alarms().copy();
-            } finally {
-                topic.stop();
-                fleet.join();
-                job.cancel();
-            }
-        }
-    }
-
-    /** Until the job has caught up with what came while the JVM was cold; where it never does, the figures say so. */
-    private static void awaitPromptness(FoundReader found) throws InterruptedException {
-        long end = System.nanoTime() + WARM_UP_AT_MOST.toNanos();
-        do {
-            found.alarms().reset();
-            TimeUnit.SECONDS.sleep(ALARMS_POLL_INTERVAL_S);
-        } while (System.nanoTime() < end
-                && (found.alarms().getTotalCount() == 0 || found.alarms().getValueAtPercentile(99) > PROMPT_MS));
-    }
-
     /**
      * Devices on one spot beside a fleet, and how far the job's results are behind, second by second.
      *
@@ -194,9 +161,7 @@ public final class TopicMeasurement {
         try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
             CrowdedFleet fleet = new CrowdedFleet(plan.devices(), others);
             Thread reports = new Thread(() -> topic.report(fleet::tick), "bench-fleet");
-            List<String> options = new ArrayList<>(List.of("--overflow-output", topic.overflows()));
-            options.addAll(plan.eager() ? List.of("--eager") : List.of());
-            Running job = start(topic, parallelism, options);
+            Running job = start(topic, parallelism, List.of("--overflow-output", topic.overflows()));
             reports.start();
             try (CrowdReader found = new CrowdReader(cluster.kafka(), topic)) {
                 List<Long> lags = new ArrayList<>();

@@ -18,7 +18,6 @@ import picocli.CommandLine.Spec;
 import io.furrow.bench.analytics.CollisionMeasurement;
 import io.furrow.bench.analytics.CollisionReport;
 import io.furrow.bench.analytics.CollisionRun;
-import io.furrow.bench.analytics.EagerMeasurement;
 import io.furrow.bench.analytics.FieldMeasurement;
 import io.furrow.bench.analytics.Figures;
 import io.furrow.bench.analytics.HeldRate;
@@ -49,7 +48,6 @@ final class AnalyticsBench implements Callable<Integer> {
         MEMORY,
         KAFKA,
         HELD,
-        EAGER,
         CROWD,
         BACKLOG,
         FIELDS
@@ -63,12 +61,11 @@ final class AnalyticsBench implements Callable<Integer> {
             paramLabel = "PART,…",
             split = ",",
             hideParamSyntax = true,
-            defaultValue = "MEMORY,KAFKA,HELD,EAGER,CROWD,BACKLOG,FIELDS",
+            defaultValue = "MEMORY,KAFKA,HELD,CROWD,BACKLOG,FIELDS",
             description = {
                 "MEMORY: collision updates per second, from memory.",
                 "KAFKA: the same from NGSI entities in a topic to a topic of results.",
                 "HELD: whether the consumer's lag grows while devices report once a second.",
-                "EAGER: from a position to the alarm.",
                 "CROWD: devices on one spot: the cell that they share, then the job, for five minutes each.",
                 "BACKLOG: what a job that was away for an hour holds in memory while it catches up.",
                 "FIELDS: points per second and core of the joins with fields.",
@@ -162,7 +159,6 @@ final class AnalyticsBench implements Callable<Integer> {
             case MEMORY -> memory(directory);
             case KAFKA -> onKafka(directory, "kafka", this::kafka);
             case HELD -> onKafka(directory, "held", this::held);
-            case EAGER -> eager() & onKafka(directory, "eager", this::alarms);
             case CROWD -> crowds.cells(report) & onKafka(directory, "crowd", this::crowd);
             case BACKLOG -> onKafka(directory, "backlog", measurement -> backlogs.run(measurement, report));
             case FIELDS -> fields();
@@ -227,43 +223,6 @@ final class AnalyticsBench implements Callable<Integer> {
         }
         report.add("held", figures);
         return good;
-    }
-
-    private boolean eager() throws Exception {
-        Figures figures =
-                new Figures("Alarms from memory: from the position that makes a pair close to its provisional record");
-        for (int parallelism : cores) {
-            for (int timeout : load.bufferTimeouts) {
-                for (int interval : load.watermarkIntervals) {
-                    report.tell("alarms on %d, buffers wait %d ms, watermarks %d ms"
-                            .formatted(parallelism, timeout, interval));
-                    EagerMeasurement.run(
-                            new EagerMeasurement.Plan(
-                                    load.eagerDevices,
-                                    parallelism,
-                                    Duration.ofMillis(timeout),
-                                    Duration.ofMillis(interval),
-                                    Duration.ofSeconds(seconds)),
-                            figures);
-                }
-            }
-        }
-        report.add("eager", figures);
-        return true;
-    }
-
-    private boolean alarms(TopicMeasurement measurement) throws Exception {
-        var delays = measurement.alarms(load.eagerDevices, most(cores), Duration.ofSeconds(seconds));
-        Figures figures = new Figures("Alarms from Kafka: from the time of the position to a reader of the results");
-        figures.add(
-                "updates/s", load.eagerDevices,
-                "cores", most(cores),
-                "p50 ms", delays.getValueAtPercentile(50),
-                "p99 ms", delays.getValueAtPercentile(99),
-                "max ms", delays.getMaxValue(),
-                "alarms", delays.getTotalCount());
-        report.add("eagerFromKafka", figures);
-        return true;
     }
 
     private boolean crowd(TopicMeasurement measurement) throws Exception {

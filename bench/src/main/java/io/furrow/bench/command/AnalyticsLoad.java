@@ -57,32 +57,6 @@ final class AnalyticsLoad {
     String heldOngoing;
 
     @Option(
-            names = "--eager-devices",
-            paramLabel = "N",
-            defaultValue = "20000",
-            description = "Devices of EAGER, each with an update a second. Default: ${DEFAULT-VALUE}.")
-    int eagerDevices;
-
-    @Option(
-            names = "--buffer-timeouts",
-            paramLabel = "MS,…",
-            split = ",",
-            hideParamSyntax = true,
-            defaultValue = "0,1,5",
-            description =
-                    "Milliseconds that records wait for company between stages of EAGER. Default: ${DEFAULT-VALUE}.")
-    List<Integer> bufferTimeouts;
-
-    @Option(
-            names = "--watermark-intervals",
-            paramLabel = "MS,…",
-            split = ",",
-            hideParamSyntax = true,
-            defaultValue = "20,200",
-            description = "Milliseconds between watermarks of EAGER. Default: ${DEFAULT-VALUE}.")
-    List<Integer> watermarkIntervals;
-
-    @Option(
             names = "--fields",
             paramLabel = "N",
             defaultValue = "1000",

@@ -45,9 +45,6 @@ final class CrowdLoad {
             description = "Seconds of each run of the job in CROWD. Default: ${DEFAULT-VALUE}.")
     private int seconds;
 
-    @Option(names = "--crowd-eager", description = "Let the job of CROWD run with --eager too.")
-    private boolean eager;
-
     /** The cell that they share, alone. */
     boolean cells(AnalyticsFigures report) {
         Figures figures = new Figures("Devices on one spot, by processor time of the cell alone");
@@ -66,16 +63,12 @@ final class CrowdLoad {
             throws Exception {
         Figures figures = new Figures("Devices on one spot at 1 Hz beside a fleet: lag of the results");
         int most = Collections.max(crowds);
-        boolean good = true;
-        for (boolean early : eager ? List.of(false, true) : List.of(false)) {
-            report.tell("%,d devices on one spot beside %,d".formatted(most, others));
-            CrowdHeld.Plan plan = new CrowdHeld.Plan(most, early, warmUp, Duration.ofSeconds(seconds));
-            CrowdHeld held = measurement.crowd(plan, others, parallelism);
-            held.overflows().forEach(report::tell);
-            held.addTo(figures);
-            good &= held.isHeld();
-        }
+        report.tell("%,d devices on one spot beside %,d".formatted(most, others));
+        CrowdHeld held =
+                measurement.crowd(new CrowdHeld.Plan(most, warmUp, Duration.ofSeconds(seconds)), others, parallelism);
+        held.overflows().forEach(report::tell);
+        held.addTo(figures);
         report.add("crowd", figures);
-        return good;
+        return held.isHeld();
     }
 }

@@ -27,8 +27,8 @@ final class SubscriptionCopies implements AutoCloseable {
     }
 
     /** Subscribes until the context broker notifies as often as wanted. */
-    void ensure(int wanted) {
-        for (; copies < wanted; copies++) {
+    void ensure(int desired) {
+        for (; copies < desired; copies++) {
             add();
         }
     }

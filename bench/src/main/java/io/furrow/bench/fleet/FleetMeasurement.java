@@ -25,9 +25,9 @@ import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.eclipse.paho.client.mqttv3.MqttException;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -94,21 +94,21 @@ public final class FleetMeasurement {
         try (KafkaProducer<String, byte[]> producer =
                 new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
             for (int i = 0; i < plan.devices(); i++) {
-                WantedDevice device = device(i);
+                DesiredDevice device = device(i);
                 producer.send(
                         new ProducerRecord<>(Topics.DEVICES, device.version().key(), device.toBytes()));
             }
         }
     }
 
-    private WantedDevice device(int number) {
+    private DesiredDevice device(int number) {
         String mission = plan.mission(number % plan.missions());
         String id = "urn:ngsi-ld:Thermometer:" + mission + "-" + (number / plan.missions() + 1);
         DeviceVersion version = new DeviceVersion(
                 id, "bench", "/", "bench", mission, System.currentTimeMillis(), null, number + 1L, null);
         ObjectNode settings = NgsiJson.mapper().createObjectNode();
         settings.putArray("path").addArray().add(-3.5 + number % 100 / 10_000d).add(40.3 + number / 100 / 10_000d);
-        return WantedDevice.simulated(version, "Thermometer", id, true, plan.period(), settings);
+        return DesiredDevice.simulated(version, "Thermometer", id, true, plan.period(), settings);
     }
 
     private void awaitRunning(long begun) throws IOException {

@@ -89,21 +89,21 @@ final class AnswerReader {
     }
 
     /** Where a lower-case text is at the start of a header line, whatever its case there; -1 for nowhere. */
-    private int find(byte[] wanted, int head) {
+    private int find(byte[] desired, int head) {
         byte[] bytes = buffer.array();
-        for (int i = 1; i < head - wanted.length; i++) {
-            if (bytes[i - 1] == '\n' && matches(bytes, i, wanted)) {
+        for (int i = 1; i < head - desired.length; i++) {
+            if (bytes[i - 1] == '\n' && matches(bytes, i, desired)) {
                 return i;
             }
         }
         return -1;
     }
 
-    private static boolean matches(byte[] bytes, int at, byte[] wanted) {
-        for (int i = 0; i < wanted.length; i++) {
+    private static boolean matches(byte[] bytes, int at, byte[] desired) {
+        for (int i = 0; i < desired.length; i++) {
             byte found = bytes[at + i];
             int lower = found >= 'A' && found <= 'Z' ? found + ('a' - 'A') : found;
-            if (lower != wanted[i]) {
+            if (lower != desired[i]) {
                 return false;
             }
         }

@@ -85,9 +85,9 @@ final class Exchange {
 
     private void write() throws IOException {
         channel.write(unwritten);
-        int wanted = unwritten.hasRemaining() ? SelectionKey.OP_WRITE : SelectionKey.OP_READ;
-        if (key.interestOps() != wanted) {
-            key.interestOps(wanted);
+        int desired = unwritten.hasRemaining() ? SelectionKey.OP_WRITE : SelectionKey.OP_READ;
+        if (key.interestOps() != desired) {
+            key.interestOps(desired);
         }
     }
 

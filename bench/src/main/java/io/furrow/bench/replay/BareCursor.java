@@ -20,7 +20,7 @@ import io.furrow.mission.StoredEvent;
 import io.furrow.mission.mongo.EventDocumentCodec;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.replay.record.EventEncoder;
 
@@ -35,7 +35,7 @@ final class BareCursor {
     private static final Bson ONE_TIME = Filters.not(Filters.type(EventDocumentCodec.TIME, BsonType.ARRAY));
 
     private final String mongo;
-    private final WantedReplay replay;
+    private final DesiredReplay replay;
     private final EventEncoder encoder;
     private final int most;
     private int perQuery;
@@ -48,7 +48,7 @@ final class BareCursor {
      * @param most events
      * @param perQuery documents of the first query, more than are of one millisecond
      */
-    BareCursor(String mongo, WantedReplay replay, int most, int perQuery) {
+    BareCursor(String mongo, DesiredReplay replay, int most, int perQuery) {
         this.mongo = mongo;
         this.replay = replay;
         this.encoder = PlayedRecord.encoder(replay);

@@ -16,8 +16,8 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 
 import io.furrow.bench.analytics.Figures;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -102,20 +102,20 @@ public final class MaxMeasurement {
         Long to = events == mission.events() ? null : Long.valueOf(StoredMission.BEGIN + events * 1_000L / PER_SECOND);
         ReplayPlan part =
                 new ReplayPlan(null, null, to, false, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
-        WantedReplay wanted = wanted(number, part);
+        DesiredReplay desired = desired(number, part);
         long asked = System.currentTimeMillis();
-        cluster.want(List.of(wanted));
-        cluster.awaitEnd(List.of(wanted));
-        return run(wanted.topic(), asked, to == null ? events : -1);
+        cluster.want(List.of(desired));
+        cluster.awaitEnd(List.of(desired));
+        return run(desired.topic(), asked, to == null ? events : -1);
     }
 
-    private WantedReplay wanted(int number, ReplayPlan part) {
+    private DesiredReplay desired(int number, ReplayPlan part) {
         String topic = Topics.replay(mission.name(), "%08x".formatted(number));
-        return WantedReplay.started(mission.name(), topic, part, ReplayCommand.MAX, 0, 1);
+        return DesiredReplay.started(mission.name(), topic, part, ReplayCommand.MAX, 0, 1);
     }
 
     private Run bare(int number, int events, int perQuery) throws Exception {
-        WantedReplay replay = wanted(number, ReplayPlan.PLAIN);
+        DesiredReplay replay = desired(number, ReplayPlan.PLAIN);
         cluster.make(List.of(replay.topic()));
         long begun = System.currentTimeMillis();
         try (KafkaProducer<byte[], byte[]> producer = cluster.producer()) {

@@ -10,7 +10,7 @@ import org.apache.kafka.common.header.Header;
 
 import io.furrow.flink.record.TopicRecordFormat;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.replay.playback.Played;
 import io.furrow.replay.record.EventEncoder;
@@ -42,7 +42,7 @@ record PlayedRecord(long sequence, long time, long handedOver, long appended) {
 
     /** The record that a replay would write at this moment. @param encoder of the replay */
     static ProducerRecord<byte[], byte[]> written(
-            StoredEvent event, WantedReplay replay, EventEncoder encoder, long sequence, long now) {
+            StoredEvent event, DesiredReplay replay, EventEncoder encoder, long sequence, long now) {
         try {
             Played played = new Played(
                     Played.Kind.EVENT, encoder.event(event), null, 0, sequence, event.time(), now - event.time());
@@ -52,7 +52,7 @@ record PlayedRecord(long sequence, long time, long handedOver, long appended) {
         }
     }
 
-    static EventEncoder encoder(WantedReplay replay) {
+    static EventEncoder encoder(DesiredReplay replay) {
         return new EventEncoder(replay, 0, record -> record);
     }
 

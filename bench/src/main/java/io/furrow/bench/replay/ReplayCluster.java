@@ -28,8 +28,8 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.ReplayJob;
@@ -104,13 +104,13 @@ public final class ReplayCluster implements AutoCloseable {
         }
     }
 
-    void want(Collection<WantedReplay> replays) {
+    void want(Collection<DesiredReplay> replays) {
         replays.forEach(replay -> producer.send(new ProducerRecord<>(
                 Topics.REPLAYS, replay.replay().getBytes(StandardCharsets.UTF_8), replay.toBytes())));
         producer.flush();
     }
 
-    private void forget(Collection<WantedReplay> replays) {
+    private void forget(Collection<DesiredReplay> replays) {
         replays.forEach(replay -> producer.send(
                 new ProducerRecord<>(Topics.REPLAYS, replay.replay().getBytes(StandardCharsets.UTF_8), null)));
         producer.flush();
@@ -121,7 +121,7 @@ public final class ReplayCluster implements AutoCloseable {
      *
      * @throws IllegalStateException if one fails, or nothing is heard for two minutes
      */
-    void awaitEnd(Collection<WantedReplay> replays) throws UnreadableException {
+    void awaitEnd(Collection<DesiredReplay> replays) throws UnreadableException {
         Set<String> open = new TreeSet<>();
         replays.forEach(replay -> open.add(replay.replay()));
         long until = System.nanoTime() + STALL.toNanos();

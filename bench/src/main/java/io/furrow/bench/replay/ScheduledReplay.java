@@ -6,25 +6,25 @@ import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
 
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 
 /**
  * A replay at speed 1 and its schedule.
  *
  * @param anchor when the mission's first event is due, epoch ms
  */
-record ScheduledReplay(WantedReplay replay, StoredMission mission, long anchor) {
+record ScheduledReplay(DesiredReplay replay, StoredMission mission, long anchor) {
     long due(long time) {
         return anchor + time - StoredMission.BEGIN;
     }
 
     /** The same at another time. */
-    ScheduledReplay onto(WantedReplay other, long later) {
+    ScheduledReplay onto(DesiredReplay other, long later) {
         return new ScheduledReplay(other, mission, anchor + later);
     }
 
     /** What the topics of replays say of their events, in the order of each; of one that was written twice the first. */
-    static Map<String, List<PlayedRecord>> events(ReplayCluster cluster, List<WantedReplay> replays) {
+    static Map<String, List<PlayedRecord>> events(ReplayCluster cluster, List<DesiredReplay> replays) {
         Map<String, List<PlayedRecord>> events = new HashMap<>();
         replays.forEach(replay -> events.put(replay.topic(), new ArrayList<>()));
         cluster.read(events.keySet(), (topic, event) -> events.get(topic).add(event));

@@ -13,8 +13,8 @@ import com.mongodb.client.MongoClients;
 import org.apache.kafka.clients.producer.KafkaProducer;
 
 import io.furrow.bench.analytics.Figures;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -75,9 +75,9 @@ public final class TimingMeasurement {
     public long heldWhilePlayed() throws Exception {
         store();
         try (HeldHeap heap = HeldHeap.start(progress)) {
-            List<WantedReplay> wanted = wanted(0, Long.MAX_VALUE, null);
-            cluster.want(wanted);
-            cluster.awaitEnd(wanted);
+            List<DesiredReplay> desired = desired(0, Long.MAX_VALUE, null);
+            cluster.want(desired);
+            cluster.awaitEnd(desired);
             return heap.most();
         }
     }
@@ -91,19 +91,19 @@ public final class TimingMeasurement {
     private Turn turn(int number) throws Exception {
         long until = number == 0 ? StoredMission.BEGIN + ReplayBenchPlan.WARM_UP_SECONDS * MILLIS : Long.MAX_VALUE;
         Long startAt = replays > 1 ? null : Long.valueOf(System.currentTimeMillis() + AHEAD_MILLIS);
-        List<WantedReplay> wanted = wanted(2 * number, until, startAt);
+        List<DesiredReplay> desired = desired(2 * number, until, startAt);
         long asked = System.currentTimeMillis();
-        cluster.want(wanted);
-        cluster.awaitEnd(wanted);
+        cluster.want(desired);
+        cluster.awaitEnd(desired);
         Timing.Collected played = collected();
         List<ScheduledReplay> schedule = new ArrayList<>();
         long[] untilFirst = new long[replays];
-        Map<String, List<PlayedRecord>> onTopics = ScheduledReplay.events(cluster, wanted);
+        Map<String, List<PlayedRecord>> onTopics = ScheduledReplay.events(cluster, desired);
         for (int i = 0; i < replays; i++) {
             StoredMission mission = missions.get(i % missions.size());
-            List<PlayedRecord> events = onTopics.get(wanted.get(i).topic());
+            List<PlayedRecord> events = onTopics.get(desired.get(i).topic());
             long anchor = startAt == null ? events.get(0).handedOver() : startAt;
-            schedule.add(new ScheduledReplay(wanted.get(i), mission, anchor));
+            schedule.add(new ScheduledReplay(desired.get(i), mission, anchor));
             played.add(schedule.get(i), events, expected(mission, until));
             untilFirst[i] = events.get(0).appended() - asked;
         }
@@ -116,8 +116,8 @@ public final class TimingMeasurement {
     }
 
     private Timing bare(int number, List<ScheduledReplay> schedule, long until) throws Exception {
-        List<WantedReplay> others = wanted(2 * number + 1, until, null);
-        List<String> topics = others.stream().map(WantedReplay::topic).toList();
+        List<DesiredReplay> others = desired(2 * number + 1, until, null);
+        List<String> topics = others.stream().map(DesiredReplay::topic).toList();
         cluster.make(topics);
         long first = schedule.stream()
                 .min(Comparator.comparingLong(ScheduledReplay::anchor))
@@ -140,7 +140,7 @@ public final class TimingMeasurement {
         return written.timing();
     }
 
-    private List<WantedReplay> wanted(int number, long until, Long startAt) {
+    private List<DesiredReplay> desired(int number, long until, Long startAt) {
         Long to = until == Long.MAX_VALUE ? null : Long.valueOf(until);
         ReplayPlan stamped =
                 new ReplayPlan(null, null, to, false, List.of(), null, ReplayPlan.Stamps.NOW, startAt, List.of());
@@ -148,7 +148,7 @@ public final class TimingMeasurement {
                 .mapToObj(i -> {
                     String mission = missions.get(i % missions.size()).name();
                     String topic = Topics.replay(mission, "%08x".formatted(number * replays + i));
-                    return WantedReplay.started(mission, topic, stamped, 1, 0, 1);
+                    return DesiredReplay.started(mission, topic, stamped, 1, 0, 1);
                 })
                 .toList();
     }

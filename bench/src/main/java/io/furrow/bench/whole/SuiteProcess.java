@@ -37,10 +37,10 @@ final class SuiteProcess implements AutoCloseable {
      *
      * @throws IOException if the process ends before it prints one; with its last lines
      */
-    String awaitLine(Predicate<String> wanted) throws IOException {
+    String awaitLine(Predicate<String> desired) throws IOException {
         List<String> last = new ArrayList<>();
         for (String line = printed.readLine(); line != null; line = printed.readLine()) {
-            if (wanted.test(line)) {
+            if (desired.test(line)) {
                 return line;
             }
             last.add(line);

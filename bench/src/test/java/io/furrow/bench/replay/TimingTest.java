@@ -4,8 +4,8 @@ import java.util.List;
 
 import org.junit.jupiter.api.Test;
 
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -14,7 +14,7 @@ class TimingTest {
     private static final long ANCHOR = 5_000_000;
 
     private final ScheduledReplay replay = new ScheduledReplay(
-            WantedReplay.started("m", Topics.replay("m", "0a1b2c3d"), ReplayPlan.PLAIN, 1, 0, 1),
+            DesiredReplay.started("m", Topics.replay("m", "0a1b2c3d"), ReplayPlan.PLAIN, 1, 0, 1),
             new StoredMission("m", 3, 1, 1),
             ANCHOR);
 

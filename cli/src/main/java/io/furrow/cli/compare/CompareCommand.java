@@ -157,8 +157,8 @@ public final class CompareCommand implements Callable<Integer> {
     }
 
     private OptionalLong epoch(Long ofSide) {
-        Long wanted = ofSide == null ? epoch : ofSide;
-        return wanted == null ? OptionalLong.empty() : OptionalLong.of(wanted);
+        Long desired = ofSide == null ? epoch : ofSide;
+        return desired == null ? OptionalLong.empty() : OptionalLong.of(desired);
     }
 
     private void print(Comparison comparison) throws IOException {

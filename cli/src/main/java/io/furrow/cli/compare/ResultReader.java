@@ -70,13 +70,13 @@ final class ResultReader implements AutoCloseable {
     }
 
     /**
-     * @param wanted epoch of a replay; empty for its newest
+     * @param desired epoch of a replay; empty for its newest
      * @param mission see {@link ResultCollector}
      * @throws UnreadableResultsException if a record is no entity, or Kafka does not answer
      */
-    FoundResults read(Side side, OptionalLong wanted, String mission) throws UnreadableResultsException {
+    FoundResults read(Side side, OptionalLong desired, String mission) throws UnreadableResultsException {
         try {
-            OptionalLong epoch = side.isLive() ? OptionalLong.of(0) : wanted.isPresent() ? wanted : newestEpoch(side);
+            OptionalLong epoch = side.isLive() ? OptionalLong.of(0) : desired.isPresent() ? desired : newestEpoch(side);
             ResultCollector collector = new ResultCollector(mission);
             Set<ResultKind> missing = EnumSet.noneOf(ResultKind.class);
             for (ResultKind kind : ResultKind.values()) {

@@ -53,10 +53,10 @@ final class ReplayView {
     /** What it does, and what was asked of it if that is something else. */
     static JsonNode listed(JsonNode replay) {
         String state = replay.at("/status/state").asText("not begun");
-        String wanted = replay.path("wanted").asText(state);
+        String desired = replay.path("wanted").asText(state);
         boolean settled =
-                state.equals(wanted) || OVER.contains(state) || state.equals("not begun") && wanted.equals("running");
-        return TextNode.valueOf(settled ? state : "%s, %s is requested".formatted(state, wanted));
+                state.equals(desired) || OVER.contains(state) || state.equals("not begun") && desired.equals("running");
+        return TextNode.valueOf(settled ? state : "%s, %s is requested".formatted(state, desired));
     }
 
     private static String state(JsonNode replay) {

@@ -66,8 +66,8 @@ public final class Redrive {
      */
     public record Choice(Set<String> reasons, Set<String> stages) {
         boolean isOf(Kind kind) {
-            boolean wanted = stages.isEmpty() ? !WENT_ON.contains(kind.stage()) : stages.contains(kind.stage());
-            return wanted && (reasons.isEmpty() || reasons.contains(kind.reason()));
+            boolean desired = stages.isEmpty() ? !WENT_ON.contains(kind.stage()) : stages.contains(kind.stage());
+            return desired && (reasons.isEmpty() || reasons.contains(kind.reason()));
         }
     }
 
@@ -152,9 +152,9 @@ public final class Redrive {
         boolean begun = false;
         for (ConsumerRecord<byte[], byte[]> letter : records) {
             boolean isNew = letter.offset() >= ends.get(new TopicPartition(letter.topic(), letter.partition()));
-            boolean isWanted = !isNew && isWanted(letter);
-            Optional<ConsumerRecord<byte[], byte[]>> original = isWanted ? original(letter) : Optional.empty();
-            if (isWanted && original.isEmpty()) {
+            boolean isDesired = !isNew && isDesired(letter);
+            Optional<ConsumerRecord<byte[], byte[]>> original = isDesired ? original(letter) : Optional.empty();
+            if (isDesired && original.isEmpty()) {
                 memory.leave(letter.partition(), kind(letter), letter.offset());
             } else if (original.isPresent()) {
                 memory.add(letter.partition(), kind(letter), letter.offset());
@@ -174,7 +174,7 @@ public final class Redrive {
         }
     }
 
-    private boolean isWanted(ConsumerRecord<byte[], byte[]> letter) {
+    private boolean isDesired(ConsumerRecord<byte[], byte[]> letter) {
         Kind kind = kind(letter);
         if (kind.reason().isEmpty()) {
             left.merge(OTHER, 1L, Long::sum);

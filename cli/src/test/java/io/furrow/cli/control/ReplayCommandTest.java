@@ -81,9 +81,9 @@ class ReplayCommandTest {
             running |                            | not begun
             paused  |                            | not begun, paused is requested
             """)
-    void listsWhatAReplayDoesAndWhatElseIsRequested(String wanted, String status, String shown) {
+    void listsWhatAReplayDoesAndWhatElseIsRequested(String desired, String status, String shown) {
         answer = "{\"replays\":[{\"replay\":\"m.0a1b2c3d\",\"wanted\":\"%s\",\"status\":{%s}}]}"
-                .formatted(wanted, status == null ? "" : status);
+                .formatted(desired, status == null ? "" : status);
 
         run("replay", "list");
 

@@ -287,7 +287,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
 
     /** Returns the alarm that is not closed; null if none. */
     private Alarm current(AlarmKind kind, String identity) {
-        String known = Cause.stored(records.current()::get, kind, identity);
+        String known = AlarmLimit.find(records.current(), kind, identity);
         return known == null ? null : records.alarms().get(known);
     }
 

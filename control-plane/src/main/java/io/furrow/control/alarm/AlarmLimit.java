@@ -53,7 +53,7 @@ final class AlarmLimit {
     /**
      * A cause without an alarm.
      *
-     * @param key kind and subject
+     * @param key kind and identity
      * @param until end of validity, epoch ms; null if it lasts until ended explicitly
      * @param seen when it was last reported, epoch ms, to {@link #SEEN_INTERVAL}
      */
@@ -62,6 +62,20 @@ final class AlarmLimit {
     AlarmLimit(Records<Group> groups, Records<Counted> counted) {
         this.groups = groups;
         this.counted = counted;
+    }
+
+    /**
+     * Returns what is stored of a kind and identity; null if nothing is. What an older version stored has an identity without types, or
+     * the subject alone.
+     */
+    static <T> T find(Records<T> records, AlarmKind kind, String identity) {
+        T found = records.get(Cause.key(kind, identity));
+        String[] parts = identity.split("\\|", 4);
+        if (found == null && parts.length == 4 && KINDS.contains(kind)) {
+            found = records.get(Cause.key(kind, parts[0] + "|" + parts[1] + "||" + parts[3]));
+            found = found == null ? records.get(Cause.key(kind, parts[3])) : found;
+        }
+        return found;
     }
 
     /**
@@ -74,19 +88,16 @@ final class AlarmLimit {
             return false;
         }
         Group group = group(cause.kind(), cause.group());
-        Counted before = Cause.stored(counted::get, cause.kind(), cause.identity());
+        Counted before = find(counted, cause.kind(), cause.identity());
         boolean known = before != null;
         if (!known && group.alarms() < MAX_ALARMS) {
             return false;
         }
         boolean hasRoom = group.counted() < MAX_COUNTED;
-        Counted counting =
-                new Counted(cause.key(), cause.kind(), cause.group(), cause.devices(), cause.until(now), now);
-        if (known ? !before.key().equals(cause.key()) || isNews(before, counting) : hasRoom) {
-            counted.put(cause.key(), counting);
-            if (known && !before.key().equals(cause.key())) {
-                counted.put(before.key(), null);
-            }
+        String key = known ? before.key() : cause.key();
+        Counted counting = new Counted(key, cause.kind(), cause.group(), cause.devices(), cause.until(now), now);
+        if (known ? isNews(before, counting) : hasRoom) {
+            counted.put(key, counting);
         }
         if (!known && hasRoom) {
             store(new Group(
@@ -133,7 +144,7 @@ final class AlarmLimit {
 
     /** Removes the counted cause of a kind and identity, if there is one. */
     void end(AlarmKind kind, String identity) {
-        Counted known = Cause.stored(counted::get, kind, identity);
+        Counted known = find(counted, kind, identity);
         if (known != null) {
             counted.put(known.key(), null);
             Group group = group(kind, known.group());
@@ -143,7 +154,7 @@ final class AlarmLimit {
 
     /** Lets the counted cause of a kind and identity, if there is one, end at a time. */
     void endAt(AlarmKind kind, String identity, long until) {
-        Counted known = Cause.stored(counted::get, kind, identity);
+        Counted known = find(counted, kind, identity);
         if (known != null) {
             counted.put(
                     known.key(), new Counted(known.key(), kind, known.group(), known.devices(), until, known.seen()));

@@ -2,7 +2,6 @@ package io.furrow.control.alarm;
 
 import java.time.Duration;
 import java.util.List;
-import java.util.function.Function;
 
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
@@ -81,20 +80,6 @@ public record Cause(
 
     static String key(AlarmKind kind, String identity) {
         return kind.code() + "|" + identity;
-    }
-
-    /**
-     * What is stored of a kind and identity, or of the same subject without its types or without an identity, as it was before results
-     * named types and alarms had identities; null if nothing is.
-     */
-    static <T> T stored(Function<String, T> store, AlarmKind kind, String identity) {
-        String[] parts = identity.split("\\|", 4);
-        T found = store.apply(key(kind, identity));
-        if (found == null && parts.length == 4 && AlarmLimit.KINDS.contains(kind)) {
-            T untyped = store.apply(key(kind, parts[0] + "|" + parts[1] + "||" + parts[3]));
-            found = untyped != null ? untyped : store.apply(key(kind, parts[3]));
-        }
-        return found;
     }
 
     String key() {

@@ -73,13 +73,13 @@ public final class ContextWatch {
 
         watch.send(
                 "domains",
-                watch.wanted(Topics.DOMAINS, "domains"),
+                watch.desired(Topics.DOMAINS, "domains"),
                 projection -> new Telling(
                         (record, now) -> projection.domain(record.key(), read(record, Domain.class)), projection));
 
         watch.send(
                 "missions",
-                watch.wanted(Topics.MISSIONS, "missions"),
+                watch.desired(Topics.MISSIONS, "missions"),
                 projection -> (record, now) -> projection.mission(record.key(), read(record, Mission.class)));
 
         watch.sendShared(
@@ -101,7 +101,7 @@ public final class ContextWatch {
         });
     }
 
-    private KStream<String, byte[]> wanted(String topic, String name) {
+    private KStream<String, byte[]> desired(String topic, String name) {
         return ManagerInput.observed(builder, topic, "context-" + name, AutoOffsetReset.earliest());
     }
 

@@ -12,9 +12,9 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.nayuki.qrcodegen.QrCode;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.MeasuredAttribute;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
@@ -35,12 +35,12 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
     private static final int PORT = 1883;
 
     /** Whether a device gets a login: those that only their ids are known of have one already, simulated robots need none. */
-    public static boolean has(WantedDevice device) {
+    public static boolean has(DesiredDevice device) {
         return device.device() != null && !(device.simulated() && ROBOT.equals(device.type()));
     }
 
     /** Where the broker is, login and topics as a QR code of JSON, in SVG. */
-    public String qr(WantedDevice device) {
+    public String qr(DesiredDevice device) {
         ObjectNode json = of(device).retain(QR);
         QrCode code = QrCode.encodeText(new String(NgsiJson.write(json), StandardCharsets.UTF_8), QrCode.Ecc.LOW);
         StringBuilder path = new StringBuilder();
@@ -58,7 +58,7 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
     }
 
     /** @param device with its settings */
-    public ObjectNode of(WantedDevice device) {
+    public ObjectNode of(DesiredDevice device) {
         String mission = device.version().mission();
         FarmSecret now = secret.get();
         FarmSecret.Login login = now.device(mission, device.device(), device.generation());

@@ -1,8 +1,8 @@
 package io.furrow.control.health;
 
 import io.furrow.control.manager.StateJson;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -37,7 +37,7 @@ public record DeviceHealth(
         boolean off) {
 
     /** Creates the health of a device that has not reported yet. */
-    static DeviceHealth unheard(WantedDevice device, long now) {
+    static DeviceHealth unheard(DesiredDevice device, long now) {
         DeviceVersion version = device.version();
         return new DeviceHealth(
                 version.id(),
@@ -78,7 +78,7 @@ public record DeviceHealth(
     }
 
     /** Returns the health with the device's current domain and mission. */
-    DeviceHealth of(WantedDevice device) {
+    DeviceHealth of(DesiredDevice device) {
         DeviceVersion version = device.version();
         return new DeviceHealth(
                 id,

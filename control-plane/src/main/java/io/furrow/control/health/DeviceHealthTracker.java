@@ -9,7 +9,7 @@ import java.util.Set;
 
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.record.Records;
-import io.furrow.model.device.WantedDevice;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -24,7 +24,7 @@ final class DeviceHealthTracker {
     private static final Duration POLL_INTERVAL = Duration.ofSeconds(10);
 
     private final Records<DeviceHealth> health;
-    private final WantedDevices wanted;
+    private final DesiredDevices desired;
     private final HealthOptions options;
     private final Silence silence;
     private final EventPublisher outbox;
@@ -33,12 +33,12 @@ final class DeviceHealthTracker {
 
     DeviceHealthTracker(
             Records<DeviceHealth> health,
-            WantedDevices wanted,
+            DesiredDevices desired,
             HealthOptions options,
             Silence silence,
             EventPublisher outbox) {
         this.health = health;
-        this.wanted = wanted;
+        this.desired = desired;
         this.options = options;
         this.silence = silence;
         this.outbox = outbox;
@@ -50,7 +50,7 @@ final class DeviceHealthTracker {
             silence.reported(sign.heard());
             return;
         }
-        Optional<WantedDevice> device = wanted.of(key);
+        Optional<DesiredDevice> device = desired.of(key);
         if (device.isEmpty()) {
             return; // the device was stopped meanwhile
         }
@@ -77,7 +77,7 @@ final class DeviceHealthTracker {
         if (now - lookedAt >= POLL_INTERVAL.toMillis()) {
             lookedAt = now;
             Set<String> running = new HashSet<>();
-            wanted.forEach(device -> {
+            desired.forEach(device -> {
                 running.add(device.version().key());
                 lookAt(device, now);
             });
@@ -86,7 +86,7 @@ final class DeviceHealthTracker {
         silence.reconcile(began, now);
     }
 
-    private void lookAt(WantedDevice device, long now) {
+    private void lookAt(DesiredDevice device, long now) {
         String key = device.version().key();
         DeviceHealth remembered = health.get(key);
         DeviceHealth known = remembered == null ? DeviceHealth.unheard(device, now) : remembered.of(device);
@@ -113,8 +113,8 @@ final class DeviceHealthTracker {
         }
     }
 
-    private void watch(String key, DeviceHealth device, WantedDevice wantedDevice) {
-        silence.put(key, Silence.Device.of(device, options.silentAfter(wantedDevice)));
+    private void watch(String key, DeviceHealth device, DesiredDevice desiredDevice) {
+        silence.put(key, Silence.Device.of(device, options.silentAfter(desiredDevice)));
     }
 
     private void keep(String key, DeviceHealth device) {

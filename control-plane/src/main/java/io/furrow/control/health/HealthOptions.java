@@ -2,7 +2,7 @@ package io.furrow.control.health;
 
 import java.time.Duration;
 
-import io.furrow.model.device.WantedDevice;
+import io.furrow.model.device.DesiredDevice;
 
 /**
  * Options for the silence of devices and missions.
@@ -27,7 +27,7 @@ public record HealthOptions(int periods, Duration period, double missionShare) {
     }
 
     /** Time without a report after which a device is silent, ms. */
-    long silentAfter(WantedDevice device) {
+    long silentAfter(DesiredDevice device) {
         return (device.period() == null ? period : device.period())
                 .multipliedBy(periods)
                 .toMillis();

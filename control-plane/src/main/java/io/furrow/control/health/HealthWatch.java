@@ -44,8 +44,8 @@ public final class HealthWatch {
     private HealthWatch() {}
 
     /** Returns the desired devices from a global store, which every instance and any processor can read. */
-    public static WantedDevices wanted(ProcessorContext<?, ?> context) {
-        return new WantedDevices(StoredRecords.of(context, WANTED, Function.identity(), Function.identity()));
+    public static DesiredDevices desired(ProcessorContext<?, ?> context) {
+        return new DesiredDevices(StoredRecords.of(context, WANTED, Function.identity(), Function.identity()));
     }
 
     /** Names of the stores that users of {@link #typeOf} need. */
@@ -56,12 +56,12 @@ public final class HealthWatch {
     /** Returns a lookup of a device's entity type: the reported type, else the desired type, else null. */
     public static Function<String, String> typeOf(ProcessorContext<?, ?> context) {
         Records<DeviceHealth> health = StoredRecords.of(context, HEALTH, DeviceHealth.class);
-        WantedDevices wanted = wanted(context);
+        DesiredDevices desired = desired(context);
         return identity -> {
             DeviceHealth known = health.get(identity);
             return known != null && known.type() != null
                     ? known.type()
-                    : wanted.of(identity).map(device -> device.type()).orElse(null);
+                    : desired.of(identity).map(device -> device.type()).orElse(null);
         };
     }
 
@@ -81,7 +81,7 @@ public final class HealthWatch {
         BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening =
                 (context, outbox) -> observer(new DeviceHealthTracker(
                         StoredRecords.of(context, HEALTH, DeviceHealth.class),
-                        wanted(context),
+                        desired(context),
                         options,
                         new Silence(options, AlarmManager.handler(context, outbox), connections(context)),
                         outbox));

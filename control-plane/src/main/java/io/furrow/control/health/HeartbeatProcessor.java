@@ -41,7 +41,7 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
     @Override
     public void init(ProcessorContext<String, byte[]> context) {
         super.init(context);
-        listener = new SilenceDetector(options, HealthWatch.wanted(context), this::forward);
+        listener = new SilenceDetector(options, HealthWatch.desired(context), this::forward);
         context.schedule(TICK, PunctuationType.WALL_CLOCK_TIME, listener::passTime);
     }
 

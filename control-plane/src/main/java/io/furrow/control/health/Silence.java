@@ -12,6 +12,7 @@ import java.util.Set;
 import java.util.TreeMap;
 import java.util.function.Function;
 import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
@@ -199,11 +200,12 @@ final class Silence {
         alarms.endOthers(KINDS, causes, "its devices report again or were stopped", now);
     }
 
-    /** Whether it is muted, by its id or its identity. */
+    /** Whether it is muted: by its id, with tenant and service path, or with its type too. */
     private boolean isMuted(Device device, long now) {
+        FiwareScope scope = device.scope();
         String type = device.type() == null ? "" : device.type();
-        return alarms.isMuted(AlarmKind.SILENT_DEVICE, device.id(), now)
-                || alarms.isMuted(AlarmKind.SILENT_DEVICE, device.scope().identity(type, device.id()), now);
+        return Stream.of(device.id(), scope.identity(device.id()), scope.identity(type, device.id()))
+                .anyMatch(each -> alarms.isMuted(AlarmKind.SILENT_DEVICE, each, now));
     }
 
     /** Whether another alarm has the device already: its mission misses it since its start. */

@@ -9,7 +9,7 @@ import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-import io.furrow.model.device.WantedDevice;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.ngsi.Entity;
 
@@ -30,7 +30,7 @@ final class SilenceDetector {
     private static final Duration LOOKUP_INTERVAL = Duration.ofSeconds(5);
 
     private final HealthOptions options;
-    private final WantedDevices wanted;
+    private final DesiredDevices desired;
     private final SilenceListener told;
     private final Map<String, Heard> devices = new HashMap<>();
     private long lookedUp;
@@ -62,7 +62,7 @@ final class SilenceDetector {
         }
 
         /** After a new start of its mission the next report is emitted at once. */
-        void take(WantedDevice device, long after) {
+        void take(DesiredDevice device, long after) {
             silentAfter = after;
             if (from != device.version().from()) {
                 from = device.version().from();
@@ -72,9 +72,9 @@ final class SilenceDetector {
         }
     }
 
-    SilenceDetector(HealthOptions options, WantedDevices wanted, SilenceListener told) {
+    SilenceDetector(HealthOptions options, DesiredDevices desired, SilenceListener told) {
         this.options = options;
-        this.wanted = wanted;
+        this.desired = desired;
         this.told = told;
     }
 
@@ -84,7 +84,7 @@ final class SilenceDetector {
             return true;
         }
         Heard unheard = new Heard();
-        boolean listens = isWantedStill(key, unheard);
+        boolean listens = isDesiredStill(key, unheard);
         if (listens) {
             devices.put(key, unheard);
         }
@@ -157,7 +157,7 @@ final class SilenceDetector {
         passed = now;
         if (now - lookedUp >= LOOKUP_INTERVAL.toMillis()) {
             lookedUp = now;
-            devices.entrySet().removeIf(entry -> !isWantedStill(entry.getKey(), entry.getValue()));
+            devices.entrySet().removeIf(entry -> !isDesiredStill(entry.getKey(), entry.getValue()));
         }
         if (!paused) {
             tellSilent(now);
@@ -179,8 +179,8 @@ final class SilenceDetector {
         });
     }
 
-    private boolean isWantedStill(String key, Heard heard) {
-        Optional<WantedDevice> device = wanted.of(key);
+    private boolean isDesiredStill(String key, Heard heard) {
+        Optional<DesiredDevice> device = desired.of(key);
         device.ifPresent(found -> heard.take(found, options.silentAfter(found)));
         return device.isPresent();
     }

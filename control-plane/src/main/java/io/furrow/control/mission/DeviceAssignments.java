@@ -9,8 +9,8 @@ import io.furrow.control.manager.EventPublisher;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.RefusedException;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -39,7 +39,7 @@ final class DeviceAssignments {
 
     /** Begins to ask for all devices of a mission, or for none of them where one is another's. Answers how many there are. */
     int ask(Mission mission, long now) throws RefusedException {
-        List<WantedDevice> roster = roster(mission, now);
+        List<DesiredDevice> roster = roster(mission, now);
         Set<String> beingWritten = beingWrittenFor(mission);
         checkFree(mission, roster, beingWritten);
         checkRoom(roster, beingWritten);
@@ -47,12 +47,12 @@ final class DeviceAssignments {
         return roster.size();
     }
 
-    private void checkFree(Mission mission, List<WantedDevice> roster, Set<String> beingWritten)
+    private void checkFree(Mission mission, List<DesiredDevice> roster, Set<String> beingWritten)
             throws RefusedException {
         Set<String> keys = new HashSet<>();
-        for (WantedDevice wanted : roster) {
-            String key = wanted.version().key();
-            String id = wanted.version().id();
+        for (DesiredDevice desired : roster) {
+            String key = desired.version().key();
+            String id = desired.version().id();
             DeviceState known = records.devices().get(key);
             boolean taken = known != null
                     && known.device().running()
@@ -72,9 +72,9 @@ final class DeviceAssignments {
         }
     }
 
-    private void checkRoom(List<WantedDevice> roster, Set<String> beingWritten) throws RefusedException {
+    private void checkRoom(List<DesiredDevice> roster, Set<String> beingWritten) throws RefusedException {
         long fresh = roster.stream()
-                .map(wanted -> wanted.version().key())
+                .map(desired -> desired.version().key())
                 .filter(key -> !records.devices().contains(key))
                 .count();
         long unwritten = beingWritten.stream()
@@ -115,13 +115,13 @@ final class DeviceAssignments {
 
     /** Writes the next devices of a rollout. Answers whether it is done. */
     boolean advance(Mission mission, Rollout rollout) {
-        List<WantedDevice> roster = roster(mission, rollout.time());
+        List<DesiredDevice> roster = roster(mission, rollout.time());
         int end = Math.min(roster.size(), rollout.next() + options.devicesPerStep());
-        for (WantedDevice wanted : roster.subList(Math.min(rollout.next(), end), end)) {
+        for (DesiredDevice desired : roster.subList(Math.min(rollout.next(), end), end)) {
             if (rollout.kind() == Rollout.Kind.START) {
-                put(wanted);
+                put(desired);
             } else {
-                stop(mission, wanted.version().key(), rollout.time());
+                stop(mission, desired.version().key(), rollout.time());
             }
         }
         boolean done = end == roster.size();
@@ -156,7 +156,7 @@ final class DeviceAssignments {
                     "device '%s' has a login of its own, which is not known here; list it as an object with a 'type' to give it one"
                             .formatted(id));
         }
-        WantedDevice rotated = known.device().withGeneration(known.device().generation() + 1);
+        DesiredDevice rotated = known.device().withGeneration(known.device().generation() + 1);
         String key = rotated.version().key();
         put(rotated);
         records.devices().put(key, records.devices().get(key).reported(known.confirmed(), known.reason()));
@@ -213,7 +213,7 @@ final class DeviceAssignments {
     /** Those of its devices that are still its own. */
     List<DeviceState> of(Mission mission) {
         List<DeviceState> own = new ArrayList<>();
-        for (WantedDevice each : roster(mission, 0)) {
+        for (DesiredDevice each : roster(mission, 0)) {
             DeviceState known = records.devices().get(each.version().key());
             if (known != null && !known.forgotten() && known.mission().equals(mission.mission())) {
                 own.add(known);
@@ -222,14 +222,14 @@ final class DeviceAssignments {
         return own;
     }
 
-    private List<WantedDevice> roster(Mission mission, long from) {
+    private List<DesiredDevice> roster(Mission mission, long from) {
         return PlannedDevices.of(mission, lists.groups(mission), options, from);
     }
 
-    private void put(WantedDevice device) {
+    private void put(DesiredDevice device) {
         DeviceVersion version = device.version();
         DeviceState known = records.devices().get(version.key());
-        WantedDevice numbered = device.with(version.numbered(farm.sequence().next()), device.running())
+        DesiredDevice numbered = device.with(version.numbered(farm.sequence().next()), device.running())
                 .withGeneration(Math.max(device.generation(), known == null ? 0 : known.generation()));
         if (known == null) {
             farm.quota().use(Limits.DEVICE_BYTES);

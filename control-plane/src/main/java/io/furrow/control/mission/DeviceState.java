@@ -1,25 +1,31 @@
 package io.furrow.control.mission;
 
+import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.control.health.SilenceCause;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * A device that was asked for, as it is remembered under its key.
  *
- * @param wanted the record of {@code service.devices}
+ * @param desired the record of {@code service.devices}
  * @param confirmed whether it is in the desired state: its host says so, or a real device has reported
  * @param reason why it is not, as its host or the provisioner says; null if neither said anything
  * @param forgotten whether only its generation is remembered, because its mission was deleted
  * @param connection how a real device was connected when that last explained something else; null if nothing is known of it
  */
-record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean forgotten, DeviceConnection connection) {
+record DeviceState(
+        @JsonProperty("wanted") JsonNode desired,
+        boolean confirmed,
+        String reason,
+        boolean forgotten,
+        DeviceConnection connection) {
     /** @param before null if it was never asked for */
-    static DeviceState asked(WantedDevice device, DeviceState before) {
+    static DeviceState asked(DesiredDevice device, DeviceState before) {
         try {
             DeviceConnection connection = before == null ? null : before.connection();
             return new DeviceState(NgsiJson.read(device.toBytes()), false, null, false, connection);
@@ -28,25 +34,25 @@ record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean fo
         }
     }
 
-    WantedDevice device() {
+    DesiredDevice device() {
         try {
-            return WantedDevice.read(NgsiJson.write(wanted));
+            return DesiredDevice.read(NgsiJson.write(desired));
         } catch (UnreadableException e) {
             throw new IllegalStateException("a stored device cannot be read", e);
         }
     }
 
     String mission() {
-        return wanted.path("mission").asText();
+        return desired.path("mission").asText();
     }
 
-    DeviceState reported(boolean asWanted, String why) {
-        return new DeviceState(wanted, asWanted, why, forgotten, connection);
+    DeviceState reported(boolean asDesired, String why) {
+        return new DeviceState(desired, asDesired, why, forgotten, connection);
     }
 
     /** Returns the same instance if it says nothing new. */
     DeviceState connected(DeviceConnection newConnection) {
-        DeviceState next = new DeviceState(wanted, confirmed, reason, forgotten, newConnection);
+        DeviceState next = new DeviceState(desired, confirmed, reason, forgotten, newConnection);
         return next.silence().replaces(silence()) ? next : this;
     }
 
@@ -55,7 +61,7 @@ record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean fo
     }
 
     MissionStatus.Missing missing() {
-        WantedDevice device = device();
+        DesiredDevice device = device();
         String why = reason;
         if (device.running() && !device.simulated()) {
             why = silence().text();
@@ -66,11 +72,11 @@ record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean fo
     }
 
     DeviceState asForgotten() {
-        return new DeviceState(wanted, confirmed, reason, true, null);
+        return new DeviceState(desired, confirmed, reason, true, null);
     }
 
     /** How often its credentials were rotated. */
     int generation() {
-        return wanted.path("generation").asInt();
+        return desired.path("generation").asInt();
     }
 }

@@ -54,7 +54,7 @@ public record Mission(
                 mission, domain, template, newParts, newDeviceCount, running, start, duration, created, sequence, null);
     }
 
-    Mission wanted(Long newStart, Long newDuration, long newSequence) {
+    Mission desired(Long newStart, Long newDuration, long newSequence) {
         return new Mission(
                 mission,
                 domain,
@@ -69,7 +69,7 @@ public record Mission(
                 devices);
     }
 
-    Mission unwanted(long newSequence) {
+    Mission undesired(long newSequence) {
         return new Mission(
                 mission, domain, template, parts, deviceCount, false, start, duration, created, newSequence, devices);
     }

@@ -81,7 +81,7 @@ public final class MissionCommandHandler implements DomainMissions {
                     ErrorCode.MISSION_EXISTS, "there is a mission '" + create.mission() + "' already");
         }
         Mission mission = planner.plan(null, create.mission(), create.domain(), create.plan(), now)
-                .unwanted(sequence.next());
+                .undesired(sequence.next());
         keep(mission, MissionStatus.created(mission, now));
         return created(mission);
     }
@@ -100,7 +100,7 @@ public final class MissionCommandHandler implements DomainMissions {
         long begin = start.start() == null ? now : Math.max(now, start.start().toEpochMilli());
         Long duration =
                 start.duration() == null ? null : Long.valueOf(start.duration().toMillis());
-        Mission mission = planned.wanted(begin, duration, sequence.next());
+        Mission mission = planned.desired(begin, duration, sequence.next());
         int desired = begin > now ? 0 : devices.ask(mission, now);
         MissionStatus before = status == null ? MissionStatus.created(mission, now) : status;
         keep(mission, begin > now ? before.scheduled(mission, now) : before.started(mission, desired, timeout, now));
@@ -143,7 +143,7 @@ public final class MissionCommandHandler implements DomainMissions {
     private void stop(String name, long now) {
         MissionStatus status = records.statuses().get(name);
         if (status.state() != MissionState.STOPPING) {
-            Mission mission = records.missions().get(name).unwanted(sequence.next());
+            Mission mission = records.missions().get(name).undesired(sequence.next());
             int simulated = devices.dismiss(mission, now);
             keep(mission, status.stopped(mission, simulated, timeout, now));
         }
@@ -311,8 +311,8 @@ public final class MissionCommandHandler implements DomainMissions {
     }
 
     private void fail(Mission mission, MissionStatus status, String reason, long now) {
-        Mission unwanted = mission.unwanted(sequence.next());
-        keep(unwanted, status.failed(unwanted, reason, now));
+        Mission undesired = mission.undesired(sequence.next());
+        keep(undesired, status.failed(undesired, reason, now));
     }
 
     private void keep(Mission mission, MissionStatus status) {

@@ -87,22 +87,22 @@ public record MissionStatus(
     }
 
     /** It could not start; its devices, if any were asked for, are no longer wanted. */
-    MissionStatus failed(Mission unwanted, String why, long now) {
-        MissionStatus failed = next(MissionState.FAILED, now, unwanted.sequence());
+    MissionStatus failed(Mission undesired, String why, long now) {
+        MissionStatus failed = next(MissionState.FAILED, now, undesired.sequence());
         return new MissionStatus(
                 mission, domain, failed.state, now, failed.sequence, devices, 0, List.of(), why, null, null);
     }
 
     /** One of its devices came to the desired state, or is in it no longer. */
-    MissionStatus reported(Missing device, boolean asWanted, long now) {
+    MissionStatus reported(Missing device, boolean asDesired, long now) {
         boolean late = state == MissionState.RUNNING || !missing.isEmpty();
         List<Missing> named = new ArrayList<>(missing);
         named.removeIf(known -> known.id().equals(device.id()));
-        if (!asWanted && late && named.size() < MAX_NAMED) {
+        if (!asDesired && late && named.size() < MAX_NAMED) {
             named.add(device);
         }
-        MissionStatus after = progress(devices, confirmed + (asWanted ? 1 : -1));
-        return state == MissionState.STARTING && late && asWanted
+        MissionStatus after = progress(devices, confirmed + (asDesired ? 1 : -1));
+        return state == MissionState.STARTING && late && asDesired
                 ? after.without(named, now)
                 : after.naming(named).advanced(now);
     }

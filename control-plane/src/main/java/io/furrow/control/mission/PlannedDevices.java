@@ -9,9 +9,9 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.GroupRef;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -26,7 +26,7 @@ final class PlannedDevices {
     private final long from;
     private final Map<String, Integer> numbers = new HashMap<>();
     private final Map<String, List<String>> idsByLabel = new HashMap<>();
-    private final List<WantedDevice> devices = new ArrayList<>();
+    private final List<DesiredDevice> devices = new ArrayList<>();
 
     private PlannedDevices(Mission mission, MissionOptions options, long from) {
         this.mission = mission;
@@ -36,7 +36,7 @@ final class PlannedDevices {
     }
 
     /** All of them, wanted from a time on, with the sequence 0. */
-    static List<WantedDevice> of(Mission mission, List<ListedGroup> groups, MissionOptions options, long from) {
+    static List<DesiredDevice> of(Mission mission, List<ListedGroup> groups, MissionOptions options, long from) {
         PlannedDevices roster = new PlannedDevices(mission, options, from);
         List<List<String>> ids =
                 groups.stream().map(each -> roster.name(each.group())).toList();
@@ -85,7 +85,7 @@ final class PlannedDevices {
                     group.settings().has("at"));
             String device = group.type() != null ? ids.get(i).replace("+", "%2B") : null;
             ObjectNode none = JsonNodeFactory.instance.objectNode();
-            devices.add(new WantedDevice(
+            devices.add(new DesiredDevice(
                     version,
                     group.type(),
                     device,

@@ -82,11 +82,11 @@ public final class TemplateStore {
     /** @param version 0 for the newest */
     MissionTemplate find(String name, int version) throws RefusedException {
         List<Integer> kept = known(name).kept();
-        int wanted = version == 0 && !kept.isEmpty() ? kept.get(kept.size() - 1) : version;
-        if (!kept.contains(wanted)) {
+        int desired = version == 0 && !kept.isEmpty() ? kept.get(kept.size() - 1) : version;
+        if (!kept.contains(desired)) {
             throw unknown(name, version);
         }
-        return templates.get(name + "@" + wanted);
+        return templates.get(name + "@" + desired);
     }
 
     /** Missions made from it keep their devices. @param version 0 for all */

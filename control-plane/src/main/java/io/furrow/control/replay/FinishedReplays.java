@@ -6,9 +6,9 @@ import java.util.Map;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -17,7 +17,7 @@ import io.furrow.model.topic.Topics;
  * service.replays} is compacted away is taken to have had the topic that is called after it.
  */
 final class FinishedReplays {
-    private final Map<String, WantedReplay> wanted = new HashMap<>();
+    private final Map<String, DesiredReplay> desired = new HashMap<>();
     /** Of each replay whose status is there. */
     private final Map<String, String> topics = new HashMap<>();
     /** When each that is over for good was so, epoch ms. */
@@ -32,7 +32,7 @@ final class FinishedReplays {
         }
         try {
             if (record.topic().equals(Topics.REPLAYS)) {
-                takeWanted(record.key(), record.value());
+                takeDesired(record.key(), record.value());
             } else {
                 takeStatus(record);
             }
@@ -41,13 +41,13 @@ final class FinishedReplays {
         }
     }
 
-    private void takeWanted(String replay, byte[] value) throws UnreadableException {
+    private void takeDesired(String replay, byte[] value) throws UnreadableException {
         if (value == null) {
-            wanted.remove(replay);
+            desired.remove(replay);
             return;
         }
-        WantedReplay read = WantedReplay.read(replay, value);
-        wanted.put(replay, read);
+        DesiredReplay read = DesiredReplay.read(replay, value);
+        desired.put(replay, read);
         topics.put(replay, read.topic());
     }
 
@@ -66,7 +66,7 @@ final class FinishedReplays {
     /** Those that were over by a moment, and that nobody wants. @param moment epoch ms */
     List<Remains> overBy(long moment) {
         return over.entrySet().stream()
-                .filter(each -> each.getValue() <= moment && !wanted.containsKey(each.getKey()))
+                .filter(each -> each.getValue() <= moment && !desired.containsKey(each.getKey()))
                 .map(each -> new Remains(each.getKey(), topicOf(each.getKey())))
                 .filter(each -> !isUsed(each.topic()))
                 .filter(each -> over.entrySet().stream()
@@ -77,11 +77,11 @@ final class FinishedReplays {
 
     /** Whether a replay that is wanted plays on the topic, or from it. */
     boolean isUsed(String topic) {
-        return wanted.values().stream().anyMatch(replay -> uses(replay, topic));
+        return desired.values().stream().anyMatch(replay -> uses(replay, topic));
     }
 
     /** Plays on it, or from it or from what was found in it. */
-    private static boolean uses(WantedReplay replay, String topic) {
+    private static boolean uses(DesiredReplay replay, String topic) {
         ReplayPlan.Source source = replay.plan().source();
         String played = source == null || source.topic() == null ? "" : source.topic();
         return replay.topic().equals(topic) || played.equals(topic) || played.startsWith(topic + ".");

@@ -8,7 +8,7 @@ import java.util.stream.LongStream;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.mission.RecordedMission;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.topic.TopicName;
 
 /**
@@ -43,7 +43,7 @@ record RecordedMissions(boolean checked, Function<String, RecordedMission> find)
      * @param time of an event, epoch ms
      * @param reported null if nothing was reported of the replay
      */
-    void requireWithin(long time, WantedReplay replay, ReportedReplay reported) throws RefusedException {
+    void requireWithin(long time, DesiredReplay replay, ReportedReplay reported) throws RefusedException {
         RecordedMission listed = replay.plan().source() == null ? known(replay.mission()) : null;
         boolean isReported = reported != null && reported.first() != null;
         LongStream.Builder firsts = LongStream.builder();

@@ -19,9 +19,9 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
 
@@ -37,7 +37,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     private static final String REPLAY = "replay";
     private static final String GROUP = "group";
 
-    private final Records<WantedReplay> replays;
+    private final Records<DesiredReplay> replays;
     private final ReplayReports reports;
     private final RecordedMissions recordings;
     private final ReplayNames names;
@@ -71,7 +71,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
      *
      * @param counters of the sequence, and of the room that is used
      */
-    record ReplayStores(Records<WantedReplay> replays, Records<ReportedReplay> reports, Records<Long> counters) {}
+    record ReplayStores(Records<DesiredReplay> replays, Records<ReportedReplay> reports, Records<Long> counters) {}
 
     @Override
     public CommandResult answer(ReplayCommand command, long now) throws RefusedException {
@@ -110,7 +110,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     private CommandResult start(ReplayCommand.Start start, long now) throws RefusedException {
         String mission = start.missions().get(0);
         String topic = start.topic() == null ? Topics.replay(mission, names.newId(start.missions())) : start.topic();
-        WantedReplay replay = wanted(start, mission, topic, start.plan(), now, sequence.next());
+        DesiredReplay replay = desired(start, mission, topic, start.plan(), now, sequence.next());
         names.require(replay);
         keep(null, replay);
         return CommandResult.of("created").with(REPLAY, replay.replay()).with("topic", replay.topic());
@@ -120,23 +120,23 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         ReplayPlan plan = groupPlan(start);
         String id = names.newId(start.missions());
         long number = sequence.next();
-        List<WantedReplay> members = new ArrayList<>();
+        List<DesiredReplay> members = new ArrayList<>();
         for (String mission : start.missions()) {
-            WantedReplay member = wanted(start, mission, Topics.replay(mission, id), plan, now, number);
+            DesiredReplay member = desired(start, mission, Topics.replay(mission, id), plan, now, number);
             ReplayGroup.checkRange(member, start.range());
             members.add(member);
         }
-        List<WantedReplay> group = ReplayGroup.started(members, id, now);
-        for (WantedReplay member : group) {
+        List<DesiredReplay> group = ReplayGroup.started(members, id, now);
+        for (DesiredReplay member : group) {
             keep(null, member);
         }
         return about(CommandResult.of("created"), id, group)
-                .with("topics", group.stream().map(WantedReplay::topic).toList());
+                .with("topics", group.stream().map(DesiredReplay::topic).toList());
     }
 
-    private static WantedReplay wanted(
+    private static DesiredReplay desired(
             ReplayCommand.Start start, String mission, String topic, ReplayPlan plan, long now, long number) {
-        return WantedReplay.started(mission, topic, plan, start.speed(), now, number)
+        return DesiredReplay.started(mission, topic, plan, start.speed(), now, number)
                 .within(start.range(), number);
     }
 
@@ -161,7 +161,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     }
 
     private CommandResult steer(ReplayCommand.Steering steering) throws RefusedException {
-        WantedReplay known = replays.get(steering.target().replay());
+        DesiredReplay known = replays.get(steering.target().replay());
         if (known == null) {
             throw unknown(steering);
         }
@@ -176,13 +176,13 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         if (steering instanceof ReplayCommand.Seek seek) {
             recordings.requireWithin(seek.to().toEpochMilli(), known, reports.get(known));
         }
-        WantedReplay next = next(steering, known, state);
+        DesiredReplay next = next(steering, known, state);
         keep(known, next);
         return CommandResult.of(word(known, state, next)).with(REPLAY, next.replay());
     }
 
     private CommandResult steerGroup(ReplayCommand.Steering steering, long now) throws RefusedException {
-        List<WantedReplay> known = members(steering.target().group());
+        List<DesiredReplay> known = members(steering.target().group());
         if (known.isEmpty()) {
             throw unknown(steering);
         }
@@ -190,7 +190,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         group.check(steering);
         ReplayStatus.State state = reports.state(known);
         ReplayReports.check(steering, state);
-        List<WantedReplay> next = group.steered(steering, now, sequence.next());
+        List<DesiredReplay> next = group.steered(steering, now, sequence.next());
         for (int i = 0; i < next.size(); i++) {
             keep(known.get(i), next.get(i));
         }
@@ -200,8 +200,8 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
                 next);
     }
 
-    private List<WantedReplay> members(String group) {
-        List<WantedReplay> members = new ArrayList<>();
+    private List<DesiredReplay> members(String group) {
+        List<DesiredReplay> members = new ArrayList<>();
         replays.forEach(each -> {
             if (group.equals(each.group())) {
                 members.add(each);
@@ -210,18 +210,18 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         return members;
     }
 
-    private static CommandResult about(CommandResult answer, String group, List<WantedReplay> members) {
+    private static CommandResult about(CommandResult answer, String group, List<DesiredReplay> members) {
         return answer.with(GROUP, group)
-                .with("replays", members.stream().map(WantedReplay::replay).toList());
+                .with("replays", members.stream().map(DesiredReplay::replay).toList());
     }
 
     /** What became of it: a replay that is over is neither running nor paused until it shall play again. */
-    private static String word(WantedReplay known, ReplayStatus.State state, WantedReplay next) {
-        if (next.wanted() == ReplayStatus.State.STOPPED) {
+    private static String word(DesiredReplay known, ReplayStatus.State state, DesiredReplay next) {
+        if (next.desired() == ReplayStatus.State.STOPPED) {
             return "deleted";
         }
         boolean playsAgain = !Objects.equals(known.seek(), next.seek()) || !Objects.equals(known.step(), next.step());
-        return state.isOver() && !playsAgain ? "changed" : next.wanted().word();
+        return state.isOver() && !playsAgain ? "changed" : next.desired().word();
     }
 
     private static RefusedException unknown(ReplayCommand.Steering steering) {
@@ -230,22 +230,22 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     }
 
     /** @param state in which it is */
-    private WantedReplay next(ReplayCommand.Steering steering, WantedReplay known, ReplayStatus.State state) {
+    private DesiredReplay next(ReplayCommand.Steering steering, DesiredReplay known, ReplayStatus.State state) {
         long number = sequence.next();
         if (steering instanceof ReplayCommand.Seek seek) {
             return known.seeking(seek.to().toEpochMilli(), number);
         } else if (steering instanceof ReplayCommand.Speed speed) {
             return known.at(speed.speed(), number);
         } else if (steering instanceof ReplayCommand.Step step) {
-            return known.wanted(ReplayStatus.State.PAUSED, number).stepping(step.count(), number);
+            return known.desired(ReplayStatus.State.PAUSED, number).stepping(step.count(), number);
         } else if (steering instanceof ReplayCommand.Loop loop) {
-            WantedReplay within = known.within(loop.range(), number);
+            DesiredReplay within = known.within(loop.range(), number);
             return state.isOver() && loop.range() != null ? within.seeking(within.from(0), number) : within;
         }
         return switch (((ReplayCommand.Simple) steering).what()) {
-            case STOP -> known.wanted(ReplayStatus.State.STOPPED, number);
-            case PAUSE -> known.wanted(ReplayStatus.State.PAUSED, number);
-            case RESUME -> known.wanted(ReplayStatus.State.RUNNING, number);
+            case STOP -> known.desired(ReplayStatus.State.STOPPED, number);
+            case PAUSE -> known.desired(ReplayStatus.State.PAUSED, number);
+            case RESUME -> known.desired(ReplayStatus.State.RUNNING, number);
         };
     }
 
@@ -256,7 +256,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         }
         reports.take(replay, told, now);
         if (told.state().isOver() && told.settled() && told.state() != ReplayStatus.State.ENDED) {
-            WantedReplay known = replays.get(replay);
+            DesiredReplay known = replays.get(replay);
             if (told.sequence() >= known.sequence()) {
                 remove(known);
             }
@@ -266,18 +266,18 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     /** Forgets replays that have rested at their ends for long enough; those of a group together. */
     @Override
     public void passTime(long now) {
-        List<WantedReplay> rested = reports.endedBy(now - settings.keepEnded().toMillis()).stream()
+        List<DesiredReplay> rested = reports.endedBy(now - settings.keepEnded().toMillis()).stream()
                 .map(replays::get)
                 .filter(each -> reports.state(each).isOver())
                 .toList();
-        for (WantedReplay each : rested) {
+        for (DesiredReplay each : rested) {
             if (each.group() == null || rested.containsAll(members(each.group()))) {
                 remove(each);
             }
         }
     }
 
-    private void remove(WantedReplay known) {
+    private void remove(DesiredReplay known) {
         quota.use(-known.toBytes().length);
         replays.put(known.replay(), null);
         reports.remove(known.replay());
@@ -285,7 +285,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     }
 
     /** @param before null if there was none */
-    private void keep(WantedReplay before, WantedReplay replay) throws RefusedException {
+    private void keep(DesiredReplay before, DesiredReplay replay) throws RefusedException {
         byte[] value = replay.toBytes();
         if (before == null) {
             quota.replace(null, value);

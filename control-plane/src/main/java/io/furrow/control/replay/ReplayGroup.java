@@ -12,10 +12,10 @@ import io.furrow.model.control.ReplayCommand.Seek;
 import io.furrow.model.control.ReplayCommand.Simple;
 import io.furrow.model.control.ReplayCommand.Speed;
 import io.furrow.model.control.ReplayCommand.Step;
+import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.replay.DesiredReplay.Clock;
+import io.furrow.model.control.replay.DesiredReplay.Range;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
-import io.furrow.model.control.replay.WantedReplay.Clock;
-import io.furrow.model.control.replay.WantedReplay.Range;
 
 /** Replays that follow one clock: what a command makes of all of them. Times are epoch ms. */
 final class ReplayGroup {
@@ -24,19 +24,19 @@ final class ReplayGroup {
 
     private static final long DELAY = 1000;
 
-    private final List<WantedReplay> members;
+    private final List<DesiredReplay> members;
     /** Any of them: what is asked of a group is the same for all. */
-    private final WantedReplay one;
+    private final DesiredReplay one;
 
     /** @param members at least one */
-    ReplayGroup(List<WantedReplay> members) {
+    ReplayGroup(List<DesiredReplay> members) {
         this.members = members;
         this.one = members.get(0);
     }
 
     /** Those of a new group, whose plans are of the same time, from the beginning of what is played. */
-    static List<WantedReplay> started(List<WantedReplay> members, String group, long now) {
-        WantedReplay one = members.get(0);
+    static List<DesiredReplay> started(List<DesiredReplay> members, String group, long now) {
+        DesiredReplay one = members.get(0);
         Long startAt = one.plan().startAt();
         long at = Math.max(now + START_DELAY, startAt == null ? 0 : startAt);
         Clock clock = new Clock(at, one.from(one.plan().from()));
@@ -64,7 +64,7 @@ final class ReplayGroup {
      * @param replay of a group
      * @param range null for all
      */
-    static void checkRange(WantedReplay replay, Range range) throws RefusedException {
+    static void checkRange(DesiredReplay replay, Range range) throws RefusedException {
         long from = replay.plan().from();
         long to = replay.plan().to();
         if (range != null && (range.from() >= to || range.to() <= from)) {
@@ -86,7 +86,7 @@ final class ReplayGroup {
     }
 
     /** What is requested of all of them after a command that was checked. @param sequence of it */
-    List<WantedReplay> steered(ReplayCommand.Steering steering, long now, long sequence) {
+    List<DesiredReplay> steered(ReplayCommand.Steering steering, long now, long sequence) {
         if (steering instanceof Seek seek) {
             return jumped(seek.to().toEpochMilli(), now, sequence);
         } else if (steering instanceof Speed speed) {
@@ -95,23 +95,23 @@ final class ReplayGroup {
             return looped(loop.range(), now, sequence);
         }
         return switch (((Simple) steering).what()) {
-            case STOP -> all(each -> each.wanted(ReplayStatus.State.STOPPED, sequence), one.clock());
+            case STOP -> all(each -> each.desired(ReplayStatus.State.STOPPED, sequence), one.clock());
             case PAUSE ->
-                all(each -> each.wanted(ReplayStatus.State.PAUSED, sequence), new Clock(now, one.position(now)));
+                all(each -> each.desired(ReplayStatus.State.PAUSED, sequence), new Clock(now, one.position(now)));
             case RESUME ->
                 all(
-                        each -> each.wanted(ReplayStatus.State.RUNNING, sequence),
+                        each -> each.desired(ReplayStatus.State.RUNNING, sequence),
                         new Clock(soon(now), one.clock().shows()));
         };
     }
 
-    private List<WantedReplay> jumped(long to, long now, long sequence) {
+    private List<DesiredReplay> jumped(long to, long now, long sequence) {
         return all(each -> each.seeking(to, sequence), new Clock(soon(now), to));
     }
 
     /** Continues where it is, or from the beginning of the range where that is outside of it. */
-    private List<WantedReplay> looped(Range range, long now, long sequence) {
-        List<WantedReplay> within = all(each -> each.within(range, sequence), going(now));
+    private List<DesiredReplay> looped(Range range, long now, long sequence) {
+        List<DesiredReplay> within = all(each -> each.within(range, sequence), going(now));
         ReplayGroup next = new ReplayGroup(within);
         return range == null || next.isWithin(one.position(now))
                 ? within
@@ -129,7 +129,7 @@ final class ReplayGroup {
         return Math.max(now + DELAY, startAt == null ? 0 : startAt);
     }
 
-    private List<WantedReplay> all(UnaryOperator<WantedReplay> change, Clock clock) {
+    private List<DesiredReplay> all(UnaryOperator<DesiredReplay> change, Clock clock) {
         return members.stream()
                 .map(each -> change.apply(each).following(each.group(), clock))
                 .toList();

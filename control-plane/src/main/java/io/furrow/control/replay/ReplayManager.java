@@ -26,8 +26,8 @@ import io.furrow.control.manager.record.Records;
 import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -96,9 +96,9 @@ public final class ReplayManager {
         }
     }
 
-    private static WantedReplay kept(byte[] value) {
+    private static DesiredReplay kept(byte[] value) {
         try {
-            return WantedReplay.read(value);
+            return DesiredReplay.read(value);
         } catch (UnreadableException e) {
             throw new IllegalStateException("the manager kept a replay that it cannot read", e);
         }
@@ -109,7 +109,7 @@ public final class ReplayManager {
         Records<RecordedMission> recordings =
                 StoredRecords.of(context, RECORDINGS, RecordedMission::toBytes, ReplayManager::listed);
         ReplayCommandHandler.ReplayStores stores = new ReplayCommandHandler.ReplayStores(
-                StoredRecords.of(context, REPLAYS, WantedReplay::toBytes, ReplayManager::kept),
+                StoredRecords.of(context, REPLAYS, DesiredReplay::toBytes, ReplayManager::kept),
                 StoredRecords.of(context, REPORTS, ReportedReplay.class),
                 StoredRecords.of(context, SEQUENCE, Long.class));
         return new ReplayCommandHandler(

@@ -7,17 +7,17 @@ import java.util.function.Supplier;
 import io.furrow.control.manager.record.Records;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.topic.Topics;
 
 /** Gives new replays names and topics that no wanted replay has. */
 final class ReplayNames {
     private static final int ID_DIGITS = 8;
 
-    private final Records<WantedReplay> replays;
+    private final Records<DesiredReplay> replays;
     private final Supplier<UUID> ids;
 
-    ReplayNames(Records<WantedReplay> replays, Supplier<UUID> ids) {
+    ReplayNames(Records<DesiredReplay> replays, Supplier<UUID> ids) {
         this.replays = replays;
         this.ids = ids;
     }
@@ -41,14 +41,14 @@ final class ReplayNames {
     }
 
     /** @throws RefusedException where another replay has the name or the topic of a new one */
-    void require(WantedReplay fresh) throws RefusedException {
+    void require(DesiredReplay fresh) throws RefusedException {
         if (replays.contains(fresh.replay())) {
             throw new RefusedException(
                     ErrorCode.REPLAY_EXISTS,
                     "there is a replay '%s' already; choose a topic of other digits, or stop it first"
                             .formatted(fresh.replay()));
         }
-        WantedReplay[] owner = new WantedReplay[1];
+        DesiredReplay[] owner = new DesiredReplay[1];
         replays.forEach(each -> owner[0] = each.topic().equals(fresh.topic()) ? each : owner[0]);
         if (owner[0] != null) {
             throw new RefusedException(

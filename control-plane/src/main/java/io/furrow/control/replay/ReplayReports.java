@@ -7,9 +7,9 @@ import io.furrow.control.manager.record.Records;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 
 /** The actual state of desired replays, as reported, and what of a command fits it. */
 final class ReplayReports {
@@ -33,22 +33,22 @@ final class ReplayReports {
     }
 
     /** Null if nothing was reported. */
-    ReportedReplay get(WantedReplay replay) {
+    ReportedReplay get(DesiredReplay replay) {
         return reports.get(replay.replay());
     }
 
     /** What was reported, where nothing more comes of what is desired; else what is desired. */
-    State state(WantedReplay replay) {
+    State state(DesiredReplay replay) {
         ReportedReplay told = get(replay);
-        return told != null && told.isOver(replay.sequence()) && replay.wanted() != State.STOPPED
+        return told != null && told.isOver(replay.sequence()) && replay.desired() != State.STOPPED
                 ? told.state()
-                : replay.wanted();
+                : replay.desired();
     }
 
     /** Of a group that is over when all of its members are. */
-    State state(List<WantedReplay> members) {
-        WantedReplay one = members.get(0);
-        return members.stream().allMatch(each -> state(each).isOver()) ? state(one) : one.wanted();
+    State state(List<DesiredReplay> members) {
+        DesiredReplay one = members.get(0);
+        return members.stream().allMatch(each -> state(each).isOver()) ? state(one) : one.desired();
     }
 
     /** Names of those that had come to their ends by a moment. @param moment epoch ms */

@@ -59,9 +59,9 @@ public final class AuditResource {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER, "'before' must be the position of an entry, a whole number from 0");
         }
-        Predicate<AuditedEntry> wanted = entry -> entry.isAbout("device", device) && entry.isAbout("mission", mission);
+        Predicate<AuditedEntry> desired = entry -> entry.isAbout("device", device) && entry.isAbout("mission", mission);
         AuditHistory.Page page =
-                page(before == null ? Long.MAX_VALUE : Long.parseLong(before), Integer.parseInt(limit), wanted);
+                page(before == null ? Long.MAX_VALUE : Long.parseLong(before), Integer.parseInt(limit), desired);
         ArrayNode entries = JsonNodeFactory.instance.arrayNode();
         page.entries().forEach(each -> entries.add(each.json()));
         Response.ResponseBuilder answer = JsonResponses.json(200, entries);
@@ -71,10 +71,10 @@ public final class AuditResource {
         return answer.build();
     }
 
-    private AuditHistory.Page page(long before, int limit, Predicate<AuditedEntry> wanted) {
+    private AuditHistory.Page page(long before, int limit, Predicate<AuditedEntry> desired) {
         ServiceView.AuditPage held = view.audited(before);
         if (held.entries().isEmpty() && !held.isWhole()) {
-            return history.read(before, limit, wanted);
+            return history.read(before, limit, desired);
         }
         List<AuditedEntry> found = new ArrayList<>();
         long next = -1;
@@ -83,7 +83,7 @@ public final class AuditResource {
                 return new AuditHistory.Page(found, next);
             }
             next = entry.position();
-            if (wanted.test(entry)) {
+            if (desired.test(entry)) {
                 found.add(entry);
             }
         }

@@ -38,7 +38,7 @@ import io.furrow.control.rest.view.DesiredDevices;
 import io.furrow.control.rest.view.DeviceName;
 import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.device.WantedDevice;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
@@ -84,8 +84,8 @@ public final class DevicesResource {
                 .map(each -> described(each.key(), each.value())));
     }
 
-    private static boolean is(ObjectNode device, String member, String wanted) {
-        return wanted == null || wanted.equals(device.path(member).textValue());
+    private static boolean is(ObjectNode device, String member, String desired) {
+        return desired == null || desired.equals(device.path(member).textValue());
     }
 
     @GET
@@ -99,7 +99,7 @@ public final class DevicesResource {
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
     public Response credentials(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
-        WantedDevice device = provisioned(name);
+        DesiredDevice device = provisioned(name);
         audit(Caller.user(request), "credentials", about(name), null);
         return secret(means.credentials().of(device));
     }
@@ -110,7 +110,7 @@ public final class DevicesResource {
     @Path("{device}/credentials")
     @Produces(CSV)
     public Response credentialsAsCsv(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
-        WantedDevice device = provisioned(name);
+        DesiredDevice device = provisioned(name);
         audit(Caller.user(request), "credentials", about(name), null);
         return csv(List.of(means.credentials().of(device)));
     }
@@ -121,7 +121,7 @@ public final class DevicesResource {
     @Path("{device}/credentials/qr")
     @Produces("image/svg+xml")
     public Response qr(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
-        WantedDevice device = provisioned(name);
+        DesiredDevice device = provisioned(name);
         audit(Caller.user(request), "credentials", about(name), null);
         return Response.ok(means.credentials().qr(device))
                 .header("Cache-Control", "no-store")
@@ -133,7 +133,7 @@ public final class DevicesResource {
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
     public CompletionStage<Response> rotate(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
-        WantedDevice device = provisioned(name);
+        DesiredDevice device = provisioned(name);
         return managers.ask(
                         new CommandClient.CommandRequest(Topics.MISSION_MANAGER, "rotate-credentials", about(name)),
                         Caller.of(request))
@@ -161,10 +161,10 @@ public final class DevicesResource {
     }
 
     /** A device that has credentials, which can be shown here. */
-    private WantedDevice provisioned(DeviceName name) {
+    private DesiredDevice provisioned(DeviceName name) {
         find(name);
         String key = keyOf(name);
-        WantedDevice device = devices.find(key)
+        DesiredDevice device = devices.find(key)
                 .filter(found ->
                         DeviceCredentials.has(found) && key.equals(means.scope().identity(name.id())))
                 .orElse(null);
@@ -286,18 +286,18 @@ public final class DevicesResource {
         return name.key(view.keys(Topics.DEVICES), means.scope());
     }
 
-    private ObjectNode described(String key, ObjectNode wanted) {
-        view.find(Topics.DEVICES_STATUS, key).ifPresent(status -> wanted.set("status", status));
+    private ObjectNode described(String key, ObjectNode desired) {
+        view.find(Topics.DEVICES_STATUS, key).ifPresent(status -> desired.set("status", status));
         view.find(Topics.DEVICES_HEALTH, key).ifPresent(health -> {
-            wanted.set("health", health);
-            boolean isUp = !wanted.path("simulated").asBoolean()
-                    && "running".equals(wanted.path("wanted").textValue())
-                    && health.path("heard").asLong() >= wanted.path("from").asLong();
+            desired.set("health", health);
+            boolean isUp = !desired.path("simulated").asBoolean()
+                    && "running".equals(desired.path("wanted").textValue())
+                    && health.path("heard").asLong() >= desired.path("from").asLong();
             if (isUp) { // no host says so of a real device
-                wanted.putObject("status").put("state", "running").set("sequence", wanted.path("sequence"));
+                desired.putObject("status").put("state", "running").set("sequence", desired.path("sequence"));
             }
         });
-        return wanted;
+        return desired;
     }
 
     /** The device with the settings of its group, which may be large: lists of devices leave them out. */

@@ -141,10 +141,10 @@ public final class MissionsResource {
     }
 
     /** The mission as it is requested, and how far it is. */
-    private ObjectNode withStatus(ObjectNode wanted) {
-        view.find(Topics.MISSIONS_STATUS, wanted.path(MISSION).asText())
-                .ifPresent(status -> wanted.set("status", status));
-        return wanted;
+    private ObjectNode withStatus(ObjectNode desired) {
+        view.find(Topics.MISSIONS_STATUS, desired.path(MISSION).asText())
+                .ifPresent(status -> desired.set("status", status));
+        return desired;
     }
 
     /** The mission with its device list, part by part. */

@@ -6,6 +6,8 @@ import java.util.List;
 import java.util.Set;
 
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.control.manager.KeptOutbox;
 import io.furrow.control.manager.MapRecords;
@@ -91,16 +93,36 @@ class AlarmCommandHandlerTest {
         assertThat(alarm("suspect-sensor-1").state()).isEqualTo(AlarmState.CLOSED);
     }
 
-    @Test
-    void goesOnWithAnAlarmOfAnOlderVersionThatHadNoIdentity() {
-        Cause older = new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR);
-        Cause cause = older.identifiedBy("farm|/|Thermometer|s");
-        handler.raise(older, NOW);
-        handler.raise(cause, NOW + 10);
+    /** The control plane may be older, and then the job that does not name types. */
+    @ParameterizedTest
+    @ValueSource(strings = {"s", "farm|/||s"})
+    void goesOnWithAnAlarmOfAnOlderVersion(String olderIdentity) {
+        Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR);
+        Cause newer = cause.identifiedBy("farm|/|Thermometer|s");
+        handler.raise(cause.identifiedBy(olderIdentity), NOW);
+        handler.raise(newer, NOW + 10);
         assertThat(current()).hasSize(1);
-        handler.end(AlarmKind.SUSPECT_SENSOR, cause.identity(), "over", NOW + 20);
-        handler.raise(cause, NOW + 30);
-        assertThat(current()).singleElement().returns(cause.identity(), Alarm::identity);
+        handler.end(AlarmKind.SUSPECT_SENSOR, newer.identity(), "over", NOW + 20);
+        handler.raise(newer, NOW + 30);
+        assertThat(current()).singleElement().returns(newer.identity(), Alarm::identity);
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"", "farm|/||"})
+    void countsACauseThatAnOlderVersionCountedOnce(String olderScope) {
+        for (int i = 0; i < AlarmLimit.MAX_ALARMS + 3; i++) {
+            handler.raise(pair(i).identifiedBy(olderScope + "pair" + i), NOW);
+        }
+        String last = "pair" + (AlarmLimit.MAX_ALARMS + 2);
+        handler.raise(pair(AlarmLimit.MAX_ALARMS + 2).identifiedBy("farm|/|ROBOT ROBOT|" + last), NOW + 1);
+        handler.passTime(NOW + 20_000);
+        Alarm crowd = alarm("collision-" + (AlarmLimit.MAX_ALARMS + 1));
+        assertThat(crowd.affected()).isEqualTo(3);
+
+        handler.end(AlarmKind.COLLISION, "farm|/|ROBOT ROBOT|" + last, "over", NOW + 20_001);
+        handler.endAt(AlarmKind.COLLISION, "farm|/|ROBOT ROBOT|pair" + AlarmLimit.MAX_ALARMS, NOW + 30_000);
+        handler.passTime(NOW + 40_000);
+        assertThat(alarm(crowd.alarm()).affected()).isEqualTo(1);
     }
 
     @Test

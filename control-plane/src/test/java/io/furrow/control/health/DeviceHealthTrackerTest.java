@@ -16,10 +16,10 @@ import io.furrow.control.manager.KeptOutbox;
 import io.furrow.control.manager.MapRecords;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmKind;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
@@ -33,7 +33,7 @@ class DeviceHealthTrackerTest {
     /** Three periods, and the timeout with devices that come up. */
     private static final long LONG_ENOUGH = 30_000 + DeviceHealthTracker.TIMEOUT.toMillis();
 
-    private final MapRecords<byte[]> wanted = new MapRecords<>(Function.identity(), Function.identity());
+    private final MapRecords<byte[]> desired = new MapRecords<>(Function.identity(), Function.identity());
     private final MapRecords<DeviceHealth> health = MapRecords.of(DeviceHealth.class);
     private final KeptOutbox outbox = new KeptOutbox();
     private final AlarmCommandHandler alarms = AlarmHandlers.writingTo(outbox);
@@ -129,12 +129,12 @@ class DeviceHealthTrackerTest {
     }
 
     @Test
-    void forgetsADeviceThatIsNotWantedAnyMoreAndEndsItsAlarm() {
+    void forgetsADeviceThatIsNotDesiredAnyMoreAndEndsItsAlarm() {
         want("m", START);
         tracker.take(KEY, sign(true, START), START);
         tracker.passTime(START);
         assertThat(alarms()).hasSize(1);
-        wanted.put(KEY, null);
+        desired.put(KEY, null);
         tracker.take(KEY, sign(false, START + 1), START + 1);
         tracker.passTime(START + 20_000);
         assertThat(outbox.compacted(Topics.DEVICES_HEALTH)).isEmpty();
@@ -168,7 +168,7 @@ class DeviceHealthTrackerTest {
     private DeviceHealthTracker tracker() {
         return new DeviceHealthTracker(
                 health,
-                new WantedDevices(wanted),
+                new DesiredDevices(desired),
                 HealthOptions.DEFAULT,
                 new Silence(HealthOptions.DEFAULT, alarms, key -> Optional.ofNullable(connection)),
                 outbox);
@@ -190,13 +190,13 @@ class DeviceHealthTrackerTest {
 
     private void want(String mission, long from) {
         DeviceVersion version = new DeviceVersion(ID, "", "/", "d", mission, from, null, 1, null);
-        WantedDevice device = WantedDevice.simulated(
+        DesiredDevice device = DesiredDevice.simulated(
                 version,
                 "T",
                 ID,
                 true,
                 Duration.ofSeconds(10),
                 NgsiJson.mapper().createObjectNode());
-        wanted.put(KEY, device.toBytes());
+        desired.put(KEY, device.toBytes());
     }
 }

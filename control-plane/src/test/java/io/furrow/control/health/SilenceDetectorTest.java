@@ -9,8 +9,8 @@ import java.util.function.Function;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.manager.MapRecords;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.NgsiJson;
@@ -22,10 +22,10 @@ class SilenceDetectorTest {
     private static final String KEY = "|/|" + ID;
     private static final Duration PERIOD = Duration.ofSeconds(10);
 
-    private final MapRecords<byte[]> wanted = new MapRecords<>(Function.identity(), Function.identity());
+    private final MapRecords<byte[]> desired = new MapRecords<>(Function.identity(), Function.identity());
     private final List<Heartbeat> signs = new ArrayList<>();
     private final SilenceDetector listener =
-            new SilenceDetector(HealthOptions.DEFAULT, new WantedDevices(wanted), (key, sign) -> signs.add(sign));
+            new SilenceDetector(HealthOptions.DEFAULT, new DesiredDevices(desired), (key, sign) -> signs.add(sign));
     private long now = 1_700_000_000_000L;
 
     @Test
@@ -204,12 +204,12 @@ class SilenceDetectorTest {
         pass(5000);
         assertThat(listener.listensTo(KEY)).isTrue();
         hear(Entity.builder(ID, "T"), 5);
-        wanted.put(KEY, null);
+        desired.put(KEY, null);
         pass(100_000);
         pass(1000);
         assertThat(signs).hasSize(1);
         assertThat(listener.listensTo(KEY)).isFalse();
-        wanted.put(KEY, "[".getBytes(StandardCharsets.UTF_8));
+        desired.put(KEY, "[".getBytes(StandardCharsets.UTF_8));
         pass(5000);
         assertThat(listener.listensTo(KEY)).isFalse();
     }
@@ -247,8 +247,8 @@ class SilenceDetectorTest {
 
     private void want(Duration period, long from) {
         DeviceVersion version = new DeviceVersion(ID, "", "/", "d", "m", from, null, 1, null);
-        WantedDevice device = WantedDevice.simulated(
+        DesiredDevice device = DesiredDevice.simulated(
                 version, "T", ID, true, period, NgsiJson.mapper().createObjectNode());
-        wanted.put(KEY, device.toBytes());
+        desired.put(KEY, device.toBytes());
     }
 }

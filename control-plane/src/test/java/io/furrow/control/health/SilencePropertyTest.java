@@ -26,8 +26,8 @@ import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.RefusedException;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
@@ -57,7 +57,7 @@ class SilencePropertyTest {
     }
 
     private static final class Walk {
-        private final MapRecords<byte[]> wanted = new MapRecords<>(Function.identity(), Function.identity());
+        private final MapRecords<byte[]> desired = new MapRecords<>(Function.identity(), Function.identity());
         private final MapRecords<DeviceHealth> health = MapRecords.of(DeviceHealth.class);
         private final KeptOutbox outbox = new KeptOutbox();
         private final AlarmCommandHandler alarms = AlarmHandlers.writingTo(outbox);
@@ -91,13 +91,14 @@ class SilencePropertyTest {
                 case 0, 1 -> talking.remove(key(random.nextInt(30)));
                 case 2 -> talking.add(key(random.nextInt(30)));
                 case 3 -> talking.removeIf(key -> random.nextInt(4) > 0);
-                case 4 -> wanted.all().forEach(each -> talking.add(version(each).key()));
+                case 4 ->
+                    desired.all().forEach(each -> talking.add(version(each).key()));
                 case 5 -> talking.clear();
                 case 6 -> ask();
                 case 7 -> {
                     int device = random.nextInt(30);
                     if (random.nextBoolean()) {
-                        wanted.put(key(device), null);
+                        desired.put(key(device), null);
                     } else {
                         want(device, "m" + random.nextInt(3));
                     }
@@ -193,7 +194,7 @@ class SilencePropertyTest {
         private DeviceHealthTracker tracker() {
             return new DeviceHealthTracker(
                     health,
-                    new WantedDevices(wanted),
+                    new DesiredDevices(desired),
                     HealthOptions.DEFAULT,
                     new Silence(HealthOptions.DEFAULT, alarms, key -> Optional.empty()),
                     outbox);
@@ -217,9 +218,9 @@ class SilencePropertyTest {
 
         private void want(int number, String mission) {
             DeviceVersion version = new DeviceVersion("urn:" + number, "", "/", "d", mission, now, null, 1, null);
-            wanted.put(
+            desired.put(
                     key(number),
-                    WantedDevice.simulated(
+                    DesiredDevice.simulated(
                                     version,
                                     "T",
                                     "t",

@@ -1,13 +1,18 @@
 package io.furrow.control.health;
 
 import java.nio.charset.StandardCharsets;
+import java.time.Duration;
 import java.util.Optional;
 
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmHandlers;
 import io.furrow.control.manager.KeptOutbox;
+import io.furrow.model.control.AlarmCommand;
+import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
@@ -34,6 +39,19 @@ class SilenceTest {
         restarted.reported(NOW + HOUR + 60_000);
         restarted.reconcile(NOW + HOUR, NOW + HOUR + 60_000);
         assertThat(farm()).contains("reports arrive");
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"%s", "|/|%s", "|/|Thermometer|%s"})
+    void leavesOutADeviceThatIsMutedByItsIdOrIdentity(String form) throws Exception {
+        for (int i = 0; i < 5; i++) {
+            String muted = form.formatted("urn:t:" + i);
+            alarms.answer(
+                    new AlarmCommand.Mute(new AlarmCommand.OfKind(AlarmKind.SILENT_DEVICE, muted), Duration.ofHours(1)),
+                    NOW);
+        }
+        silent().reconcile(NOW - HOUR, NOW + 1);
+        assertThat(outbox.all()).isEmpty();
     }
 
     private Silence silent() {

@@ -10,8 +10,8 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus.State;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -31,15 +31,15 @@ class CredentialsTest {
 
     @Test
     void asksForTheDeviceWithItsNextGenerationAndLeavesTheOthers() throws Exception {
-        WantedDevice before = farm.device(DEVICE);
-        WantedDevice other = farm.device("urn:ngsi-ld:Thermometer:m-2");
+        DesiredDevice before = farm.device(DEVICE);
+        DesiredDevice other = farm.device("urn:ngsi-ld:Thermometer:m-2");
 
         assertThat(rotate(DEVICE))
                 .isEqualTo("{\"type\":\"response\",\"status\":\"rotated\",\"device\":\"%s\",\"generation\":1}"
                         .formatted(DEVICE));
 
-        WantedDevice asked =
-                WantedDevice.read(farm.outbox.compacted(Topics.DEVICES).get("farm|/|" + DEVICE));
+        DesiredDevice asked =
+                DesiredDevice.read(farm.outbox.compacted(Topics.DEVICES).get("farm|/|" + DEVICE));
         assertThat(asked.generation()).isEqualTo(1);
         assertThat(asked.version().sequence()).isGreaterThan(before.version().sequence());
         assertThat(asked.version().from()).isEqualTo(before.version().from());

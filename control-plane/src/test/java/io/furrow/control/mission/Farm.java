@@ -26,12 +26,12 @@ import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.control.mission.MissionDevices;
 import io.furrow.model.control.mission.MissionPlan;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.MissionDeviceLists;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.UnreadableException;
@@ -131,7 +131,7 @@ final class Farm {
         return statuses.get(mission);
     }
 
-    WantedDevice device(String id) {
+    DesiredDevice device(String id) {
         return devices.get("farm|/|" + id).device();
     }
 
@@ -142,14 +142,14 @@ final class Farm {
         return lists.resolve(device(id)).orElseThrow().settings();
     }
 
-    void report(WantedDevice device, DeviceStatus.State state) {
+    void report(DesiredDevice device, DeviceStatus.State state) {
         DeviceStatus status =
                 new DeviceStatus(device.version().sequence(), state, state == DeviceStatus.State.FAILED ? "why" : null);
         run(() -> missionHandler.reported(device.version().key(), status, now));
     }
 
     /** A report of a device was received at a time. */
-    void hear(WantedDevice device, long heard) {
+    void hear(DesiredDevice device, long heard) {
         DeviceVersion version = device.version();
         DeviceHealth health = new DeviceHealth(
                 version.id(),
@@ -169,7 +169,7 @@ final class Farm {
     }
 
     /** What is known of the connection of a device that has not logged in. @param refused null if no login was refused */
-    void connect(WantedDevice device, RefusedLogin refused) {
+    void connect(DesiredDevice device, RefusedLogin refused) {
         DeviceConnection connection = new DeviceConnection(now - TIMEOUT, null, refused, null, null, true);
         run(() -> missionHandler.reported(device.version().key(), connection, now));
     }
@@ -177,7 +177,7 @@ final class Farm {
     /** The host of simulated devices does what is requested, and real devices report. */
     void hostAll() {
         for (DeviceState each : all(devices)) {
-            WantedDevice device = each.device();
+            DesiredDevice device = each.device();
             if (device.simulated()) {
                 report(device, device.running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED);
             } else {

@@ -13,11 +13,11 @@ import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.control.mission.MissionPlan;
 import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
@@ -133,7 +133,7 @@ class MissionLifeTest {
     @Test
     void saysTheBestReasonThatIsKnownOfADeviceThatItMisses() throws Exception {
         farm.start("m", "north", Farm.real("Thermometer", 1));
-        WantedDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
+        DesiredDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
         farm.connect(thermometer, null);
         farm.pass(Farm.TIMEOUT);
         assertThat(reason()).startsWith("it has not connected to the MQTT broker since ");
@@ -164,7 +164,7 @@ class MissionLifeTest {
     @Test
     void countsARealDeviceAsUpByItsFirstReportSinceItWasAskedFor() throws Exception {
         farm.start("m", "north", Farm.real("Thermometer", 1), DeviceGroup.entity("urn:robot"));
-        WantedDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
+        DesiredDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
         farm.hear(thermometer, farm.now - 1);
         farm.report(thermometer, State.RUNNING);
         farm.report(thermometer, State.STOPPED);
@@ -197,7 +197,7 @@ class MissionLifeTest {
     @Test
     void passesOverReportsOfAnEarlierSequence() throws Exception {
         farm.start("m", "north", Farm.group("Camera", 1));
-        WantedDevice earlier = farm.device("urn:ngsi-ld:Camera:m-1");
+        DesiredDevice earlier = farm.device("urn:ngsi-ld:Camera:m-1");
         farm.hostAll();
         farm.ask(new MissionCommand.Stop("m"));
 

@@ -19,9 +19,9 @@ import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.control.mission.MissionDevices;
 import io.furrow.model.control.mission.MissionPlan;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -133,7 +133,7 @@ class MissionPropertyTest {
         private void reportOne() {
             List<DeviceState> all = farm.all(farm.devices);
             if (!all.isEmpty()) {
-                WantedDevice device = all.get(random.nextInt(all.size())).device();
+                DesiredDevice device = all.get(random.nextInt(all.size())).device();
                 if (device.simulated() || random.nextInt(4) == 0) {
                     farm.report(device, State.values()[random.nextInt(3)]);
                 } else {
@@ -230,7 +230,7 @@ class MissionPropertyTest {
             assertThat(devices).as(said).hasSameSizeAs(farm.all(farm.devices));
             for (DeviceState each : farm.all(farm.devices)) {
                 byte[] value = devices.get(each.device().version().key());
-                assertThat(WantedDevice.read(value)).as(said).isEqualTo(each.device());
+                assertThat(DesiredDevice.read(value)).as(said).isEqualTo(each.device());
                 DeviceVersion version = DeviceVersion.read(value);
                 assertThat(version.until() == null)
                         .as(said)

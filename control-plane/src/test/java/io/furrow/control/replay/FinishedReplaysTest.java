@@ -8,9 +8,9 @@ import org.apache.kafka.common.record.TimestampType;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.replay.FinishedReplays.Remains;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -36,11 +36,11 @@ class FinishedReplaysTest {
                 Optional.empty()));
     }
 
-    private void wanted(String mission, String topic) {
+    private void desired(String mission, String topic) {
         take(
                 Topics.REPLAYS,
                 mission + ".0a1b2c3d",
-                WantedReplay.started(mission, topic, ReplayPlan.PLAIN, 1, 0, 1).toBytes(),
+                DesiredReplay.started(mission, topic, ReplayPlan.PLAIN, 1, 0, 1).toBytes(),
                 0);
     }
 
@@ -49,8 +49,8 @@ class FinishedReplaysTest {
     }
 
     @Test
-    void areThoseOfAReplayThatIsOverForGoodAndNotWanted() {
-        wanted("m", TOPIC);
+    void areThoseOfAReplayThatIsOverForGoodAndNotDesired() {
+        desired("m", TOPIC);
         status(ReplayStatus.State.RUNNING, false, 50);
         status(ReplayStatus.State.ENDED, false, 60);
         assertThat(remains.overBy(1000)).isEmpty();
@@ -66,7 +66,7 @@ class FinishedReplaysTest {
     @Test
     void areNoneWhereTheReplayWasStartedAnew() {
         status(ReplayStatus.State.ENDED, true, 100);
-        wanted("m", TOPIC);
+        desired("m", TOPIC);
         assertThat(remains.overBy(1000)).isEmpty();
         take(Topics.REPLAYS, NAME, null, 0);
         status(ReplayStatus.State.RUNNING, false, 200);
@@ -75,10 +75,10 @@ class FinishedReplaysTest {
 
     @Test
     void areNoneWhereAnotherReplayHasTheTopic() {
-        wanted("m", TOPIC);
+        desired("m", TOPIC);
         take(Topics.REPLAYS, NAME, null, 0);
         status(ReplayStatus.State.STOPPED, true, 100);
-        wanted("n", TOPIC);
+        desired("n", TOPIC);
         assertThat(remains.overBy(1000)).isEmpty();
         take(Topics.REPLAYS, "n.0a1b2c3d", null, 0);
         assertThat(remains.overBy(1000)).hasSize(1);
@@ -86,10 +86,10 @@ class FinishedReplaysTest {
 
     @Test
     void areNoneWhileAnotherReplayOfTheTopicIsOverForLessLong() {
-        wanted("m", TOPIC);
+        desired("m", TOPIC);
         take(Topics.REPLAYS, NAME, null, 0);
         status(ReplayStatus.State.STOPPED, true, 100);
-        wanted("n", TOPIC);
+        desired("n", TOPIC);
         take(Topics.REPLAYS, "n.0a1b2c3d", null, 0);
         ReplayStatus later = new ReplayStatus(1, ReplayStatus.State.ENDED, null, true, null);
         take(Topics.REPLAYS_STATUS, "n.0a1b2c3d", later.toBytes(), 900);

@@ -50,7 +50,7 @@ public final class KnownState {
     /** @throws Problem where it takes too long, or is too much */
     public List<FeedRecord> read(String topic) {
         boolean live = topic.equals(Topics.RAW) || LIVE.matcher(topic).matches();
-        Predicate<ConsumerRecord<byte[], byte[]>> wanted = live ? record -> isOf(topic, record) : record -> true;
+        Predicate<ConsumerRecord<byte[], byte[]>> desired = live ? record -> isOf(topic, record) : record -> true;
         Map<String, FeedRecord> newest = new LinkedHashMap<>();
         long[] epoch = {-1};
         String source = live ? Topics.LATEST : topic;
@@ -62,7 +62,7 @@ public final class KnownState {
             }
             reader.readToEnd(record -> {
                 if (reader.isBeforeEnd(record) && isOfNewestEpoch(record, epoch, newest)) {
-                    put(record, newest, wanted);
+                    put(record, newest, desired);
                 }
                 check(source, newest, begun);
             });
@@ -91,12 +91,12 @@ public final class KnownState {
     private void put(
             ConsumerRecord<byte[], byte[]> record,
             Map<String, FeedRecord> newest,
-            Predicate<ConsumerRecord<byte[], byte[]>> wanted) {
+            Predicate<ConsumerRecord<byte[], byte[]>> desired) {
         FeedRecord next = new FeedRecord(record, FeedRecord.NO_SEQUENCE, limits.valueBytes());
         newest.remove(next.key());
         if (record.value() == null) {
             newest.values().removeIf(next::deletes);
-        } else if (wanted.test(record)) {
+        } else if (desired.test(record)) {
             newest.put(next.key(), next);
         }
     }

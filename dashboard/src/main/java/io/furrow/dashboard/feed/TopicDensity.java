@@ -105,9 +105,9 @@ public final class TopicDensity {
     }
 
     private KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> list(List<TopicPartition> of, OffsetSpec spec) {
-        Map<TopicPartition, OffsetSpec> wanted = new HashMap<>();
-        of.forEach(each -> wanted.put(each, spec));
-        return admin.listOffsets(wanted).all();
+        Map<TopicPartition, OffsetSpec> desired = new HashMap<>();
+        of.forEach(each -> desired.put(each, spec));
+        return admin.listOffsets(desired).all();
     }
 
     private static <T> T answer(KafkaFuture<T> future, long deadline)

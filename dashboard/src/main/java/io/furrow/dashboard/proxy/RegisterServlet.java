@@ -27,9 +27,9 @@ public final class RegisterServlet extends HttpServlet {
         try {
             Credentials credentials = Credentials.of(request);
             User user = streams.users().find(credentials);
-            StreamRequest wanted = StreamRequest.read(request, streams.rules(), StreamRequest.Format.VALUE);
-            streams.feeds().check(wanted.topic());
-            String ticket = streams.tickets().issue(wanted, user, credentials);
+            StreamRequest desired = StreamRequest.read(request, streams.rules(), StreamRequest.Format.VALUE);
+            streams.feeds().check(desired.topic());
+            String ticket = streams.tickets().issue(desired, user, credentials);
             response.setContentType("application/json");
             response.setHeader("Cache-Control", "no-store");
             response.getOutputStream()

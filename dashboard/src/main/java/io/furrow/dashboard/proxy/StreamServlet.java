@@ -25,19 +25,19 @@ public final class StreamServlet extends HttpServlet {
         try {
             Credentials credentials = Credentials.of(request);
             streams.users().find(credentials);
-            StreamRequest wanted = StreamRequest.read(request, streams.rules(), StreamRequest.Format.RECORD);
-            streams.feeds().check(wanted.topic());
+            StreamRequest desired = StreamRequest.read(request, streams.rules(), StreamRequest.Format.RECORD);
+            streams.feeds().check(desired.topic());
             streams.take(credentials.client());
             response.setContentType("text/event-stream");
             response.setCharacterEncoding("UTF-8");
             response.setHeader("Cache-Control", "no-store");
             AsyncContext context = request.startAsync();
             context.setTimeout(0);
-            Outbox outbox = new Outbox(wanted, streams.limits(), streams.counters());
-            EventStream stream = new EventStream(streams, wanted.topic(), credentials, context, outbox);
+            Outbox outbox = new Outbox(desired, streams.limits(), streams.counters());
+            EventStream stream = new EventStream(streams, desired.topic(), credentials, context, outbox);
             response.getOutputStream().setWriteListener(stream);
             context.addListener(stream);
-            streams.begin(wanted, stream, outbox);
+            streams.begin(desired, stream, outbox);
         } catch (Problem problem) {
             streams.counters().refused(problem);
             problem.answer(response);

@@ -10,20 +10,16 @@ public final class AlignmentOptions {
     @Option(
             names = "--max-drift",
             paramLabel = "DURATION",
+            defaultValue = "2min",
             description =
                     "A partition that is ahead of the slowest one by more than this event time waits, as looked at"
                             + " ten times a second. Shorter: a backlog that is read unevenly takes less memory. Longer: fewer"
-                            + " waits where partitions differ by nature. 0s: none waits, as always with --idle-advance and in a replay. Default: 2min; 0s with --eager,"
-                            + " of which the answers would wait, too.")
+                            + " waits where partitions differ by nature. 0s: none waits, as always with --idle-advance and in a replay."
+                            + " Default: ${DEFAULT-VALUE}.")
     private Duration maxDrift;
 
-    /**
-     * Empty if no partition waits for another.
-     *
-     * @param isPrompt whether the job answers before event time has come to a record
-     */
-    public Optional<Duration> maxDrift(boolean isPrompt) {
-        Duration otherwise = isPrompt ? Duration.ZERO : Duration.ofMinutes(2);
-        return Optional.of(maxDrift == null ? otherwise : maxDrift).filter(drift -> !drift.isZero());
+    /** Empty if no partition waits for another. */
+    public Optional<Duration> maxDrift() {
+        return Optional.of(maxDrift).filter(drift -> !drift.isZero());
     }
 }

@@ -2,7 +2,6 @@ package io.furrow.flink.kafka;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.concurrent.atomic.AtomicReference;
 
 import org.apache.flink.api.common.eventtime.WatermarkAlignmentParams;
@@ -58,21 +57,10 @@ class KafkaConnectorsTest {
         assertThat(alignment("--max-drift", "0s").isEnabled()).isFalse();
     }
 
-    @Test
-    void letPartitionsRunAheadWhereAnswersWouldWait() {
-        AlignmentOptions options = new AlignmentOptions();
-        JobCommandLine.of(options).parseArgs();
-        assertThat(options.maxDrift(true)).isEmpty();
-
-        JobCommandLine.of(options).parseArgs("--max-drift", "5s");
-        assertThat(options.maxDrift(true)).contains(Duration.ofSeconds(5));
-    }
-
     private static WatermarkAlignmentParams alignment(String... arguments) {
         AlignmentOptions options = new AlignmentOptions();
         JobCommandLine.of(options).parseArgs(arguments);
-        return KafkaConnectors.watermarks(parsed("copy"), options.maxDrift(false))
-                .getAlignmentParameters();
+        return KafkaConnectors.watermarks(parsed("copy"), options.maxDrift()).getAlignmentParameters();
     }
 
     private static JobOptions parsed(String... arguments) {

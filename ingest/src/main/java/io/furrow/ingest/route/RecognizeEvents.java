@@ -59,7 +59,7 @@ public final class RecognizeEvents extends ProcessFunction<TopicRecord, Reported
         try {
             ahead.check(record);
             ReportedEvent event = recognize(record);
-            noteShared(event);
+            countSharedId(event);
             out.collect(event);
         } catch (UnreadableException e) {
             dead.count(e.reason());
@@ -67,7 +67,7 @@ public final class RecognizeEvents extends ProcessFunction<TopicRecord, Reported
         }
     }
 
-    private void noteShared(ReportedEvent event) {
+    private void countSharedId(ReportedEvent event) {
         FiwareScope other = keysById ? ids.take(event) : null;
         if (other == null) {
             return;

@@ -27,7 +27,7 @@ final class SharedIds {
     private String only;
     private boolean areSeveral;
 
-    /** @return tenant and service path of another entity of the id, once per id; null if there is none */
+    /** @return tenant and service path of another entity of the id, once per id; null if unknown */
     FiwareScope take(ReportedEvent event) {
         String identity = event.identity();
         String id = event.entityId();

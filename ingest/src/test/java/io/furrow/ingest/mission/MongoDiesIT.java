@@ -83,8 +83,8 @@ class MongoDiesIT {
         int kills = 0;
         long before = 0;
         while (kills < 3) {
-            long wanted = before + 1 + random.nextInt((int) (EVENTS - before) / 4);
-            Awaitility.await("seed " + seed).atMost(Duration.ofSeconds(60)).until(() -> count(mongo) >= wanted);
+            long desired = before + 1 + random.nextInt((int) (EVENTS - before) / 4);
+            Awaitility.await("seed " + seed).atMost(Duration.ofSeconds(60)).until(() -> count(mongo) >= desired);
             assertThat(job.getJobStatus().get()).isNotEqualTo(JobStatus.FINISHED);
             before = count(mongo);
             mongo.kill();

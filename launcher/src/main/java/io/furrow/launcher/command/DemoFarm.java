@@ -38,13 +38,13 @@ public final class DemoFarm {
      */
     public static void start(URI control) throws IOException {
         DemoFarm farm = new DemoFarm(new ControlApi(control, null));
-        JsonNode wanted;
+        JsonNode desired;
         try (InputStream json = FiwareStandIn.class.getResourceAsStream(FILE)) {
-            wanted = NgsiJson.mapper().readTree(json);
+            desired = NgsiJson.mapper().readTree(json);
         }
-        wanted.path("domains").forEach(farm::domain);
-        wanted.path("templates").forEach(farm::template);
-        wanted.path("missions").forEach(farm::mission);
+        desired.path("domains").forEach(farm::domain);
+        desired.path("templates").forEach(farm::template);
+        desired.path("missions").forEach(farm::mission);
     }
 
     private void domain(JsonNode domain) {
@@ -85,9 +85,9 @@ public final class DemoFarm {
         api.send("POST", "/api/missions" + ControlApi.part(mission.path(MISSION).asText()) + "/start", body);
     }
 
-    private boolean has(String path, String member, JsonNode wanted) {
+    private boolean has(String path, String member, JsonNode desired) {
         for (JsonNode known : api.get(path)) {
-            if (known.path(member).equals(wanted.path(member))) {
+            if (known.path(member).equals(desired.path(member))) {
                 return true;
             }
         }

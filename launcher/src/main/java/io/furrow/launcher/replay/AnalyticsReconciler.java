@@ -31,7 +31,7 @@ final class AnalyticsReconciler {
     private final JobProgress.Source progress;
     private final LongSupplier millis;
     /** By topic; a replay stays here until its jobs have ended. */
-    private final Map<String, WantedAnalytics> known = new TreeMap<>();
+    private final Map<String, DesiredAnalytics> known = new TreeMap<>();
 
     private final Map<String, JobEnding> endings = new HashMap<>();
     /** When a job may be started again, by name. */
@@ -47,11 +47,11 @@ final class AnalyticsReconciler {
         this.millis = millis;
     }
 
-    /** @param wanted all replays that there are */
-    void reconcile(Collection<WantedAnalytics> wanted) throws AnalyticsException {
+    /** @param desired all replays that there are */
+    void reconcile(Collection<DesiredAnalytics> desired) throws AnalyticsException {
         Set<String> running = executor.running();
-        learn(wanted, running);
-        for (WantedAnalytics replay : List.copyOf(known.values())) {
+        learn(desired, running);
+        for (DesiredAnalytics replay : List.copyOf(known.values())) {
             try {
                 end(replay, running);
                 start(replay, running);
@@ -59,7 +59,7 @@ final class AnalyticsReconciler {
                 LOG.warn("Analytics on {} cannot be looked after now", replay.topic(), e);
             }
         }
-        known.values().removeIf(replay -> isForgotten(replay, wanted, running));
+        known.values().removeIf(replay -> isForgotten(replay, desired, running));
         Set<String> topics = known.keySet();
         waiting.keySet().retainAll(topics);
     }
@@ -69,9 +69,9 @@ final class AnalyticsReconciler {
         return List.copyOf(waiting.values());
     }
 
-    private void learn(Collection<WantedAnalytics> wanted, Set<String> running) {
+    private void learn(Collection<DesiredAnalytics> desired, Set<String> running) {
         known.replaceAll((topic, replay) -> replay.ended());
-        for (WantedAnalytics replay : wanted) {
+        for (DesiredAnalytics replay : desired) {
             if (!replay.jobs().isEmpty()) {
                 known.put(replay.topic(), replay);
             }
@@ -80,7 +80,7 @@ final class AnalyticsReconciler {
             AnalyticsJob.named(name)
                     .filter(this::hasTopic)
                     .ifPresent(job -> known.computeIfAbsent(
-                            job.topic(), topic -> new WantedAnalytics(topic, List.of(job), true)));
+                            job.topic(), topic -> new DesiredAnalytics(topic, List.of(job), true)));
         }
     }
 
@@ -94,7 +94,7 @@ final class AnalyticsReconciler {
         }
     }
 
-    private void end(WantedAnalytics replay, Set<String> running) throws AnalyticsException {
+    private void end(DesiredAnalytics replay, Set<String> running) throws AnalyticsException {
         for (AnalyticsJob job : replay.jobs()) {
             String name = job.name();
             if (!replay.over()) {
@@ -118,7 +118,7 @@ final class AnalyticsReconciler {
         }
     }
 
-    private void start(WantedAnalytics replay, Set<String> running) throws AnalyticsException {
+    private void start(DesiredAnalytics replay, Set<String> running) throws AnalyticsException {
         List<AnalyticsJob> missing = new ArrayList<>();
         for (AnalyticsJob job : replay.jobs()) {
             if (!running.contains(job.name()) && !done.contains(job.name()) && isNeeded(job, replay.over())) {
@@ -156,7 +156,7 @@ final class AnalyticsReconciler {
         }
     }
 
-    private void wait(WantedAnalytics replay, int missing, int free) {
+    private void wait(DesiredAnalytics replay, int missing, int free) {
         String why =
                 "No analytics on %s yet: it wants %s, %d fit. It begins when others end; stop a replay that is not needed."
                         .formatted(replay.topic(), Counts.of(missing, "job"), free);
@@ -165,8 +165,8 @@ final class AnalyticsReconciler {
         }
     }
 
-    private boolean isForgotten(WantedAnalytics replay, Collection<WantedAnalytics> wanted, Set<String> running) {
-        boolean gone = wanted.stream().noneMatch(one -> one.topic().equals(replay.topic()));
+    private boolean isForgotten(DesiredAnalytics replay, Collection<DesiredAnalytics> desired, Set<String> running) {
+        boolean gone = desired.stream().noneMatch(one -> one.topic().equals(replay.topic()));
         boolean idle = replay.jobs().stream()
                 .allMatch(job -> done.contains(job.name()) || !running.contains(job.name()) && !isStarting(job));
         if (!gone || !idle || waiting.containsKey(replay.topic())) {

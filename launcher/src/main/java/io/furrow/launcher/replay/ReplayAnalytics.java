@@ -75,7 +75,7 @@ public final class ReplayAnalytics implements AutoCloseable {
                 continue;
             }
             try {
-                reconciler.reconcile(reader.wanted());
+                reconciler.reconcile(reader.desired());
                 waiting = reconciler.waiting();
                 failed = false;
             } catch (AnalyticsException e) {

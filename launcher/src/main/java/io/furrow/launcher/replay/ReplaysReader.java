@@ -12,8 +12,8 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -23,7 +23,7 @@ final class ReplaysReader implements AutoCloseable {
     private static final List<String> TOPICS = List.of(Topics.REPLAYS, Topics.REPLAYS_STATUS);
 
     private final CommittedReader<String> reader;
-    private final Map<String, WantedReplay> wanted = new HashMap<>();
+    private final Map<String, DesiredReplay> desired = new HashMap<>();
     private final Map<String, ReplayStatus> statuses = new HashMap<>();
     private boolean assigned;
 
@@ -45,14 +45,14 @@ final class ReplaysReader implements AutoCloseable {
     private void read(ConsumerRecord<String, byte[]> record) {
         boolean status = record.topic().equals(Topics.REPLAYS_STATUS);
         if (record.value() == null) {
-            (status ? statuses : wanted).remove(record.key());
+            (status ? statuses : desired).remove(record.key());
             return;
         }
         try {
             if (status) {
                 statuses.put(record.key(), ReplayStatus.read(record.value()));
             } else {
-                wanted.put(record.key(), WantedReplay.read(record.key(), record.value()));
+                desired.put(record.key(), DesiredReplay.read(record.key(), record.value()));
             }
         } catch (UnreadableException e) {
             LOG.warn("{}-{}@{} is passed over", record.topic(), record.partition(), record.offset(), e);
@@ -60,9 +60,9 @@ final class ReplaysReader implements AutoCloseable {
     }
 
     /** What each replay wants. */
-    Collection<WantedAnalytics> wanted() {
-        return wanted.values().stream()
-                .map(replay -> WantedAnalytics.of(replay, statuses.get(replay.replay())))
+    Collection<DesiredAnalytics> desired() {
+        return desired.values().stream()
+                .map(replay -> DesiredAnalytics.of(replay, statuses.get(replay.replay())))
                 .toList();
     }
 

@@ -91,16 +91,16 @@ public final class KafkaAccess implements AutoCloseable {
     void ensureTopics() throws InterruptedException {
         boolean isAlone = hasOneBroker();
         for (String topic : TOPICS) {
-            NewTopic wanted = new NewTopic(topic, Optional.of(PARTITIONS), Optional.empty());
+            NewTopic desired = new NewTopic(topic, Optional.of(PARTITIONS), Optional.empty());
             if (Topics.ofDeadLetters(topic).isPresent()) { // a letter is larger than the record that it was
-                wanted.configs(Map.of("max.message.bytes", Integer.toString(16 * 1024 * 1024)));
+                desired.configs(Map.of("max.message.bytes", Integer.toString(16 * 1024 * 1024)));
             } else if (isAlone
                     && JOBS_READ.contains(
                             topic)) { // a job's checkpoint must not be ahead of the topic after a power cut
-                wanted.configs(Map.of("flush.messages", "1"));
+                desired.configs(Map.of("flush.messages", "1"));
             }
             try {
-                admin.createTopics(List.of(wanted)).all().get(SECONDS, TimeUnit.SECONDS);
+                admin.createTopics(List.of(desired)).all().get(SECONDS, TimeUnit.SECONDS);
             } catch (ExecutionException e) {
                 if (!(e.getCause() instanceof TopicExistsException)) {
                     throw new CommandException(

@@ -84,11 +84,11 @@ final class SuiteFields {
         if (file == null && !(isOwnBroker && known.isEmpty())) {
             return List.of();
         }
-        List<FieldVersion> wanted = read(file == null ? demo(directory) : file).stream()
+        List<FieldVersion> desired = read(file == null ? demo(directory) : file).stream()
                 .map(ImportedField::version)
                 .toList();
         List<FieldVersion> changed =
-                FieldChange.of(wanted, known, field -> file != null, Instant.EPOCH.toEpochMilli()).stream()
+                FieldChange.of(desired, known, field -> file != null, Instant.EPOCH.toEpochMilli()).stream()
                         .filter(change -> change.kind() != FieldChange.Kind.UNCHANGED)
                         .map(FieldChange::version)
                         .toList();

@@ -30,7 +30,7 @@ class AnalyticsReconcilerTest {
 
     @Test
     void startsEachJobOnceWhenTheTopicIsThere() throws Exception {
-        WantedAnalytics replay = running(A, "collision", "presence");
+        DesiredAnalytics replay = running(A, "collision", "presence");
         reconciler.reconcile(List.of(replay));
         assertThat(cluster.running).isEmpty();
 
@@ -56,7 +56,7 @@ class AnalyticsReconcilerTest {
     void endsAJobALittleAfterItHasReadAllOfAReplayThatIsOver() throws Exception {
         progress(0, 10);
         reconciler.reconcile(List.of(running(A, "collision")));
-        WantedAnalytics over = running(A, "collision").ended();
+        DesiredAnalytics over = running(A, "collision").ended();
 
         progress(5, 10);
         reconcileAfter(0, over);
@@ -90,7 +90,7 @@ class AnalyticsReconcilerTest {
     @Test
     void goesOnWithAReplayThatPlaysAgain() throws Exception {
         progress(10, 10);
-        WantedAnalytics replay = running(A, "collision");
+        DesiredAnalytics replay = running(A, "collision");
         reconciler.reconcile(List.of(replay));
         reconcileAfter(0, replay.ended());
         reconcileAfter(11_000, replay.ended());
@@ -135,7 +135,7 @@ class AnalyticsReconcilerTest {
     void startsAllJobsOfAReplayOrNoneAndSaysSo() throws Exception {
         progress(0, 10);
         cluster.room = 3;
-        WantedAnalytics second = running(B, "collision", "presence");
+        DesiredAnalytics second = running(B, "collision", "presence");
         reconciler.reconcile(List.of(running(A, "collision", "presence"), second));
 
         assertThat(cluster.running).hasSize(2).allMatch(name -> name.endsWith("sowing.0000000b"));
@@ -151,7 +151,7 @@ class AnalyticsReconcilerTest {
     void triesAgainAfterAWhileWhatDidNotStart() throws Exception {
         progress(0, 10);
         cluster.refuses = true;
-        WantedAnalytics replay = running(A, "collision");
+        DesiredAnalytics replay = running(A, "collision");
         reconciler.reconcile(List.of(replay));
         cluster.refuses = false;
 
@@ -161,9 +161,9 @@ class AnalyticsReconcilerTest {
         assertThat(cluster.running).containsExactly(COLLISION_A);
     }
 
-    private void reconcileAfter(long millis, WantedAnalytics... wanted) throws Exception {
+    private void reconcileAfter(long millis, DesiredAnalytics... desired) throws Exception {
         now += millis;
-        reconciler.reconcile(List.of(wanted));
+        reconciler.reconcile(List.of(desired));
     }
 
     /** Of all jobs. */
@@ -175,8 +175,8 @@ class AnalyticsReconcilerTest {
         }
     }
 
-    private static WantedAnalytics running(String topic, String... jobs) {
-        return new WantedAnalytics(
+    private static DesiredAnalytics running(String topic, String... jobs) {
+        return new DesiredAnalytics(
                 topic,
                 List.of(jobs).stream().map(job -> new AnalyticsJob(job, topic)).toList(),
                 false);

@@ -23,9 +23,9 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.fields.FieldsTopic;
 import io.furrow.launcher.Furrow;
 import io.furrow.launcher.replay.ReplayAnalytics;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
@@ -105,12 +105,12 @@ class ReplayAnalyticsIT {
     private void want(String id, ReplayStatus.State state) throws Exception {
         ReplayPlan plan = new ReplayPlan(
                 null, null, null, false, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, ReplayPlan.ANALYTICS);
-        WantedReplay wanted = WantedReplay.started("weeding", replay(id), plan, 1, T0, 1);
-        producer.send(new ProducerRecord<>(Topics.REPLAYS, wanted.replay(), wanted.toBytes()))
+        DesiredReplay desired = DesiredReplay.started("weeding", replay(id), plan, 1, T0, 1);
+        producer.send(new ProducerRecord<>(Topics.REPLAYS, desired.replay(), desired.toBytes()))
                 .get();
         if (state != null) {
             byte[] status = new ReplayStatus(1, state, null, true, null).toBytes();
-            producer.send(new ProducerRecord<>(Topics.REPLAYS_STATUS, wanted.replay(), status))
+            producer.send(new ProducerRecord<>(Topics.REPLAYS_STATUS, desired.replay(), status))
                     .get();
         }
     }

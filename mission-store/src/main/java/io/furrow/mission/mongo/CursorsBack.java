@@ -12,7 +12,7 @@ public final class CursorsBack {
 
     private final Cursor first;
     private final long count;
-    private final Deque<Cursor> beforeWanted = new ArrayDeque<>();
+    private final Deque<Cursor> beforeDesired = new ArrayDeque<>();
     private Cursor last;
 
     /** @param first the answer where fewer events are requested */
@@ -30,17 +30,17 @@ public final class CursorsBack {
     }
 
     /** The next event. */
-    public void add(Cursor event, boolean wanted) {
-        if (wanted) {
-            if (beforeWanted.size() == count) {
-                beforeWanted.remove();
+    public void add(Cursor event, boolean desired) {
+        if (desired) {
+            if (beforeDesired.size() == count) {
+                beforeDesired.remove();
             }
-            beforeWanted.add(last);
+            beforeDesired.add(last);
             last = event;
         }
     }
 
     public Cursor oldest() {
-        return beforeWanted.size() == count ? beforeWanted.element() : first;
+        return beforeDesired.size() == count ? beforeDesired.element() : first;
     }
 }

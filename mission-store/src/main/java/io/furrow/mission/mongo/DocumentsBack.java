@@ -29,13 +29,13 @@ final class DocumentsBack {
 
     private final MongoCollection<RawBsonDocument> collection;
     private final Cursor first;
-    private final Predicate<StoredEvent> wanted;
+    private final Predicate<StoredEvent> desired;
     private final OrderedDocuments.Sizes sizes;
     private final List<Counted> millisecond = new ArrayList<>();
     private long remaining;
 
     /** A document of the millisecond that is being read. */
-    private record Counted(Cursor cursor, boolean isWanted) {
+    private record Counted(Cursor cursor, boolean isDesired) {
         static final Comparator<Counted> NEWEST_FIRST =
                 Comparator.comparing(Counted::cursor).reversed();
     }
@@ -44,11 +44,11 @@ final class DocumentsBack {
     DocumentsBack(
             MongoCollection<RawBsonDocument> collection,
             Cursor first,
-            Predicate<StoredEvent> wanted,
+            Predicate<StoredEvent> desired,
             OrderedDocuments.Sizes sizes) {
         this.collection = collection;
         this.first = first;
-        this.wanted = wanted;
+        this.desired = desired;
         this.sizes = sizes;
     }
 
@@ -128,13 +128,13 @@ final class DocumentsBack {
     private void add(OrderedDocuments.Ordered document, Cursor from) {
         Cursor cursor = document.cursor();
         if (cursor.compareTo(from) <= 0 && cursor.compareTo(first) > 0) {
-            millisecond.add(new Counted(cursor, isWanted(document)));
+            millisecond.add(new Counted(cursor, isDesired(document)));
         }
     }
 
-    private boolean isWanted(OrderedDocuments.Ordered document) {
+    private boolean isDesired(OrderedDocuments.Ordered document) {
         try {
-            return wanted.test(document.event());
+            return desired.test(document.event());
         } catch (UnreadableException e) {
             return false; // a page names it
         }
@@ -144,10 +144,10 @@ final class DocumentsBack {
     private Optional<Cursor> before() {
         millisecond.sort(Counted.NEWEST_FIRST);
         for (Counted document : millisecond) {
-            if (remaining == 0 && document.isWanted()) {
+            if (remaining == 0 && document.isDesired()) {
                 return Optional.of(document.cursor());
             }
-            remaining -= remaining > 0 && document.isWanted() ? 1 : 0;
+            remaining -= remaining > 0 && document.isDesired() ? 1 : 0;
         }
         millisecond.clear();
         return Optional.empty();

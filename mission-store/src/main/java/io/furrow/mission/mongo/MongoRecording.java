@@ -173,10 +173,10 @@ final class MongoRecording implements Recording {
 
     /** By a query that reads backwards; the pages are not disturbed. */
     @Override
-    public Cursor back(Cursor from, Cursor first, long count, Predicate<StoredEvent> wanted, PageLimits limits)
+    public Cursor back(Cursor from, Cursor first, long count, Predicate<StoredEvent> desired, PageLimits limits)
             throws RecordingException {
         CursorsBack.check(count);
-        DocumentsBack documents = new DocumentsBack(collection, first, wanted, sizes);
+        DocumentsBack documents = new DocumentsBack(collection, first, desired, sizes);
         try {
             return documents.cursor(from, count);
         } catch (MongoException e) {

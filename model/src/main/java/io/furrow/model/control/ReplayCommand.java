@@ -11,8 +11,8 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.TopicName;
 
 /** What the topic {@code service.replaymanager} asks for. */
@@ -38,7 +38,7 @@ public sealed interface ReplayCommand extends Command {
      * @param speed 0.1 to 1000, or {@link #MAX}
      * @param range what is played over and over; null for all
      */
-    record Start(List<String> missions, String topic, double speed, WantedReplay.Range range, ReplayPlan plan)
+    record Start(List<String> missions, String topic, double speed, DesiredReplay.Range range, ReplayPlan plan)
             implements ReplayCommand {
         public Start {
             missions = List.copyOf(missions);
@@ -87,7 +87,7 @@ public sealed interface ReplayCommand extends Command {
                     missions,
                     topic,
                     speed,
-                    range == null ? null : WantedReplay.Range.read(new RequestMembers(range)),
+                    range == null ? null : DesiredReplay.Range.read(new RequestMembers(range)),
                     plan);
         }
 
@@ -228,7 +228,7 @@ public sealed interface ReplayCommand extends Command {
     }
 
     /** @param range what is played over and over from now on; null for all */
-    record Loop(Target target, WantedReplay.Range range) implements Steering {
+    record Loop(Target target, DesiredReplay.Range range) implements Steering {
         @Override
         public String verb() {
             return "loop";
@@ -265,8 +265,8 @@ public sealed interface ReplayCommand extends Command {
         return count;
     }
 
-    private static WantedReplay.Range range(RequestMembers members) throws RefusedException {
-        return members.has("from") || members.has("to") ? WantedReplay.Range.read(members) : null;
+    private static DesiredReplay.Range range(RequestMembers members) throws RefusedException {
+        return members.has("from") || members.has("to") ? DesiredReplay.Range.read(members) : null;
     }
 
     static double speed(RequestMembers members, boolean needed) throws RefusedException {

@@ -66,7 +66,7 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
      *
      * @param device with its settings, {@code attributes} checked
      */
-    public static List<MeasuredAttribute> of(WantedDevice device) {
+    public static List<MeasuredAttribute> of(DesiredDevice device) {
         Map<String, MeasuredAttribute> byName = new LinkedHashMap<>();
         List<MeasuredAttribute> known = BY_TYPE.getOrDefault(device.type(), List.of());
         known.forEach(each -> byName.put(each.name(), each));

@@ -43,7 +43,7 @@ public final class MissionDeviceLists {
      *
      * @throws UnreadableException where the part is no such record
      */
-    public Optional<WantedDevice> resolve(WantedDevice device) throws UnreadableException {
+    public Optional<DesiredDevice> resolve(DesiredDevice device) throws UnreadableException {
         GroupRef group = device.group();
         if (group == null) {
             return Optional.of(device);

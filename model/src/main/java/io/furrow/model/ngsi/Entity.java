@@ -58,8 +58,8 @@ public record Entity(ObjectNode json) {
      * The same with the wanted attributes only, for readers that need few of many: an image that nobody asked for is passed
      * over. What is refused is the same.
      */
-    public static Entity parse(byte[] normalized, Set<String> wanted) throws UnreadableException {
-        return EntityExcerpt.read(normalized, wanted);
+    public static Entity parse(byte[] normalized, Set<String> desired) throws UnreadableException {
+        return EntityExcerpt.read(normalized, desired);
     }
 
     /** A new entity with the given id and type and no attributes. */

@@ -22,12 +22,12 @@ final class EntityExcerpt {
 
     private EntityExcerpt() {}
 
-    static Entity read(byte[] normalized, Set<String> wanted) throws UnreadableException {
+    static Entity read(byte[] normalized, Set<String> desired) throws UnreadableException {
         NgsiJson.checkUtf8(normalized);
         boolean textsMatter = normalized.length > NgsiJson.MAX_STRING || holdsEscapedSign(normalized);
         JsonNode excerpt = NgsiJson.understand(() -> {
             try (JsonParser parser = NgsiJson.mapper().createParser(normalized)) {
-                return excerpt(parser, wanted, textsMatter);
+                return excerpt(parser, desired, textsMatter);
             }
         });
         return EntityForm.NORMALIZED.read(excerpt);
@@ -43,7 +43,7 @@ final class EntityExcerpt {
         return false;
     }
 
-    private static ObjectNode excerpt(JsonParser parser, Set<String> wanted, boolean textsMatter)
+    private static ObjectNode excerpt(JsonParser parser, Set<String> desired, boolean textsMatter)
             throws IOException, UnreadableException {
         JsonToken first = parser.nextToken();
         if (first != JsonToken.START_OBJECT) {
@@ -55,7 +55,7 @@ final class EntityExcerpt {
         while (parser.nextToken() == JsonToken.FIELD_NAME) {
             String name = parser.currentName();
             JsonToken value = parser.nextToken();
-            if (name.equals("id") || name.equals("type") || wanted.contains(name)) {
+            if (name.equals("id") || name.equals("type") || desired.contains(name)) {
                 excerpt.set(name, VALUES.readTree(parser));
             } else if (value != JsonToken.START_OBJECT || !passOver(parser, textsMatter)) {
                 throw EntityForm.noAttribute(name);

@@ -23,7 +23,7 @@ import io.furrow.model.time.Instants;
  * read by them. One reader reads one entity after the other; the answers are about the newest. Not safe for threads.
  */
 public final class EntityReader {
-    private final Set<String> wanted;
+    private final Set<String> desired;
     private final Map<String, AttributeValue> values = new HashMap<>();
     private final LocationValue location = new LocationValue();
     private final FirosMessage firos = new FirosMessage();
@@ -39,7 +39,7 @@ public final class EntityReader {
         values.put("location", location);
         PositionReading.ATTRIBUTES.forEach(name -> values.computeIfAbsent(name, any -> new AttributeValue()));
         attributes.forEach(name -> values.computeIfAbsent(name, any -> new AttributeValue()));
-        wanted = Set.copyOf(values.keySet());
+        desired = Set.copyOf(values.keySet());
     }
 
     /**
@@ -50,7 +50,7 @@ public final class EntityReader {
     public void read(byte[] normalized) throws UnreadableException {
         tree = null;
         if (!readTokens(normalized)) {
-            tree = Entity.parse(normalized, wanted);
+            tree = Entity.parse(normalized, desired);
         }
     }
 
@@ -195,7 +195,7 @@ public final class EntityReader {
     private AttributeValue value(String attribute) {
         AttributeValue value = values.get(attribute);
         if (value == null) {
-            throw new IllegalArgumentException("'" + attribute + "' is not one of the requested attributes " + wanted);
+            throw new IllegalArgumentException("'" + attribute + "' is not one of the requested attributes " + desired);
         }
         return value;
     }

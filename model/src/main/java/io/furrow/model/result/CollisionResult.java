@@ -28,8 +28,6 @@ public final class CollisionResult {
     public static final String TCPA = "tcpa";
     /** Meters at the closest point of approach. */
     public static final String DCPA = "dcpa";
-    /** Id of the prediction that an encounter confirms. */
-    public static final String CONFIRMS = "confirms";
 
     /** Attributes of the device whose id is the lesser. */
     public static final Member FIRST = new Member("Device1");

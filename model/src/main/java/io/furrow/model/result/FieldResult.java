@@ -11,8 +11,6 @@ public final class FieldResult {
     public static final String TYPE_PREFIX = ResultTypes.PREFIX + "Field";
 
     public static final String TEMPERATURE_TYPE = TYPE_PREFIX + "Temperature";
-    /** A device that was suspect in too many windows of its last ones. */
-    public static final String SUSPECT_TYPE = ResultTypes.PREFIX + "SuspectDevice";
 
     /** Id of the field. */
     public static final String FIELD = "field";

@@ -45,7 +45,7 @@ class MissionDeviceListsTest {
 
     @Test
     void leavesADeviceAloneThatHasSettingsItself() throws Exception {
-        WantedDevice device = device(null);
+        DesiredDevice device = device(null);
         assertThat(lists.resolve(device)).containsSame(device);
     }
 
@@ -55,8 +55,8 @@ class MissionDeviceListsTest {
         MissionDeviceList list = new MissionDeviceList("m", 3, 9, devices);
         assertThat(list.key()).isEqualTo("m.3");
         assertThat(MissionDeviceList.read(list.toBytes())).isEqualTo(list);
-        WantedDevice device = device(new GroupRef(3, 0, 0, 9));
-        assertThat(WantedDevice.read(device.toBytes())).isEqualTo(device);
+        DesiredDevice device = device(new GroupRef(3, 0, 0, 9));
+        assertThat(DesiredDevice.read(device.toBytes())).isEqualTo(device);
         assertThat(new String(device.toBytes(), StandardCharsets.UTF_8))
                 .endsWith("\"group\":{\"part\":3,\"index\":0,\"member\":0,\"sequence\":9}}");
         for (String wrong : new String[] {"{}", "[]", "{'mission':'m','part':0,'sequence':1,'devices':{}}"}) {
@@ -76,9 +76,9 @@ class MissionDeviceListsTest {
         lists.take(list.key(), list.toBytes());
     }
 
-    private static WantedDevice device(GroupRef group) {
+    private static DesiredDevice device(GroupRef group) {
         DeviceVersion version = new DeviceVersion("urn:x", "farm", "/", "d", "m", 5, null, 7, null);
-        return new WantedDevice(version, "Camera", "x", true, null, true, NONE, group, 0);
+        return new DesiredDevice(version, "Camera", "x", true, null, true, NONE, group, 0);
     }
 
     private static com.fasterxml.jackson.databind.JsonNode json(String text) throws Exception {

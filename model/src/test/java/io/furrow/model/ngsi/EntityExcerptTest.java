@@ -25,7 +25,7 @@ class EntityExcerptTest {
             """;
 
     @Test
-    void holdsIdTypeAndTheWantedAttributesAsTheWholeEntityDoes() throws UnreadableException {
+    void holdsIdTypeAndTheDesiredAttributesAsTheWholeEntityDoes() throws UnreadableException {
         Entity whole = Entity.parse(bytes(CAMERA));
         Entity excerpt = Entity.parse(bytes(CAMERA), Set.of("Mission", "location", "absent"));
 

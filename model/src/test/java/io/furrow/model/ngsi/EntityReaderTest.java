@@ -181,9 +181,9 @@ class EntityReaderTest {
 
     private static Answer ofTree(byte[] bytes) {
         try {
-            Set<String> wanted = new TreeSet<>(WANTED);
-            wanted.addAll(PositionReading.ATTRIBUTES);
-            Entity entity = Entity.parse(bytes, wanted);
+            Set<String> desired = new TreeSet<>(WANTED);
+            desired.addAll(PositionReading.ATTRIBUTES);
+            Entity entity = Entity.parse(bytes, desired);
             List<Object> attributes = new TreeSet<>(WANTED)
                     .stream()
                             .map(name -> ofTree(entity, name))

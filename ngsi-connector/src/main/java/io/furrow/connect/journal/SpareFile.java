@@ -28,7 +28,7 @@ final class SpareFile {
     private long capacity;
     private CompletableFuture<Boolean> made;
     private volatile boolean hurry;
-    private volatile boolean unwanted;
+    private volatile boolean undesired;
 
     /** Begins to make it, unless there is one already. */
     void make(Path path, long bytes) {
@@ -38,7 +38,7 @@ final class SpareFile {
         file = path;
         capacity = bytes;
         hurry = false;
-        unwanted = false;
+        undesired = false;
         made = CompletableFuture.supplyAsync(() -> write(path, bytes), SpareFile::onThread)
                 .exceptionally(failure -> {
                     LOG.debug("{} could not be preallocated", path, failure);
@@ -68,7 +68,7 @@ final class SpareFile {
         if (made == null) {
             return;
         }
-        unwanted = true;
+        undesired = true;
         made.join();
         made = null;
         try {
@@ -82,7 +82,7 @@ final class SpareFile {
     private boolean write(Path path, long bytes) {
         try (FileChannel channel = FileChannel.open(path, CREATE, TRUNCATE_EXISTING, WRITE)) {
             ByteBuffer zeros = ByteBuffer.allocateDirect((int) Math.min(PIECE, bytes));
-            for (long at = 0; at < bytes && !unwanted; at += PIECE) {
+            for (long at = 0; at < bytes && !undesired; at += PIECE) {
                 long start = System.nanoTime();
                 Disk.writeFully(channel, zeros.clear().limit((int) Math.min(PIECE, bytes - at)), at);
                 channel.force(false);
@@ -90,7 +90,7 @@ final class SpareFile {
                     Thread.sleep(Duration.ofNanos(System.nanoTime() - start).toMillis());
                 }
             }
-            return !unwanted;
+            return !undesired;
         } catch (IOException e) {
             LOG.debug("{} could not be preallocated", path, e);
             return false;

@@ -20,7 +20,7 @@ import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.SubscriptionReconciler.SharedServices;
-import io.furrow.connect.subscription.WantedSubscription;
+import io.furrow.connect.subscription.DesiredSubscription;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.text.FailureText;
 
@@ -83,13 +83,13 @@ public final class ReconcileLoop implements AutoCloseable {
     }
 
     /** A desired subscription in a scope, whose service path may end in {@code /#}. */
-    public record Assignment(FiwareScope scope, WantedSubscription wanted) {
+    public record Assignment(FiwareScope scope, DesiredSubscription desired) {
         private SubscriptionReconciler caretaker(
                 Function<BrokerRequest, Outcome> broker, RepairSettings settings, SharedServices means)
                 throws IOException {
             return SubscriptionReconciler.open(
                     SubscriptionReconciler.Target.of(
-                            broker, scope, wanted, settings.reading().pageMaxBytes()),
+                            broker, scope, desired, settings.reading().pageMaxBytes()),
                     settings,
                     means);
         }

@@ -27,9 +27,9 @@ import io.furrow.connect.repair.entity.BrokerEntities;
 import io.furrow.connect.repair.entity.Identities;
 import io.furrow.connect.repair.entity.KnownEntities;
 import io.furrow.connect.subscription.DeliveryReport;
+import io.furrow.connect.subscription.DesiredSubscription;
 import io.furrow.connect.subscription.SubscriptionClient;
 import io.furrow.connect.subscription.SubscriptionStatus;
-import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -62,10 +62,13 @@ public final class SubscriptionReconciler implements AutoCloseable {
     record Target(SubscriptionClient keeper, BrokerEntities entities, BrokerUptime uptime) {
         /** @param maxBytes of a page's body */
         static Target of(
-                Function<BrokerRequest, Outcome> broker, FiwareScope scope, WantedSubscription wanted, long maxBytes) {
+                Function<BrokerRequest, Outcome> broker,
+                FiwareScope scope,
+                DesiredSubscription desired,
+                long maxBytes) {
             return new Target(
-                    new SubscriptionClient(broker, scope, wanted),
-                    new BrokerEntities(broker, scope, wanted.subject(), wanted.content(), maxBytes),
+                    new SubscriptionClient(broker, scope, desired),
+                    new BrokerEntities(broker, scope, desired.subject(), desired.content(), maxBytes),
                     new BrokerUptime(broker, scope));
         }
     }
@@ -81,7 +84,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
         listings = new ListingSchedule(settings.deletions().interval());
         this.settings = settings;
         this.means = means;
-        balance = new DeliveryBalance(keeper.wanted().content().namesItsSubscription());
+        balance = new DeliveryBalance(keeper.desired().content().namesItsSubscription());
         known = KnownEntities.open(folder.resolve("known"), settings.deletions().knownMaxBytes());
         watermark = Watermark.open(folder.resolve("watermark"));
         lateRecords = LateRecords.open(folder.resolve("late"));
@@ -94,7 +97,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
      */
     static SubscriptionReconciler open(Target charge, RepairSettings settings, SharedServices means)
             throws IOException {
-        String share = charge.keeper().wanted().name().share().label();
+        String share = charge.keeper().desired().name().share().label();
         Path folder = settings.folder().resolve(folderName(charge.keeper().scope(), share));
         Files.createDirectories(folder);
         return new SubscriptionReconciler(charge, settings, means, folder);
@@ -186,7 +189,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
 
     /** Where its notifications go. */
     String url() {
-        return keeper.wanted().target().url();
+        return keeper.desired().target().url();
     }
 
     /** What the context broker said about its notifications at the last poll. */

@@ -25,10 +25,10 @@ import io.furrow.connect.source.journal.JournalRecordLog;
 import io.furrow.connect.source.journal.RecordLog;
 import io.furrow.connect.source.journal.TrackedRecordLog;
 import io.furrow.connect.source.option.SubscriptionOptions;
+import io.furrow.connect.subscription.DesiredSubscription;
+import io.furrow.connect.subscription.DesiredSubscription.Name;
 import io.furrow.connect.subscription.IdShare;
 import io.furrow.connect.subscription.Target;
-import io.furrow.connect.subscription.WantedSubscription;
-import io.furrow.connect.subscription.WantedSubscription.Name;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.file.FileProblem;
@@ -144,7 +144,7 @@ final class OwnSubscriptions implements AutoCloseable {
         List<Assignment> commissions = new ArrayList<>();
         for (String tenant : config.subscription().tenants()) {
             for (String path : config.subscription().servicePaths()) {
-                commissions.add(new Assignment(new FiwareScope(tenant, path), wanted(path, port)));
+                commissions.add(new Assignment(new FiwareScope(tenant, path), desired(path, port)));
             }
         }
         Path folder = config.journal()
@@ -164,11 +164,11 @@ final class OwnSubscriptions implements AutoCloseable {
         }
     }
 
-    private WantedSubscription wanted(String servicePath, int port) {
+    private DesiredSubscription desired(String servicePath, int port) {
         SubscriptionOptions options = config.subscription();
         IdShare share = new IdShare(config.taskIndex(), config.taskCount());
         Name name = new Name(options.description(config.name()), share, servicePath);
-        return new WantedSubscription(
+        return new DesiredSubscription(
                 name,
                 options.subject(share.count() > 1 ? Optional.of(share.pattern()) : Optional.empty()),
                 options.content(),

@@ -30,17 +30,17 @@ public final class SubscriptionClient {
 
     private final Function<BrokerRequest, Outcome> broker;
     private final FiwareScope scope;
-    private final WantedSubscription wanted;
+    private final DesiredSubscription desired;
 
     /** @param scope the tenant, and the service path that the subscription is for */
-    public SubscriptionClient(Function<BrokerRequest, Outcome> broker, FiwareScope scope, WantedSubscription wanted) {
+    public SubscriptionClient(Function<BrokerRequest, Outcome> broker, FiwareScope scope, DesiredSubscription desired) {
         this.broker = broker;
         this.scope = scope;
-        this.wanted = wanted;
+        this.desired = desired;
     }
 
-    public WantedSubscription wanted() {
-        return wanted;
+    public DesiredSubscription desired() {
+        return desired;
     }
 
     public FiwareScope scope() {
@@ -54,7 +54,7 @@ public final class SubscriptionClient {
      */
     public SubscriptionStatus keep(Instant now) throws BrokerException {
         Listing listing = list(now);
-        SubscriptionPlan plan = SubscriptionPlan.of(wanted, listing.subscriptions(), now);
+        SubscriptionPlan plan = SubscriptionPlan.of(desired, listing.subscriptions(), now);
         Optional<String> created = Optional.empty();
         for (Step step : plan.steps()) {
             Optional<String> id = take(step);
@@ -127,8 +127,8 @@ public final class SubscriptionClient {
             LOG.info(
                     "subscribed at {} as '{}', notified at {}",
                     place(),
-                    wanted.name().text(),
-                    wanted.target().url());
+                    desired.name().text(),
+                    desired.target().url());
             return Optional.of(done.headers().createdId().orElse(""));
         }
         if (step instanceof Step.Change change) {

@@ -40,47 +40,47 @@ record SubscriptionPlan(Optional<JsonNode> current, List<Step> steps, List<JsonN
         record Remove(String id, String description) implements Step {}
     }
 
-    static SubscriptionPlan of(WantedSubscription wanted, List<JsonNode> listed, Instant now) {
-        String description = wanted.name().text();
+    static SubscriptionPlan of(DesiredSubscription desired, List<JsonNode> listed, Instant now) {
+        String description = desired.name().text();
         List<JsonNode> ours = new ArrayList<>(listed.stream()
                 .filter(one -> description(one).equals(description))
                 .toList());
         Optional<JsonNode> current = ours.stream()
-                .filter(one -> url(one).equals(wanted.target().url()))
+                .filter(one -> url(one).equals(desired.target().url()))
                 .findFirst()
                 .or(() -> ours.stream().findFirst());
         List<Step> steps = new ArrayList<>();
         if (current.isEmpty()) {
-            steps.add(new Step.Create(wanted.json(now)));
+            steps.add(new Step.Create(desired.json(now)));
         } else {
-            change(wanted, current.get(), now).ifPresent(steps::add);
+            change(desired, current.get(), now).ifPresent(steps::add);
             ours.remove(current.get());
             ours.forEach(one -> steps.add(remove(one)));
         }
         List<JsonNode> leftovers = listed.stream()
-                .filter(one -> wanted.name().isLeftover(description(one)))
+                .filter(one -> desired.name().isLeftover(description(one)))
                 .toList();
-        if (wanted.name().share().index() == 0 && areAllThere(wanted, listed)) {
+        if (desired.name().share().index() == 0 && areAllThere(desired, listed)) {
             leftovers.forEach(one -> steps.add(remove(one)));
         }
         return new SubscriptionPlan(current, List.copyOf(steps), leftovers);
     }
 
-    private static boolean areAllThere(WantedSubscription wanted, List<JsonNode> listed) {
+    private static boolean areAllThere(DesiredSubscription desired, List<JsonNode> listed) {
         return listed.stream()
                         .map(SubscriptionPlan::description)
-                        .filter(wanted.name()::isSibling)
+                        .filter(desired.name()::isSibling)
                         .distinct()
                         .count()
-                == wanted.name().share().count();
+                == desired.name().share().count();
     }
 
     private static Step remove(JsonNode subscription) {
         return new Step.Remove(id(subscription), description(subscription));
     }
 
-    private static Optional<Step> change(WantedSubscription wanted, JsonNode current, Instant now) {
-        ObjectNode asked = wanted.json(now);
+    private static Optional<Step> change(DesiredSubscription desired, JsonNode current, Instant now) {
+        ObjectNode asked = desired.json(now);
         ObjectNode json = JsonNodeFactory.instance.objectNode();
         Set<String> members = new TreeSet<>(differing(subject(asked), subject(current)));
         if (!members.isEmpty()) {
@@ -95,7 +95,7 @@ record SubscriptionPlan(Optional<JsonNode> current, List<Step> steps, List<JsonN
             json.put("throttling", asked.path("throttling").asLong());
             members.add("throttling");
         }
-        if (!wanted.lastsLongEnough(current, now)) {
+        if (!desired.lastsLongEnough(current, now)) {
             json.put("expires", asked.path("expires").asText(""));
             members.add("expires");
         }

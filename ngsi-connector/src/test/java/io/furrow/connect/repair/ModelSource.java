@@ -20,10 +20,10 @@ import io.furrow.connect.repair.RepairSettings.Reading;
 import io.furrow.connect.repair.entity.EntityRecord;
 import io.furrow.connect.repair.entity.EntityVersion;
 import io.furrow.connect.subscription.Content;
+import io.furrow.connect.subscription.DesiredSubscription;
 import io.furrow.connect.subscription.IdShare;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.connect.subscription.Target;
-import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.EventTimeRule;
@@ -37,12 +37,12 @@ final class ModelSource implements RepairOutput, AutoCloseable {
     static final FiwareScope PLACE = new FiwareScope("agri", "/");
 
     private static final EventTimeRule TIMES = EventTimeRule.within(Duration.ofMinutes(5));
-    private static final WantedSubscription WANTED = new WantedSubscription(
-            new WantedSubscription.Name("furrow farm", IdShare.ALL, "/#"),
+    private static final DesiredSubscription WANTED = new DesiredSubscription(
+            new DesiredSubscription.Name("furrow farm", IdShare.ALL, "/#"),
             Subject.ANY,
             new Content(List.of("*", "dateModified"), "normalized", false),
             new Target("http://127.0.0.1:1/v2/notify", Map.of(), Optional.empty()),
-            WantedSubscription.Pace.EVERY_CHANGE);
+            DesiredSubscription.Pace.EVERY_CHANGE);
 
     /**
      * What is on the topic.

@@ -27,10 +27,10 @@ import io.furrow.connect.repair.RepairSettings.Mode;
 import io.furrow.connect.repair.RepairSettings.Reading;
 import io.furrow.connect.repair.entity.EntityRecord;
 import io.furrow.connect.subscription.Content;
+import io.furrow.connect.subscription.DesiredSubscription;
 import io.furrow.connect.subscription.IdShare;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.connect.subscription.Target;
-import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 
@@ -72,12 +72,12 @@ final class PressedRepair {
                 return Optional.of(CompletableFuture.completedFuture(null));
             }
         };
-        WantedSubscription wanted = new WantedSubscription(
-                new WantedSubscription.Name("furrow farm", IdShare.ALL, "/#"),
+        DesiredSubscription desired = new DesiredSubscription(
+                new DesiredSubscription.Name("furrow farm", IdShare.ALL, "/#"),
                 Subject.ANY,
                 new Content(List.of("*", "dateModified"), "normalized", false),
                 new Target("http://127.0.0.1:1/", Map.of(), Optional.empty()),
-                WantedSubscription.Pace.EVERY_CHANGE);
+                DesiredSubscription.Pace.EVERY_CHANGE);
         RepairSettings settings = new RepairSettings(
                 Path.of(args[0]),
                 Duration.ofSeconds(1),
@@ -85,7 +85,7 @@ final class PressedRepair {
                 new Reading(500, 16L * MIB, EventTimeRule.within(Duration.ofDays(10_000)), List.of()),
                 new Deletions(BOUND, Duration.ofHours(1)));
         try (SubscriptionReconciler caretaker = SubscriptionReconciler.open(
-                SubscriptionReconciler.Target.of(client::send, EVERYWHERE, wanted, 16L * MIB),
+                SubscriptionReconciler.Target.of(client::send, EVERYWHERE, desired, 16L * MIB),
                 settings,
                 new SubscriptionReconciler.SharedServices(live, output, new Ledger()))) {
             caretaker.look();

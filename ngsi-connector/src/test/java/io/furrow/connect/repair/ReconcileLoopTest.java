@@ -25,12 +25,12 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.ReconcileLoop.Assignment;
 import io.furrow.connect.repair.RepairSettings.Mode;
 import io.furrow.connect.subscription.Content;
+import io.furrow.connect.subscription.DesiredSubscription;
+import io.furrow.connect.subscription.DesiredSubscription.Name;
+import io.furrow.connect.subscription.DesiredSubscription.Pace;
 import io.furrow.connect.subscription.IdShare;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.connect.subscription.Target;
-import io.furrow.connect.subscription.WantedSubscription;
-import io.furrow.connect.subscription.WantedSubscription.Name;
-import io.furrow.connect.subscription.WantedSubscription.Pace;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
@@ -236,7 +236,7 @@ class ReconcileLoopTest {
     }
 
     private void start(Mode mode) {
-        WantedSubscription wanted = new WantedSubscription(
+        DesiredSubscription desired = new DesiredSubscription(
                 new Name("furrow farm", IdShare.ALL, "/#"),
                 Subject.ANY,
                 CONTENT,
@@ -259,7 +259,7 @@ class ReconcileLoopTest {
                         failing.run();
                         return client.send(request);
                     },
-                    List.of(new Assignment(new FiwareScope("agri", "/#"), wanted)),
+                    List.of(new Assignment(new FiwareScope("agri", "/#"), desired)),
                     settings,
                     new SubscriptionReconciler.SharedServices(live, new Output(), ledger),
                     Duration.ofMillis(100));

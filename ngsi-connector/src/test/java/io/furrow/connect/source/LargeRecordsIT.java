@@ -158,8 +158,8 @@ class LargeRecordsIT {
     }
 
     private static void make(ConnectRig rig, String topic, String maxBytes) {
-        NewTopic wanted = new NewTopic(topic, Optional.of(1), Optional.empty());
-        rig.createTopic(wanted.configs(Map.of("max.message.bytes", maxBytes)));
+        NewTopic desired = new NewTopic(topic, Optional.of(1), Optional.empty());
+        rig.createTopic(desired.configs(Map.of("max.message.bytes", maxBytes)));
     }
 
     private static void lower(String topic) throws Exception {

@@ -78,7 +78,7 @@ class OverloadTest {
     }
 
     @Test
-    void answersUnavailableWhereThatIsWanted() {
+    void answersUnavailableWhereThatIsDesired() {
         try (ReceptionRig rig = new ReceptionRig("overload.hold.ms", "200", "overload.answer", "503")) {
             rig.intake.answer = Optional.empty();
 

@@ -104,7 +104,7 @@ class OwnSubscriptionsTest {
     }
 
     @Test
-    void tellAndRepairTheMetadataThatAreWanted() throws Exception {
+    void tellAndRepairTheMetadataThatAreDesired() throws Exception {
         create("before");
         NgsiSourceConfig config =
                 config(Map.of("subscription.metadata", "TimeInstant,dateModified", "repair.mode", "initial"));

@@ -75,7 +75,7 @@ class TlsTest {
     }
 
     @Test
-    void takesNotificationsOfKnownClientsOnlyWhereThatIsWanted() throws Exception {
+    void takesNotificationsOfKnownClientsOnlyWhereThatIsDesired() throws Exception {
         try (ReceptionRig rig = new ReceptionRig(withClientAuth("client.p12"))) {
             assertThat(post(rig, keys.client("server", "client")).statusCode()).isEqualTo(200);
             assertThatThrownBy(() -> post(rig, keys.client("server", null))).isInstanceOf(IOException.class);

@@ -16,9 +16,9 @@ import org.junit.jupiter.params.provider.Arguments;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.connect.subscription.DesiredSubscription.Name;
+import io.furrow.connect.subscription.DesiredSubscription.Pace;
 import io.furrow.connect.subscription.SubscriptionPlan.Step;
-import io.furrow.connect.subscription.WantedSubscription.Name;
-import io.furrow.connect.subscription.WantedSubscription.Pace;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -26,7 +26,7 @@ class SubscriptionPlanTest {
     private static final Instant NOW = Instant.parse("2026-11-21T12:00:00Z");
     private static final Content CONTENT = new Content(List.of("*", "dateModified"), "normalized", false);
     private static final Target TARGET = new Target("http://here:8090/v2/notify", Map.of(), Optional.empty());
-    private static final WantedSubscription WANTED = wanted(IdShare.ALL, TARGET, Pace.EVERY_CHANGE);
+    private static final DesiredSubscription WANTED = desired(IdShare.ALL, TARGET, Pace.EVERY_CHANGE);
 
     @Test
     void makesWhatIsNotThere() {
@@ -45,10 +45,10 @@ class SubscriptionPlanTest {
     @Test
     void changesOneThatTellsOtherMetadata() {
         Content content = new Content(List.of("*", "dateModified"), List.of("*", "dateModified"), "normalized", false);
-        WantedSubscription wanted =
-                new WantedSubscription(WANTED.name(), WANTED.subject(), content, TARGET, Pace.EVERY_CHANGE);
+        DesiredSubscription desired =
+                new DesiredSubscription(WANTED.name(), WANTED.subject(), content, TARGET, Pace.EVERY_CHANGE);
 
-        assertThat(SubscriptionPlan.of(wanted, List.of(ours()), NOW).steps())
+        assertThat(SubscriptionPlan.of(desired, List.of(ours()), NOW).steps())
                 .singleElement()
                 .isInstanceOfSatisfying(Step.Change.class, change -> {
                     assertThat(change.members()).containsExactly("metadata");
@@ -100,7 +100,7 @@ class SubscriptionPlanTest {
     @Test
     void tellsOfASecretThatIsNotTheSameAndDoesNotShowIt() {
         Target secret = new Target(TARGET.url(), Map.of("X-Secret", "s3cret"), Optional.of(3));
-        WantedSubscription guarded = wanted(IdShare.ALL, secret, Pace.EVERY_CHANGE);
+        DesiredSubscription guarded = desired(IdShare.ALL, secret, Pace.EVERY_CHANGE);
 
         SubscriptionPlan plan = SubscriptionPlan.of(guarded, List.of(ours()), NOW);
 
@@ -114,8 +114,8 @@ class SubscriptionPlanTest {
     @ParameterizedTest
     @CsvSource({"2026-11-21T12:10:00Z, true", "2026-11-21T12:50:00Z, false", "2026-11-21T15:00:00Z, true", "'', true"})
     void renewsTheEndWhenHalfOfItsLifeIsGone(String end, boolean renewed) {
-        WantedSubscription mortal =
-                wanted(IdShare.ALL, TARGET, new Pace(Duration.ZERO, Optional.of(Duration.ofHours(1))));
+        DesiredSubscription mortal =
+                desired(IdShare.ALL, TARGET, new Pace(Duration.ZERO, Optional.of(Duration.ofHours(1))));
         ObjectNode ours = end.isEmpty() ? ours() : ours().put("expires", end);
 
         SubscriptionPlan plan = SubscriptionPlan.of(mortal, List.of(ours), NOW);
@@ -141,8 +141,8 @@ class SubscriptionPlanTest {
     @Test
     void removesThoseOfAnotherNumberOfTasksWhenAllOfThisNumberAreThere() {
         ObjectNode former = shown("9", "furrow farm 1/1", TARGET.url());
-        WantedSubscription first = wanted(new IdShare(0, 2), TARGET, Pace.EVERY_CHANGE);
-        WantedSubscription second = wanted(new IdShare(1, 2), TARGET, Pace.EVERY_CHANGE);
+        DesiredSubscription first = desired(new IdShare(0, 2), TARGET, Pace.EVERY_CHANGE);
+        DesiredSubscription second = desired(new IdShare(1, 2), TARGET, Pace.EVERY_CHANGE);
         JsonNode one = first.json(NOW).put("id", "1").put("status", "active");
         JsonNode two = second.json(NOW).put("id", "2").put("status", "active");
         JsonNode foreign = shown("3", "furrow farm elsewhere 1/1", TARGET.url());
@@ -158,9 +158,9 @@ class SubscriptionPlanTest {
                 .containsExactly(former);
     }
 
-    private static WantedSubscription wanted(IdShare share, Target target, Pace pace) {
+    private static DesiredSubscription desired(IdShare share, Target target, Pace pace) {
         Subject subject = new Subject(share.pattern(), List.of(), Optional.empty(), List.of());
-        return new WantedSubscription(new Name("furrow farm", share, "/#"), subject, CONTENT, target, pace);
+        return new DesiredSubscription(new Name("furrow farm", share, "/#"), subject, CONTENT, target, pace);
     }
 
     private static ObjectNode ours() {
@@ -169,7 +169,7 @@ class SubscriptionPlanTest {
 
     /** As Orion shows it, with what it adds. */
     private static ObjectNode shown(String id, String description, String url) {
-        ObjectNode shown = wanted(IdShare.ALL, new Target(url, Map.of(), Optional.empty()), Pace.EVERY_CHANGE)
+        ObjectNode shown = desired(IdShare.ALL, new Target(url, Map.of(), Optional.empty()), Pace.EVERY_CHANGE)
                 .json(NOW)
                 .put("id", id)
                 .put("status", "active")

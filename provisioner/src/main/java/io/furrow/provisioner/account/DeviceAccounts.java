@@ -11,8 +11,8 @@ import java.util.TreeMap;
 import java.util.TreeSet;
 
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.provisioner.ProvisioningSettings;
 
 /**
@@ -84,8 +84,8 @@ public final class DeviceAccounts {
      *
      * @param all whether those too that no desired device has had since the start, and whose key is accepted
      */
-    public void revoke(Collection<WantedDevice> wanted, boolean all) throws IOException {
-        Set<String> users = new HashSet<>(byUser(wanted).keySet());
+    public void revoke(Collection<DesiredDevice> desired, boolean all) throws IOException {
+        Set<String> users = new HashSet<>(byUser(desired).keySet());
         users.forEach(user -> own.add(UserName.of(user).owner()));
         if (allowed == null || !users.containsAll(allowed)) {
             allowed = null;
@@ -114,7 +114,7 @@ public final class DeviceAccounts {
      * @param complete whether these are all
      * @return why, by key, of those that cannot have their account
      */
-    public Map<String, String> grant(Map<String, WantedDevice> there, boolean complete) throws IOException {
+    public Map<String, String> grant(Map<String, DesiredDevice> there, boolean complete) throws IOException {
         List<MqttAccount> accounts = List.copyOf(byUser(there.values()).values());
         boolean grows = granted != null && new HashSet<>(accounts).containsAll(granted);
         if (!accounts.equals(granted) && (complete || grows)) {
@@ -137,11 +137,11 @@ public final class DeviceAccounts {
         return reasons;
     }
 
-    private Map<String, MqttAccount> byUser(Collection<WantedDevice> devices) {
+    private Map<String, MqttAccount> byUser(Collection<DesiredDevice> devices) {
         FarmSecret now = secret.get();
         Map<String, MqttAccount> byUser = new TreeMap<>();
         Set<String> missions = new HashSet<>();
-        for (WantedDevice device : devices) {
+        for (DesiredDevice device : devices) {
             String mission = device.version().mission();
             MqttAccount.devices(now, mission, device.device(), device.generation())
                     .forEach(account -> byUser.put(account.login().user(), account));

@@ -66,14 +66,14 @@ public record MqttAccount(FarmSecret.Login login, List<String> writes, List<Stri
 
     /** Whether a filter takes no topic that the granted one does not. */
     private static boolean covers(String granted, String filter) {
-        String[] wanted = filter.split("/", -1);
+        String[] desired = filter.split("/", -1);
         String[] given = granted.split("/", -1);
-        if (wanted.length != given.length) {
+        if (desired.length != given.length) {
             return false;
         }
         for (int i = 0; i < given.length; i++) {
-            boolean any = given[i].equals("+") && !wanted[i].equals("#");
-            if (!any && !given[i].equals(wanted[i])) {
+            boolean any = given[i].equals("+") && !desired[i].equals("#");
+            if (!any && !given[i].equals(desired[i])) {
                 return false;
             }
         }

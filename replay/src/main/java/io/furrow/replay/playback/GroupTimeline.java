@@ -1,7 +1,7 @@
 package io.furrow.replay.playback;
 
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 
 /** The schedule of a replay whose group has a clock; the passes of a loop are counted from that clock. */
 final class GroupTimeline {
@@ -12,26 +12,26 @@ final class GroupTimeline {
      * @param today epoch ms at that time
      * @param ahead whether the replay is in the pass that the group's clock comes to next
      */
-    static Timeline of(WantedReplay wanted, long now, long today, boolean ahead) {
-        WantedReplay.Clock clock = wanted.clock();
-        boolean held = wanted.wanted() == ReplayStatus.State.PAUSED;
-        long shown = held ? clock.shows() : clock.position(today, wanted.speed());
-        long passed = passed(wanted, shown, ahead);
-        return new Timeline(now + clock.at() - today, clock.shows() - passed, wanted.speed(), held);
+    static Timeline of(DesiredReplay desired, long now, long today, boolean ahead) {
+        DesiredReplay.Clock clock = desired.clock();
+        boolean held = desired.desired() == ReplayStatus.State.PAUSED;
+        long shown = held ? clock.shows() : clock.position(today, desired.speed());
+        long passed = passed(desired, shown, ahead);
+        return new Timeline(now + clock.at() - today, clock.shows() - passed, desired.speed(), held);
     }
 
     /** Event time of the passes of a loop that the clock has left behind, ms. */
-    private static long passed(WantedReplay wanted, long shown, boolean ahead) {
-        long from = wanted.from(Long.MIN_VALUE);
-        long length = wanted.to() - from;
-        if (wanted.loops() && length > 0 && shown >= wanted.to()) {
+    private static long passed(DesiredReplay desired, long shown, boolean ahead) {
+        long from = desired.from(Long.MIN_VALUE);
+        long length = desired.to() - from;
+        if (desired.loops() && length > 0 && shown >= desired.to()) {
             return Math.floorDiv(shown - from, length) * length;
         }
         return ahead ? length : 0;
     }
 
     /** A clock that was stopped or changed just before a pass of its loop ends does not know who has begun the next. */
-    static boolean isAPassAhead(Timeline timeline, WantedReplay next, long now) {
+    static boolean isAPassAhead(Timeline timeline, DesiredReplay next, long now) {
         if (next.clock() == null || !next.loops()) {
             return false;
         }

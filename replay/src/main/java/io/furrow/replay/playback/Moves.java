@@ -3,7 +3,7 @@ package io.furrow.replay.playback;
 import io.furrow.flink.time.Epochs;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Span;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /** What a step makes of a {@link PlaybackState}: each is the state before it with a few members changed. */
@@ -140,8 +140,8 @@ final class Moves {
     }
 
     /** The offset grows where timestamps would step back. */
-    static PlaybackState opened(PlaybackState s, Span span, WantedReplay wanted) {
-        long point = point(s.start(), span, wanted);
+    static PlaybackState opened(PlaybackState s, Span span, DesiredReplay desired) {
+        long point = point(s.start(), span, desired);
         Moves next = new Moves(s);
         next.phase = Phase.PRIMING;
         next.reason = null;
@@ -156,18 +156,18 @@ final class Moves {
     }
 
     /** The epoch would have begun there, as far as that is known. */
-    static PlaybackState unopened(PlaybackState s, WantedReplay wanted) {
+    static PlaybackState unopened(PlaybackState s, DesiredReplay desired) {
         Moves next = new Moves(s);
-        long begin = s.start() == null ? wanted.from(s.first()) : s.start();
+        long begin = s.start() == null ? desired.from(s.first()) : s.start();
         next.position = within(0, begin, Epochs.SPAN - 1);
         next.offset = Math.max(s.offset(), s.stamp() - next.position);
         return next.done();
     }
 
     /** Where the epoch begins: as asked for, but within the recording and what is requested of it. */
-    private static long point(Long start, Span span, WantedReplay wanted) {
-        long from = wanted.from(span.first());
-        long to = Math.min(span.last() + 1, wanted.to());
+    private static long point(Long start, Span span, DesiredReplay desired) {
+        long from = desired.from(span.first());
+        long to = Math.min(span.last() + 1, desired.to());
         long least = within(0, from, Epochs.SPAN - 1);
         return start == null ? least : within(least, start, Math.max(least, Math.min(to, Epochs.SPAN - 1)));
     }

@@ -6,9 +6,9 @@ import java.util.Optional;
 import java.util.function.LongUnaryOperator;
 
 import io.furrow.flink.time.Epochs;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /**
@@ -25,7 +25,7 @@ public final class Playback {
     private static final String NO_EPOCH_LEFT = "all " + (Epochs.LAST + 1) + " epochs are used; start another replay";
 
     private final Schedule schedule;
-    private WantedReplay wanted;
+    private DesiredReplay desired;
     private PlaybackState at;
     private ReadAhead ahead;
 
@@ -40,17 +40,18 @@ public final class Playback {
     private long passBegan;
 
     /**
-     * @param wanted what was applied last; of a fresh state what is requested first
+     * @param desired what was applied last; of a fresh state what is requested first
      * @param wall epoch ms at a time of the clock
      */
-    public Playback(WantedReplay wanted, PlaybackState state, long now, LongUnaryOperator wall) {
-        this.wanted = wanted;
-        this.schedule = new Schedule(wanted, wall);
+    public Playback(DesiredReplay desired, PlaybackState state, long now, LongUnaryOperator wall) {
+        this.desired = desired;
+        this.schedule = new Schedule(desired, wall);
         boolean fresh = state.sequence() < 0;
         this.withoutState = fresh;
         this.passBegan = fresh ? now : now - MIN_PASS;
-        Long start = fresh && wanted.seek() != null ? Long.valueOf(wanted.seek().to()) : state.start();
-        this.at = Moves.of(state, wanted.sequence(), start);
+        Long start =
+                fresh && desired.seek() != null ? Long.valueOf(desired.seek().to()) : state.start();
+        this.at = Moves.of(state, desired.sequence(), start);
         if (fresh) {
             at = steps().withoutObsolete();
         }
@@ -87,24 +88,24 @@ public final class Playback {
     }
 
     private Steps steps() {
-        return new Steps(at, wanted);
+        return new Steps(at, desired);
     }
 
     private boolean isStopped() {
-        return wanted.wanted() == ReplayStatus.State.STOPPED;
+        return desired.desired() == ReplayStatus.State.STOPPED;
     }
 
     /** Takes what is requested now, unless it is older than what was applied; a record that this ends the epoch with is returned. */
-    public Optional<Played> apply(WantedReplay next, long now) {
+    public Optional<Played> apply(DesiredReplay next, long now) {
         if (next.sequence() <= at.sequence()) {
             return Optional.empty();
         }
         boolean seeks = next.seek() != null && next.seek().sequence() > at.sequence();
-        boolean plainAgain = at.phase() == Phase.BETWEEN && wanted.range() != null && next.range() == null;
+        boolean plainAgain = at.phase() == Phase.BETWEEN && desired.range() != null && next.range() == null;
         long position = position(now);
-        long rangeEnd = wanted.to();
+        long rangeEnd = desired.to();
         schedule.follow(next, at.phase() == Phase.PLAYING, now);
-        wanted = next;
+        desired = next;
         at = Moves.of(at, next.sequence(), at.start());
         at = steps().withoutObsolete();
         at = schedule.isHeld() ? at : Moves.towards(at, null);
@@ -113,7 +114,7 @@ public final class Playback {
             return over(Phase.STOPPED, null, "stopped", now);
         }
         if (!seeks && plainAgain) { // plays on behind the range
-            begin(schedule.isOfGroup() ? wanted.clock().position(schedule.wall(now), wanted.speed()) : rangeEnd, now);
+            begin(schedule.isOfGroup() ? desired.clock().position(schedule.wall(now), desired.speed()) : rangeEnd, now);
         }
         if (!seeks) {
             return Optional.empty();
@@ -150,7 +151,7 @@ public final class Playback {
     /** Also an epoch that could not begin: who was given the name of its topic waits for an end. */
     private Optional<Played> closed(Phase how, String reason, long now) {
         if (!hasBegun()) {
-            at = Moves.unopened(at, wanted);
+            at = Moves.unopened(at, desired);
             at = Moves.over(at, how, reason);
             return Optional.of(played(Played.Kind.END, null, reason, at.position(), now));
         }
@@ -181,7 +182,7 @@ public final class Playback {
 
     /** What is to be read next; asked for once. */
     public Optional<Fetch> fetch() {
-        return ahead.fetch(at, wanted);
+        return ahead.fetch(at, desired);
     }
 
     /** Takes what was read; a record that this ends the epoch with is returned. */
@@ -200,9 +201,9 @@ public final class Playback {
             return closed(Phase.FAILED, gone.reason(), now);
         } else if (fetched instanceof Fetched.Opened opened) {
             if (opened.span().isEmpty()) {
-                return closed(Phase.ENDED, "mission '" + wanted.mission() + "' has no event", now);
+                return closed(Phase.ENDED, "mission '" + desired.mission() + "' has no event", now);
             }
-            at = Moves.opened(at, opened.span().get(), wanted);
+            at = Moves.opened(at, opened.span().get(), desired);
             startOver(now);
         } else if (fetched instanceof Fetched.Begun begun) {
             ahead.setPrimes(begun.primes());
@@ -280,9 +281,9 @@ public final class Playback {
 
     private Played endOfPass(long now) {
         at = Moves.skipped(at, ahead.skippedOfRest());
-        boolean again = wanted.loops() && (schedule.isOfGroup() || hasSomethingToRepeat());
+        boolean again = desired.loops() && (schedule.isOfGroup() || hasSomethingToRepeat());
         Played end = played(Played.Kind.END, null, again ? "loop" : "ended", at.position(), now);
-        String reason = wanted.loops() && !again ? "there is no event to play over and over" : null;
+        String reason = desired.loops() && !again ? "there is no event to play over and over" : null;
         at = Moves.over(at, again ? Phase.BETWEEN : Phase.ENDED, reason);
         if (!again) {
             startOver(now); // holds nothing that was read: what is asked for behind the end reads anew
@@ -292,15 +293,15 @@ public final class Playback {
 
     /** Whether this pass, if it was a whole one, had an event. */
     private boolean hasSomethingToRepeat() {
-        return at.events() > 0 || at.point() > wanted.from(at.first());
+        return at.events() > 0 || at.point() > desired.from(at.first());
     }
 
     private boolean isAtEnd() {
-        return ahead.isOver(wanted.to());
+        return ahead.isOver(desired.to());
     }
 
     private Played played(Played.Kind kind, ReadyEvent event, String reason, long time, long now) {
-        boolean rebased = wanted.plan().stamps() == ReplayPlan.Stamps.NOW;
+        boolean rebased = desired.plan().stamps() == ReplayPlan.Stamps.NOW;
         long offset = rebased // none is negative
                 ? Math.max(at.stamp(), Math.max(time, schedule.wall(now))) - time
                 : at.offset();
@@ -342,8 +343,8 @@ public final class Playback {
         return next == null ? state : Moves.before(state, next.time());
     }
 
-    public WantedReplay wanted() {
-        return wanted;
+    public DesiredReplay desired() {
+        return desired;
     }
 
     /** Of the desired replay that was applied last. */

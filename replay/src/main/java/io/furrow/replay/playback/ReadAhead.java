@@ -6,7 +6,7 @@ import java.util.List;
 import java.util.Optional;
 
 import io.furrow.mission.Cursor;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /**
@@ -45,21 +45,21 @@ final class ReadAhead {
     }
 
     /** What is to be read next; asked for once. */
-    Optional<Fetch> fetch(PlaybackState at, WantedReplay wanted) {
+    Optional<Fetch> fetch(PlaybackState at, DesiredReplay desired) {
         if (fetching) {
             return Optional.empty();
         }
         Fetch next = null;
-        Steps steps = new Steps(at, wanted);
-        int page = expected(PAGE * wanted.speed());
+        Steps steps = new Steps(at, desired);
+        int page = expected(PAGE * desired.speed());
         if (at.phase() == Phase.OPENING) {
             next = new Fetch.Open(at.epoch());
         } else if (at.phase() == Phase.PRIMING && primes == null) {
             Cursor from = at.point() <= at.first() ? Cursor.START : Cursor.before(at.point());
-            next = new Fetch.Begin(at.epoch(), at.point(), from, at.point() > at.first(), wanted.loops(), page);
+            next = new Fetch.Begin(at.epoch(), at.point(), from, at.point() > at.first(), desired.loops(), page);
         } else if (steps.wantsBack()) {
             next = steps.back();
-        } else if (at.phase() == Phase.PLAYING && wantsMore(wanted.to())) {
+        } else if (at.phase() == Phase.PLAYING && wantsMore(desired.to())) {
             next = new Fetch.Next(at.epoch(), loaded, page);
         }
         fetching = next != null;

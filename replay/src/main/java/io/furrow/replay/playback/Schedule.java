@@ -3,8 +3,8 @@ package io.furrow.replay.playback;
 import java.time.Instant;
 import java.util.function.LongUnaryOperator;
 
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 
 /** When the events of a replay are due, and by how much they were late. Times are those of the playback's clock, ms. */
 final class Schedule {
@@ -12,7 +12,7 @@ final class Schedule {
     static final long STALL = 1_000;
 
     private final LongUnaryOperator wall;
-    private WantedReplay wanted;
+    private DesiredReplay desired;
     private Timeline timeline;
     /** The next event that has been looked at for what lies before it. */
     private ReadyEvent approached;
@@ -24,17 +24,17 @@ final class Schedule {
     private long slip;
 
     /** @param wall epoch ms at a time of the clock */
-    Schedule(WantedReplay wanted, LongUnaryOperator wall) {
-        this.wanted = wanted;
+    Schedule(DesiredReplay desired, LongUnaryOperator wall) {
+        this.desired = desired;
         this.wall = wall;
     }
 
     boolean isOfGroup() {
-        return wanted.clock() != null;
+        return desired.clock() != null;
     }
 
     boolean isHeld() {
-        return wanted.wanted() == ReplayStatus.State.PAUSED;
+        return desired.desired() == ReplayStatus.State.PAUSED;
     }
 
     /** Epoch ms. */
@@ -47,9 +47,9 @@ final class Schedule {
      *
      * @param plays whether an epoch is being played
      */
-    void follow(WantedReplay next, boolean plays, long now) {
+    void follow(DesiredReplay next, boolean plays, long now) {
         aheadOfClock = isOfGroup() && plays && GroupTimeline.isAPassAhead(timeline, next, now);
-        wanted = next;
+        desired = next;
     }
 
     void beginEpoch() {
@@ -62,11 +62,11 @@ final class Schedule {
         approached = null;
         long today = wall(now);
         if (isOfGroup()) {
-            timeline = GroupTimeline.of(wanted, now, today, aheadOfClock);
+            timeline = GroupTimeline.of(desired, now, today, aheadOfClock);
         } else {
-            Long startAt = wanted.plan().startAt();
+            Long startAt = desired.plan().startAt();
             long wait = startAt == null ? 0 : Math.max(0, startAt - today);
-            timeline = new Timeline(now + wait, position, wanted.speed(), isHeld());
+            timeline = new Timeline(now + wait, position, desired.speed(), isHeld());
         }
     }
 
@@ -81,7 +81,7 @@ final class Schedule {
      * @param position that is reached, epoch ms
      */
     void approach(ReadyEvent next, long position) {
-        Long longest = wanted.plan().maxGap();
+        Long longest = desired.plan().maxGap();
         if (next != null && next != approached && longest != null && !isHeld() && !isOfGroup()) {
             approached = next;
             long gap = next.time() - Math.max(position, timeline.origin());
@@ -100,7 +100,7 @@ final class Schedule {
         if (isHeld()) {
             return Timeline.NEVER;
         }
-        return isOfGroup() ? timeline.due(wanted.to()) : Long.MIN_VALUE;
+        return isOfGroup() ? timeline.due(desired.to()) : Long.MIN_VALUE;
     }
 
     /** Of an event that was not there in time. */
@@ -112,7 +112,7 @@ final class Schedule {
     }
 
     void play(ReadyEvent next, long now) {
-        lateness = Double.isInfinite(wanted.speed()) ? 0 : now - due(next);
+        lateness = Double.isInfinite(desired.speed()) ? 0 : now - due(next);
     }
 
     /** Plays an event that is due by itself. */

@@ -1,31 +1,31 @@
 package io.furrow.replay.playback;
 
 import io.furrow.mission.Cursor;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /** Which single steps a state of a replay still has to make of those that are requested. */
-record Steps(PlaybackState at, WantedReplay wanted) {
+record Steps(PlaybackState at, DesiredReplay desired) {
     /** Events that are stepped back over at once. */
     static final int MAX_BACK = 100_000;
 
     private boolean isHeld() {
-        return wanted.wanted() == ReplayStatus.State.PAUSED;
+        return desired.desired() == ReplayStatus.State.PAUSED;
     }
 
     private boolean isOfGroup() {
-        return wanted.clock() != null;
+        return desired.clock() != null;
     }
 
     private boolean isForward() {
-        return wanted.step() != null && wanted.step().total() > at.steps();
+        return desired.step() != null && desired.step().total() > at.steps();
     }
 
     /** Those asked for before a jump, or while it runs, are not made up for. */
     PlaybackState withoutObsolete() {
-        WantedReplay.Step step = wanted.step();
-        WantedReplay.Seek seek = wanted.seek();
+        DesiredReplay.Step step = desired.step();
+        DesiredReplay.Seek seek = desired.seek();
         boolean obsolete = step != null && (!isHeld() || seek != null && seek.sequence() > step.sequence());
         return obsolete ? Moves.steps(at, step.total()) : at;
     }
@@ -52,7 +52,7 @@ record Steps(PlaybackState at, WantedReplay wanted) {
     PlaybackState possible(ReadyEvent next, boolean isAtEnd) {
         boolean passed = at.goal() != null && next != null && next.cursor().compareTo(at.goal()) > 0;
         PlaybackState state = at.goal() != null && (passed || isAtEnd) ? Moves.towards(at, null) : at;
-        return isAtEnd && isForward() ? Moves.steps(state, wanted.step().total()) : state;
+        return isAtEnd && isForward() ? Moves.steps(state, desired.step().total()) : state;
     }
 
     /** Whether events before are to be found. Also from its end. */
@@ -61,8 +61,8 @@ record Steps(PlaybackState at, WantedReplay wanted) {
                 && at.goal() == null
                 && isHeld()
                 && !isOfGroup()
-                && wanted.step() != null
-                && wanted.step().total() < at.steps();
+                && desired.step() != null
+                && desired.step().total() < at.steps();
     }
 
     Fetch.Back back() {
@@ -71,7 +71,7 @@ record Steps(PlaybackState at, WantedReplay wanted) {
 
     /** As many as are found at once. */
     private long stepsBack() {
-        return Math.min(at.steps() - wanted.step().total(), MAX_BACK);
+        return Math.min(at.steps() - desired.step().total(), MAX_BACK);
     }
 
     /** Whether that is still requested. */
@@ -87,10 +87,10 @@ record Steps(PlaybackState at, WantedReplay wanted) {
     /** The state when those steps back are made. */
     PlaybackState done(Fetched.Back back) {
         return Moves.steps(
-                at, isWithin(back) ? at.steps() - back.count() : wanted.step().total());
+                at, isWithin(back) ? at.steps() - back.count() : desired.step().total());
     }
 
     private Cursor beginning() {
-        return Cursor.before(wanted.from(at.first()));
+        return Cursor.before(desired.from(at.first()));
     }
 }

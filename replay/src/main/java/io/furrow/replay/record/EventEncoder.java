@@ -21,7 +21,7 @@ import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Skipped;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -60,7 +60,7 @@ public final class EventEncoder {
             HeaderNames.SERVICE_PATH,
             FiwareScope.DEFAULT.servicePath());
 
-    private final WantedReplay replay;
+    private final DesiredReplay replay;
     private final long epoch;
     private final Set<String> devices;
     private final Limit limit;
@@ -75,7 +75,7 @@ public final class EventEncoder {
     private record Shared(String text, Header header) {}
 
     /** @param replay of which the topic, the name and the devices count */
-    public EventEncoder(WantedReplay replay, long epoch, Limit limit) {
+    public EventEncoder(DesiredReplay replay, long epoch, Limit limit) {
         this.replay = replay;
         this.epoch = epoch;
         this.limit = limit;

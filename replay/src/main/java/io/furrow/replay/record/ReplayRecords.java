@@ -6,7 +6,7 @@ import java.util.Map;
 
 import io.furrow.flink.record.HeaderTexts;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -29,7 +29,7 @@ public final class ReplayRecords {
     private ReplayRecords() {}
 
     /** The record of what was played. */
-    public static TopicRecord of(Played played, WantedReplay replay) {
+    public static TopicRecord of(Played played, DesiredReplay replay) {
         if (played.event() == null) {
             return end(played, replay);
         }
@@ -61,7 +61,7 @@ public final class ReplayRecords {
                         Long.toString(played.offset())));
     }
 
-    private static TopicRecord end(Played played, WantedReplay replay) {
+    private static TopicRecord end(Played played, DesiredReplay replay) {
         String time = Instant.ofEpochMilli(played.time()).toString();
         Map<String, String> headers = new LinkedHashMap<>();
         headers.put(HeaderNames.CE_ID, EventId.ofReplay(END, replay.replay(), played.epoch()));

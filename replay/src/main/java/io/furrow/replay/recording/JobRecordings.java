@@ -8,8 +8,8 @@ import io.furrow.mission.RecordingException;
 import io.furrow.mission.RecordingGoneException;
 import io.furrow.mission.Recordings;
 import io.furrow.mission.file.FileRecordings;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.file.FileProblem;
 
 /**
@@ -22,7 +22,7 @@ public record JobRecordings(Recordings missions, String folder, TopicHistories t
     private static final FlinkFiles FILES = new FlinkFiles();
 
     @Override
-    public Optional<Recording> open(WantedReplay replay) throws RecordingException {
+    public Optional<Recording> open(DesiredReplay replay) throws RecordingException {
         ReplayPlan.Source source = replay.plan().source();
         if (source == null) {
             return missions.open(replay.mission());

@@ -6,7 +6,7 @@ import java.util.Optional;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.Recordings;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 
 /** Finds the recording of a replay, wherever it is. Serializable, so that a job can carry it. */
 public interface RecordingSources extends Serializable {
@@ -15,7 +15,7 @@ public interface RecordingSources extends Serializable {
      *
      * @throws RecordingException if it cannot be determined now
      */
-    Optional<Recording> open(WantedReplay replay) throws RecordingException;
+    Optional<Recording> open(DesiredReplay replay) throws RecordingException;
 
     /** Recordings by the name of the mission alone. */
     static RecordingSources of(Recordings missions) {

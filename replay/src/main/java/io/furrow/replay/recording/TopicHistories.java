@@ -8,7 +8,7 @@ import java.util.TreeMap;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.topic.TopicRecordings;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 
 /** Recordings that are topics with their own history. Serializable, so that a job can carry it. */
 @FunctionalInterface
@@ -25,5 +25,5 @@ public interface TopicHistories extends Serializable {
      *
      * @throws RecordingException if it cannot be determined now
      */
-    Optional<Recording> open(String topic, WantedReplay replay) throws RecordingException;
+    Optional<Recording> open(String topic, DesiredReplay replay) throws RecordingException;
 }

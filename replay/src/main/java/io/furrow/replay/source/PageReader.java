@@ -22,8 +22,8 @@ import io.furrow.mission.RecordingGoneException;
 import io.furrow.mission.RecordingInterruptedException;
 import io.furrow.mission.Skipped;
 import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.text.FailureText;
 import io.furrow.replay.playback.Fetch;
 import io.furrow.replay.playback.Fetched;
@@ -45,7 +45,7 @@ final class PageReader implements AutoCloseable {
     /** A page of what is read but not played. */
     private static final PageLimits SCANNED = new PageLimits(100, 128 * 1024);
 
-    private final WantedReplay replay;
+    private final DesiredReplay replay;
     private final Preparation preparation;
     private final RunningReplay.Reading shared;
     private final Consumer<Fetched> out;
@@ -73,7 +73,7 @@ final class PageReader implements AutoCloseable {
     }
 
     /** @param out takes the answers, in the reading thread */
-    PageReader(WantedReplay replay, Preparation preparation, RunningReplay.Reading shared, Consumer<Fetched> out) {
+    PageReader(DesiredReplay replay, Preparation preparation, RunningReplay.Reading shared, Consumer<Fetched> out) {
         this.replay = replay;
         this.preparation = preparation;
         this.shared = shared;

@@ -18,8 +18,8 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.replay.playback.PlaybackState;
 
@@ -34,25 +34,25 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
     private static final long RETRY_NANOS = TimeUnit.SECONDS.toNanos(1);
 
     private final SplitEnumeratorContext<ReplaySplit> context;
-    private final WantedReplays source;
-    private final Map<String, byte[]> wanted = new LinkedHashMap<>();
+    private final DesiredReplays source;
+    private final Map<String, byte[]> desired = new LinkedHashMap<>();
     private final Map<String, ReplayStatus> told = new HashMap<>();
     private final Map<String, ReplaySplit> unassigned = new LinkedHashMap<>();
     private final Map<String, Integer> readers = new HashMap<>();
     private final Counter rejected;
-    private volatile WantedReplays.Reading wishes;
+    private volatile DesiredReplays.Reading wishes;
     private boolean caughtUp;
     /** Of the reading thread. */
     private boolean knowsTold;
 
     /** What one call of the reading thread found. */
-    private record Found(List<WantedReplays.Told> told, List<WantedReplays.Wish> wishes, boolean caughtUp) {}
+    private record Found(List<DesiredReplays.Told> told, List<DesiredReplays.Wish> wishes, boolean caughtUp) {}
 
-    ReplayEnumerator(SplitEnumeratorContext<ReplaySplit> context, WantedReplays source, UnassignedReplays state) {
+    ReplayEnumerator(SplitEnumeratorContext<ReplaySplit> context, DesiredReplays source, UnassignedReplays state) {
         this.context = context;
         this.source = source;
         state.splits().forEach(split -> unassigned.put(split.replay(), split));
-        Gauge<Integer> size = wanted::size;
+        Gauge<Integer> size = desired::size;
         context.metricGroup().gauge("replaysWanted", size);
         rejected = context.metricGroup().counter("rejected");
     }
@@ -69,7 +69,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
             if (knowsTold) {
                 return new Found(List.of(), wishes.poll(), wishes.isCaughtUp());
             }
-            List<WantedReplays.Told> before = wishes.told();
+            List<DesiredReplays.Told> before = wishes.told();
             knowsTold = true;
             return new Found(before, List.of(), false);
         } catch (IOException e) {
@@ -85,13 +85,13 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
         }
         require(failure);
         found.told().forEach(one -> told.put(one.replay(), one.status()));
-        for (WantedReplays.Wish wish : found.wishes()) {
+        for (DesiredReplays.Wish wish : found.wishes()) {
             note(wish);
         }
         boolean first = found.caughtUp() && !caughtUp;
         caughtUp |= found.caughtUp();
         if (first) {
-            told.keySet().retainAll(wanted.keySet());
+            told.keySet().retainAll(desired.keySet());
         }
         if (first || !found.wishes().isEmpty()) {
             assign();
@@ -104,18 +104,18 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
         }
     }
 
-    private void note(WantedReplays.Wish wish) {
+    private void note(DesiredReplays.Wish wish) {
         if (wish.replay() == null
                 || !ReplayCommand.REPLAY.matcher(wish.replay()).matches()) {
             LOG.warn("A record of service.replays is passed over: its key {} is no replay's name", wish.replay());
             rejected.inc();
             return;
         }
-        if (wish.wanted() == null) {
-            wanted.remove(wish.replay());
+        if (wish.desired() == null) {
+            desired.remove(wish.replay());
             told.remove(wish.replay());
         } else {
-            wanted.put(wish.replay(), wish.wanted());
+            desired.put(wish.replay(), wish.desired());
         }
         Integer reader = readers.get(wish.replay());
         if (reader != null) {
@@ -126,9 +126,9 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
     /** What is requested of it by now. */
     private void tell(int reader, String replay) {
         if (context.registeredReaders().containsKey(reader)) {
-            context.sendEventToSourceReader(reader, new WantedEvent(replay, wanted.get(replay)));
+            context.sendEventToSourceReader(reader, new DesiredEvent(replay, desired.get(replay)));
         }
-        if (!wanted.containsKey(replay)) {
+        if (!desired.containsKey(replay)) {
             readers.remove(replay);
             told.remove(replay);
         }
@@ -138,7 +138,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
         if (!caughtUp || context.registeredReaders().size() < context.currentParallelism()) {
             return;
         }
-        wanted.forEach((replay, value) -> {
+        desired.forEach((replay, value) -> {
             if (!readers.containsKey(replay) && !unassigned.containsKey(replay) && !wasOver(replay, value)) {
                 fresh(replay, value);
             }
@@ -163,7 +163,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
             return false;
         }
         try {
-            return status.sequence() >= WantedReplay.read(replay, value).sequence();
+            return status.sequence() >= DesiredReplay.read(replay, value).sequence();
         } catch (UnreadableException e) { // its reader will say so
             return false;
         }

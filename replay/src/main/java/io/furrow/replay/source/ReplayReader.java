@@ -96,9 +96,9 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
 
     @Override
     public void handleSourceEvents(SourceEvent event) {
-        if (event instanceof WantedEvent wanted && replays.containsKey(wanted.replay())) {
-            RunningReplay replay = replays.get(wanted.replay());
-            replay.wish(wanted.wanted());
+        if (event instanceof DesiredEvent desired && replays.containsKey(desired.replay())) {
+            RunningReplay replay = replays.get(desired.replay());
+            replay.wish(desired.desired());
             call(replay);
         }
     }

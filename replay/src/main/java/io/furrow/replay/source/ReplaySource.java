@@ -24,14 +24,14 @@ public final class ReplaySource
         implements Source<TopicRecord, ReplaySplit, UnassignedReplays>, SupportsSplitReassignmentOnRecovery {
     private static final long serialVersionUID = 1L;
 
-    private final WantedReplays wanted;
+    private final DesiredReplays desired;
     private final RecordingSources recordings;
     private final PageLimits limits;
     private final ReplayTopics topics;
 
-    /** @param wanted where it is said which replays shall be played */
-    public ReplaySource(WantedReplays wanted, RecordingSources recordings, PageLimits limits, ReplayTopics topics) {
-        this.wanted = wanted;
+    /** @param desired where it is said which replays shall be played */
+    public ReplaySource(DesiredReplays desired, RecordingSources recordings, PageLimits limits, ReplayTopics topics) {
+        this.desired = desired;
         this.recordings = recordings;
         this.limits = limits;
         this.topics = topics;
@@ -39,7 +39,7 @@ public final class ReplaySource
 
     @Override
     public Boundedness getBoundedness() {
-        return wanted.isBounded() ? Boundedness.BOUNDED : Boundedness.CONTINUOUS_UNBOUNDED;
+        return desired.isBounded() ? Boundedness.BOUNDED : Boundedness.CONTINUOUS_UNBOUNDED;
     }
 
     @Override
@@ -51,7 +51,7 @@ public final class ReplaySource
     @Override
     public SplitEnumerator<ReplaySplit, UnassignedReplays> restoreEnumerator(
             SplitEnumeratorContext<ReplaySplit> context, UnassignedReplays state) {
-        return new ReplayEnumerator(context, wanted, state);
+        return new ReplayEnumerator(context, desired, state);
     }
 
     @Override

@@ -8,10 +8,10 @@ import io.furrow.replay.playback.PlaybackState;
  * A replay, and where it is.
  *
  * @param replay its name
- * @param wanted value of the record of {@code service.replays} that was applied last; not to be changed
+ * @param desired value of the record of {@code service.replays} that was applied last; not to be changed
  * @param state of its playback
  */
-public record ReplaySplit(String replay, byte[] wanted, PlaybackState state) implements SourceSplit {
+public record ReplaySplit(String replay, byte[] desired, PlaybackState state) implements SourceSplit {
     @Override
     public String splitId() {
         return replay;

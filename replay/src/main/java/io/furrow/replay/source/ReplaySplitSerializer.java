@@ -35,7 +35,7 @@ final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySpl
     private static void write(ReplaySplit split, DataOutputSerializer out) throws IOException {
         PlaybackState state = split.state();
         writeText(split.replay(), out);
-        writeBytes(split.wanted(), out);
+        writeBytes(split.desired(), out);
         out.writeLong(state.sequence());
         out.writeByte(state.phase().ordinal());
         writeText(state.reason(), out);
@@ -76,7 +76,7 @@ final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySpl
 
     private static ReplaySplit read(int version, DataInputDeserializer in) throws IOException {
         String replay = readText(in);
-        byte[] wanted = readBytes(in);
+        byte[] desired = readBytes(in);
         long sequence = in.readLong();
         Phase phase = Phase.values()[in.readByte()];
         String reason = readText(in);
@@ -88,7 +88,7 @@ final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySpl
         long start = in.readLong();
         return new ReplaySplit(
                 replay,
-                wanted,
+                desired,
                 new PlaybackState(
                         sequence,
                         phase,

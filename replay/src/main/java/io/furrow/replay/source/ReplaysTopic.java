@@ -27,7 +27,7 @@ import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /** What {@code service.replays} says, and {@code service.replays.status} of the time before. A topic that is not there is awaited. */
-public final class ReplaysTopic implements WantedReplays {
+public final class ReplaysTopic implements DesiredReplays {
     private static final long serialVersionUID = 1L;
     private static final Logger LOG = LoggerFactory.getLogger(ReplaysTopic.class);
     private static final Duration POLL = Duration.ofMillis(500);

@@ -9,8 +9,8 @@ import java.util.function.Consumer;
 
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.replay.playback.Fetched;
@@ -41,7 +41,7 @@ final class RunningReplay {
     private final Queue<Fetched> answers = new ConcurrentLinkedQueue<>();
     private final StatusReports reports;
     private final Reading reading;
-    private byte[] wanted;
+    private byte[] desired;
     private PlaybackState refusedAt;
     private String refusal;
     /** Sequence of the record that cannot be read. */
@@ -81,8 +81,8 @@ final class RunningReplay {
         this.refusedAt = split.state();
         this.topic =
                 new PlayedTopic(split.state(), reading, () -> reading.call().accept(this));
-        this.wanted = split.wanted();
-        take(split.wanted());
+        this.desired = split.desired();
+        take(split.desired());
         dueNow();
     }
 
@@ -99,8 +99,8 @@ final class RunningReplay {
     private Optional<Played> take(byte[] next) {
         long now = reading.clock().now();
         try {
-            WantedReplay replay = WantedReplay.read(name, next);
-            wanted = next;
+            DesiredReplay replay = DesiredReplay.read(name, next);
+            desired = next;
             refusal = null;
             if (playback != null) {
                 return playback.apply(replay, now);
@@ -113,7 +113,7 @@ final class RunningReplay {
             return Optional.empty();
         } catch (UnreadableException e) {
             refusal = "the record of service.replays cannot be read: " + e.getMessage();
-            refused = WantedReplay.sequence(next);
+            refused = DesiredReplay.sequence(next);
             return playback == null ? Optional.empty() : playback.refuse(refused, refusal, now);
         }
     }
@@ -141,7 +141,7 @@ final class RunningReplay {
         byte[] last = wishes.peekLast();
         try {
             return last == REMOVED
-                    || last != null && WantedReplay.read(name, last).wanted() == ReplayStatus.State.STOPPED;
+                    || last != null && DesiredReplay.read(name, last).desired() == ReplayStatus.State.STOPPED;
         } catch (UnreadableException e) {
             return false;
         }
@@ -220,7 +220,7 @@ final class RunningReplay {
     /** An end goes to every partition: event time of a reader follows the slowest, so each one has to hear of it. */
     private void write(Played played, Consumer<TopicRecord> out) {
         reports.count(played, playback.lateness());
-        WantedReplay replay = playback.wanted();
+        DesiredReplay replay = playback.desired();
         TopicRecord record = ReplayRecords.of(played, replay);
         if (played.kind() == Played.Kind.END) {
             for (int partition = 0; partition < topic.partitions(); partition++) {
@@ -269,7 +269,7 @@ final class RunningReplay {
         }
         return new ReplaySplit(
                 name,
-                wanted,
+                desired,
                 playback == null ? refusedAt : playback.snapshot(reading.clock().now()));
     }
 
@@ -283,7 +283,7 @@ final class RunningReplay {
 
     void close() {
         if (playback != null) {
-            reading.watch().remove(playback.wanted().topic());
+            reading.watch().remove(playback.desired().topic());
         }
         if (pages != null) {
             pages.close();

@@ -16,7 +16,7 @@ import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Span;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.replay.record.EventEncoder;
 
 /** Made-up recordings in memory. */
@@ -57,30 +57,30 @@ final class Missions {
     }
 
     /** What is asked, from the recording, in a page of any size. */
-    static Fetched answer(Fetch fetch, List<StoredEvent> recording, WantedReplay wanted, Random random) {
+    static Fetched answer(Fetch fetch, List<StoredEvent> recording, DesiredReplay desired, Random random) {
         if (fetch instanceof Fetch.Begin begin) {
             List<StoredEvent> primes = begin.primed() ? known(recording, begin.point()) : List.of();
             return new Fetched.Begun(
                     begin.epoch(),
-                    primes(primes, begin, wanted),
-                    ready(page(recording, begin.first(), random), wanted, begin.epoch()));
+                    primes(primes, begin, desired),
+                    ready(page(recording, begin.first(), random), desired, begin.epoch()));
         } else if (fetch instanceof Fetch.Next next) {
-            return new Fetched.More(next.epoch(), ready(page(recording, next.after(), random), wanted, next.epoch()));
+            return new Fetched.More(next.epoch(), ready(page(recording, next.after(), random), desired, next.epoch()));
         }
         return new Fetched.Opened(fetch.epoch(), span(recording));
     }
 
-    static ReadyPage ready(Page page, WantedReplay wanted, long epoch) {
+    static ReadyPage ready(Page page, DesiredReplay desired, long epoch) {
         try {
-            return new EventEncoder(wanted, epoch, record -> record).page(page);
+            return new EventEncoder(desired, epoch, record -> record).page(page);
         } catch (IOException | InterruptedException e) {
             throw new AssertionError(e);
         }
     }
 
-    private static List<ReadyEvent> primes(List<StoredEvent> known, Fetch.Begin begin, WantedReplay wanted) {
+    private static List<ReadyEvent> primes(List<StoredEvent> known, Fetch.Begin begin, DesiredReplay desired) {
         try {
-            return new EventEncoder(wanted, begin.epoch(), record -> record).primes(known, begin.point());
+            return new EventEncoder(desired, begin.epoch(), record -> record).primes(known, begin.point());
         } catch (IOException | InterruptedException e) {
             throw new AssertionError(e);
         }

@@ -14,8 +14,8 @@ import org.junit.jupiter.params.provider.MethodSource;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.replay.record.ReplayRecords;
 
@@ -63,22 +63,22 @@ class PlaybackModelTest {
     void goesOnWithTheNextRecordAfterARestart(long seed) {
         Random random = new Random(seed);
         List<StoredEvent> mission = Missions.random(random);
-        WantedReplay wanted = Wishes.with(
+        DesiredReplay desired = Wishes.with(
                 Wishes.start(random.nextBoolean() ? 1000 : ReplayCommand.MAX),
                 State.RUNNING,
                 1000,
                 Missions.TIME + random.nextInt(20_000),
                 0);
-        List<String> whole = untimed(played(mission, List.of(new Wishes.Wish(0, wanted)), random));
+        List<String> whole = untimed(played(mission, List.of(new Wishes.Wish(0, desired)), random));
 
         List<String> lines = new ArrayList<>();
-        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
         for (long now = 0; !playback.isOver(); now++) {
             read(playback, mission, random, now, lines);
             Optional<Played> played = playback.poll(now);
-            played.ifPresent(one -> lines.add(line(0, one, wanted)));
+            played.ifPresent(one -> lines.add(line(0, one, desired)));
             if (random.nextInt(10) == 0) {
-                playback = new Playback(wanted, playback.snapshot(now), now + 5, Wishes::wall);
+                playback = new Playback(desired, playback.snapshot(now), now + 5, Wishes::wall);
             }
         }
 
@@ -91,14 +91,14 @@ class PlaybackModelTest {
 
     private static List<String> played(List<StoredEvent> mission, List<Wishes.Wish> wishes, Random random) {
         List<String> lines = new ArrayList<>();
-        Playback playback = new Playback(wishes.get(0).wanted(), PlaybackState.fresh(), 0, Wishes::wall);
+        Playback playback = new Playback(wishes.get(0).desired(), PlaybackState.fresh(), 0, Wishes::wall);
         int next = 1;
         long now = 0;
         while (now != Long.MAX_VALUE) {
             boolean read = read(playback, mission, random, now, lines);
             Optional<Played> played = playback.poll(now);
             if (played.isPresent()) {
-                lines.add(line(now, played.get(), playback.wanted()));
+                lines.add(line(now, played.get(), playback.desired()));
             } else if (!read
                     && !read(playback, mission, random, now, lines)
                     && (playback.due() > now || playback.isOver())) {
@@ -108,8 +108,8 @@ class PlaybackModelTest {
                         && wishes.get(next).at() <= now) {
                     long at = now;
                     Playback running = playback;
-                    running.apply(wishes.get(next).wanted(), at)
-                            .ifPresent(end -> lines.add(line(at, end, running.wanted())));
+                    running.apply(wishes.get(next).desired(), at)
+                            .ifPresent(end -> lines.add(line(at, end, running.desired())));
                     next++;
                 } else {
                     now = next < wishes.size() ? Math.min(wishes.get(next).at(), due) : due;
@@ -125,16 +125,16 @@ class PlaybackModelTest {
         boolean any = false;
         for (Optional<Fetch> fetch = playback.fetch(); fetch.isPresent(); fetch = playback.fetch()) {
             Fetched answer = fetch.get() instanceof Fetch.Back back
-                    ? Missions.back(back, mission, playback.wanted().plan().devices())
-                    : Missions.answer(fetch.get(), mission, playback.wanted(), random);
-            playback.take(answer, now).ifPresent(end -> lines.add(line(now, end, playback.wanted())));
+                    ? Missions.back(back, mission, playback.desired().plan().devices())
+                    : Missions.answer(fetch.get(), mission, playback.desired(), random);
+            playback.take(answer, now).ifPresent(end -> lines.add(line(now, end, playback.desired())));
             any = true;
         }
         return any;
     }
 
-    private static String line(long now, Played played, WantedReplay wanted) {
-        TopicRecord record = ReplayRecords.of(played, wanted);
+    private static String line(long now, Played played, DesiredReplay desired) {
+        TopicRecord record = ReplayRecords.of(played, desired);
         Map<String, String> headers = record.headers();
         String reason = played.reason() == null ? "" : " " + played.reason();
         return String.join(

@@ -8,9 +8,9 @@ import java.util.Random;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -22,15 +22,15 @@ class PlaybackOfGroupTest {
     private static final List<StoredEvent> SHORT = List.of(Missions.event("c", T + 500, "urn:d1"));
 
     /** From T to T + 2000; at 2,000 ms of the clock T is played. */
-    private static WantedReplay wanted(double speed, boolean loop) {
+    private static DesiredReplay desired(double speed, boolean loop) {
         ReplayPlan plan =
                 new ReplayPlan(null, T, T + 2_000, loop, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
-        return WantedReplay.started("m", "data.m.replay.0a1b2c3d", plan, speed, 0, 1)
-                .following("0a1b2c3d", new WantedReplay.Clock(Wishes.wall(2_000), T));
+        return DesiredReplay.started("m", "data.m.replay.0a1b2c3d", plan, speed, 0, 1)
+                .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(2_000), T));
     }
 
-    private static Playback playback(WantedReplay wanted, long now) {
-        return new Playback(wanted, PlaybackState.fresh(), now, Wishes::wall);
+    private static Playback playback(DesiredReplay desired, long now) {
+        return new Playback(desired, PlaybackState.fresh(), now, Wishes::wall);
     }
 
     /** What is written until the time, each with when: {@code 2500 b}, {@code 3000 ended}. */
@@ -46,7 +46,7 @@ class PlaybackOfGroupTest {
         Optional<Played> played;
         do {
             for (Optional<Fetch> fetch = playback.fetch(); fetch.isPresent(); fetch = playback.fetch()) {
-                playback.take(Missions.answer(fetch.get(), recording, playback.wanted(), new Random(1)), now);
+                playback.take(Missions.answer(fetch.get(), recording, playback.desired(), new Random(1)), now);
             }
             played = playback.poll(now);
             played.ifPresent(one -> lines.add(now + " "
@@ -60,23 +60,23 @@ class PlaybackOfGroupTest {
 
     @Test
     void keepsWhatLayBetweenMissions() {
-        assertThat(play(playback(wanted(2, false), 0), LONG, 0, 9_999))
+        assertThat(play(playback(desired(2, false), 0), LONG, 0, 9_999))
                 .containsExactly("2000 a", "2500 b", "3000 ended");
-        assertThat(play(playback(wanted(2, false), 0), SHORT, 0, 9_999)).containsExactly("2250 c", "3000 ended");
+        assertThat(play(playback(desired(2, false), 0), SHORT, 0, 9_999)).containsExactly("2250 c", "3000 ended");
     }
 
     @Test
     void doesNotWaitForWhoeverIsLate() {
-        assertThat(play(playback(wanted(1, false), 2_900), LONG, 2_900, 9_999))
+        assertThat(play(playback(desired(1, false), 2_900), LONG, 2_900, 9_999))
                 .containsExactly("2900 a", "3000 b", "4000 ended");
-        assertThat(play(playback(wanted(1, false), 3_800), LONG, 3_800, 9_999))
+        assertThat(play(playback(desired(1, false), 3_800), LONG, 3_800, 9_999))
                 .containsExactly("3800 a", "3800 b", "4000 ended");
     }
 
     @Test
     void beginsEachPassOfALoopTogether() {
-        List<String> twice = play(playback(wanted(1, true), 0), SHORT, 0, 6_000);
-        List<String> late = play(playback(wanted(1, true), 4_600), SHORT, 4_600, 8_000);
+        List<String> twice = play(playback(desired(1, true), 0), SHORT, 0, 6_000);
+        List<String> late = play(playback(desired(1, true), 4_600), SHORT, 4_600, 8_000);
 
         assertThat(twice).containsExactly("2500 c", "4000 loop", "4500 c", "6000 loop");
         assertThat(late)
@@ -86,19 +86,19 @@ class PlaybackOfGroupTest {
 
     @Test
     void standsAndGoesOnTogether() {
-        WantedReplay wanted = wanted(1, false);
-        Playback playback = playback(wanted, 0);
+        DesiredReplay desired = desired(1, false);
+        Playback playback = playback(desired, 0);
         List<String> lines = play(playback, LONG, 0, 2_300);
 
         playback.apply(
-                wanted.wanted(State.PAUSED, 2)
-                        .following("0a1b2c3d", new WantedReplay.Clock(Wishes.wall(2_300), T + 300)),
+                desired.desired(State.PAUSED, 2)
+                        .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(2_300), T + 300)),
                 2_310);
         lines.addAll(play(playback, LONG, 2_311, 5_000));
         assertThat(playback.status(5_000, 0, 0).progress().position()).isEqualTo(T + 300);
         playback.apply(
-                wanted.wanted(State.RUNNING, 3)
-                        .following("0a1b2c3d", new WantedReplay.Clock(Wishes.wall(6_000), T + 300)),
+                desired.desired(State.RUNNING, 3)
+                        .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(6_000), T + 300)),
                 5_001);
         lines.addAll(play(playback, LONG, 5_001, 9_999));
 
@@ -107,16 +107,16 @@ class PlaybackOfGroupTest {
 
     @Test
     void seeksToWhereAMissionHasNotBegunOrIsOver() {
-        WantedReplay wanted = wanted(1, false);
-        Playback playback = playback(wanted, 0);
+        DesiredReplay desired = desired(1, false);
+        Playback playback = playback(desired, 0);
         List<String> lines = play(playback, SHORT, 0, 2_600);
 
         playback.apply(
-                wanted.seeking(T, 2).following("0a1b2c3d", new WantedReplay.Clock(Wishes.wall(3_000), T)), 2_601);
+                desired.seeking(T, 2).following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(3_000), T)), 2_601);
         lines.addAll(play(playback, SHORT, 2_602, 3_700));
         playback.apply(
-                wanted.seeking(T + 1_500, 3)
-                        .following("0a1b2c3d", new WantedReplay.Clock(Wishes.wall(4_000), T + 1_500)),
+                desired.seeking(T + 1_500, 3)
+                        .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(4_000), T + 1_500)),
                 3_701);
         lines.addAll(play(playback, SHORT, 3_702, 9_999));
 
@@ -126,18 +126,18 @@ class PlaybackOfGroupTest {
     /** The command is on its way while the member begins the next pass. */
     @Test
     void staysInThePassThatItHasBegunWhereTheClockStoodJustBefore() {
-        WantedReplay wanted = wanted(1, true);
-        Playback playback = playback(wanted, 0);
+        DesiredReplay desired = desired(1, true);
+        Playback playback = playback(desired, 0);
         List<String> lines = play(playback, SHORT, 0, 4_050);
 
         playback.apply(
-                wanted.wanted(State.PAUSED, 2)
-                        .following("0a1b2c3d", new WantedReplay.Clock(Wishes.wall(3_995), T + 1_995)),
+                desired.desired(State.PAUSED, 2)
+                        .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(3_995), T + 1_995)),
                 4_050);
         lines.addAll(play(playback, SHORT, 4_051, 5_099));
         playback.apply(
-                wanted.wanted(State.RUNNING, 3)
-                        .following("0a1b2c3d", new WantedReplay.Clock(Wishes.wall(6_000), T + 1_995)),
+                desired.desired(State.RUNNING, 3)
+                        .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(6_000), T + 1_995)),
                 5_100);
         lines.addAll(play(playback, SHORT, 5_101, 8_100));
 

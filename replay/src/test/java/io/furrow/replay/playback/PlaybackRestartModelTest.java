@@ -15,7 +15,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.DesiredReplay;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -41,7 +41,7 @@ class PlaybackRestartModelTest {
     private final TreeMap<Long, Long> stamps = new TreeMap<>();
     private final Map<Long, Epoch> epochs = new HashMap<>();
     private PlaybackState snapshot;
-    private WantedReplay wantedThen;
+    private DesiredReplay desiredThen;
 
     static List<Long> some() {
         return new Random(20261125).longs(SHORT).boxed().toList();
@@ -68,17 +68,17 @@ class PlaybackRestartModelTest {
         random = new Random(seed);
         mission = Missions.random(random);
         wishes = random.nextInt(4) == 0 ? Wishes.ofGroup(random, mission) : Wishes.random(random, mission);
-        playback = new Playback(wishes.get(0).wanted(), PlaybackState.fresh(), 0, this::wall);
+        playback = new Playback(wishes.get(0).desired(), PlaybackState.fresh(), 0, this::wall);
         for (int next = 1; next < wishes.size(); next++) {
             for (int turn = random.nextInt(MAX_TURNS); turn > 0; turn--) {
-                turn(wishes.get(next - 1).wanted());
+                turn(wishes.get(next - 1).desired());
             }
             now = Math.max(now, wishes.get(next).at());
-            note(playback.apply(wishes.get(next).wanted(), now));
-            assertThat(playback.apply(wishes.get(random.nextInt(next + 1)).wanted(), now))
+            note(playback.apply(wishes.get(next).desired(), now));
+            assertThat(playback.apply(wishes.get(random.nextInt(next + 1)).desired(), now))
                     .as("an older command")
                     .isEmpty();
-            assertThat(playback.wanted()).isEqualTo(wishes.get(next).wanted());
+            assertThat(playback.desired()).isEqualTo(wishes.get(next).desired());
         }
         assertThat(playback.isOver()).isTrue();
         epochs.forEach(this::check);
@@ -88,7 +88,7 @@ class PlaybackRestartModelTest {
         return Wishes.wall(clock) + skew;
     }
 
-    private void turn(WantedReplay newest) {
+    private void turn(DesiredReplay newest) {
         playback.fetch().ifPresent(fetch -> answers.add(answer(fetch)));
         switch (random.nextInt(8)) {
             case 0 -> now += random.nextInt(5_000);
@@ -104,14 +104,14 @@ class PlaybackRestartModelTest {
 
     private Fetched answer(Fetch fetch) {
         return fetch instanceof Fetch.Back back
-                ? Missions.back(back, mission, playback.wanted().plan().devices())
-                : Missions.answer(fetch, mission, playback.wanted(), random);
+                ? Missions.back(back, mission, playback.desired().plan().devices())
+                : Missions.answer(fetch, mission, playback.desired(), random);
     }
 
-    private void restartNowAndThen(WantedReplay newest) {
+    private void restartNowAndThen(DesiredReplay newest) {
         if (snapshot == null || random.nextInt(5) == 0) {
             snapshot = playback.snapshot(now);
-            wantedThen = playback.wanted();
+            desiredThen = playback.desired();
         } else if (random.nextInt(5) == 0) {
             answers.clear();
             now += random.nextInt(60_000);
@@ -119,7 +119,7 @@ class PlaybackRestartModelTest {
             skew = newest.clock() == null ? random.nextInt(1_000_000) - 500_000 : 0;
             run = known ? snapshot.stamp() : 0;
             playback = new Playback(
-                    known ? wantedThen : newest, known ? snapshot : PlaybackState.fresh(), now, this::wall);
+                    known ? desiredThen : newest, known ? snapshot : PlaybackState.fresh(), now, this::wall);
             if (!stamps.isEmpty()) {
                 long newestStamp = stamps.values().stream().max(Long::compare).orElseThrow();
                 playback.goOnAfter(stamps.lastKey(), newestStamp);
@@ -159,11 +159,11 @@ class PlaybackRestartModelTest {
 
     /** Whatever the clock of a group has not shown yet. */
     private void assertNotEarly(Played played) {
-        WantedReplay wanted = playback.wanted();
-        if (wanted.clock() != null && !wanted.loops() && played.kind() == Played.Kind.EVENT) {
+        DesiredReplay desired = playback.desired();
+        if (desired.clock() != null && !desired.loops() && played.kind() == Played.Kind.EVENT) {
             assertThat(played.time())
-                    .as("the clock shows %s", wanted.clock())
-                    .isLessThanOrEqualTo(wanted.position(wall(now)));
+                    .as("the clock shows %s", desired.clock())
+                    .isLessThanOrEqualTo(desired.position(wall(now)));
         }
     }
 
@@ -172,7 +172,7 @@ class PlaybackRestartModelTest {
 
     /** What was known before its point, then the events from there, without a gap, as far as it was played. */
     private void check(long number, Epoch epoch) {
-        List<String> devices = wishes.get(0).wanted().plan().devices();
+        List<String> devices = wishes.get(0).desired().plan().devices();
         List<StoredEvent> whole = new ArrayList<>(
                 epoch.point() > mission.get(0).time() ? Missions.known(mission, epoch.point()) : List.of());
         mission.stream().filter(event -> event.time() >= epoch.point()).forEach(whole::add);

@@ -11,10 +11,10 @@ import io.furrow.mission.Page;
 import io.furrow.mission.Span;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -25,20 +25,20 @@ class PlaybackTest {
 
     @Test
     void standsWhereItIsWhileItDoesNotKnowWhatComesNext() {
-        WantedReplay wanted = Wishes.start(ReplayCommand.MAX);
-        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
+        DesiredReplay desired = Wishes.start(ReplayCommand.MAX);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
         playback.fetch();
         playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
-        playback.take(new Fetched.Begun(0, List.of(), page(FIRST, wanted, false)), 0);
+        playback.take(new Fetched.Begun(0, List.of(), page(FIRST, desired, false)), 0);
         assertThat(playback.poll(0)).map(one -> one.event().id()).contains("a");
         playback.fetch();
 
         assertThat(playback.snapshot(100).position()).isEqualTo(FIRST.time());
-        WantedReplay paused = Wishes.with(wanted, State.PAUSED, 1, null, 0);
+        DesiredReplay paused = Wishes.with(desired, State.PAUSED, 1, null, 0);
         playback.apply(paused, 100);
         playback.apply(Wishes.with(paused, State.RUNNING, 1, null, 0), 200);
-        playback.take(new Fetched.More(0, page(NEXT, wanted, true)), 300);
+        playback.take(new Fetched.More(0, page(NEXT, desired, true)), 300);
 
         assertThat(playback.poll(1_199)).as("a second after it went on").isEmpty();
         assertThat(playback.poll(1_200)).map(one -> one.event().id()).contains("b");
@@ -47,16 +47,16 @@ class PlaybackTest {
     /** Else a replay of a device that seldom reports would read hours again after a restart. */
     @Test
     void goesOnBehindWhatIsLeftOutAndShowsWhereItIsWhileTheRecordingIsAway() {
-        WantedReplay wanted = Wishes.start(1);
-        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
+        DesiredReplay desired = Wishes.start(1);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
         playback.fetch();
         playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
-        playback.take(new Fetched.Begun(0, List.of(), page(FIRST, wanted, false)), 0);
+        playback.take(new Fetched.Begun(0, List.of(), page(FIRST, desired, false)), 0);
         playback.poll(0);
         playback.fetch();
         assertThat(playback.snapshot(0).cursor()).isEqualTo(Cursor.after(FIRST));
-        playback.take(new Fetched.More(0, page(NEXT, wanted, false)), 0);
+        playback.take(new Fetched.More(0, page(NEXT, desired, false)), 0);
         playback.fetch();
         playback.take(new Fetched.Waiting(0, "away"), 400);
 
@@ -68,19 +68,19 @@ class PlaybackTest {
 
     @Test
     void countsNothingTwiceThatItSkippedOfWhatARestartReadsAgain() {
-        WantedReplay wanted = Wishes.start(1);
-        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
+        DesiredReplay desired = Wishes.start(1);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
         playback.fetch();
         playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
-        playback.take(new Fetched.Begun(0, List.of(), skipping(page(FIRST, wanted, false), 2)), 0);
+        playback.take(new Fetched.Begun(0, List.of(), skipping(page(FIRST, desired, false), 2)), 0);
         playback.poll(0);
         playback.fetch();
-        playback.take(new Fetched.More(0, skipping(page(NEXT, wanted, true), 3)), 0);
+        playback.take(new Fetched.More(0, skipping(page(NEXT, desired, true), 3)), 0);
 
-        Playback restarted = new Playback(wanted, playback.snapshot(500), 500, Wishes::wall);
+        Playback restarted = new Playback(desired, playback.snapshot(500), 500, Wishes::wall);
         restarted.fetch();
-        restarted.take(new Fetched.More(0, skipping(page(NEXT, wanted, true), 3)), 500);
+        restarted.take(new Fetched.More(0, skipping(page(NEXT, desired, true), 3)), 500);
         assertThat(restarted.poll(2_000)).isPresent();
         assertThat(restarted.status(2_000, 0, 0).progress().skipped()).isEqualTo(5);
     }
@@ -93,13 +93,13 @@ class PlaybackTest {
     void readsNothingBehindItsEnd() {
         ReplayPlan plan = new ReplayPlan(
                 null, null, NEXT.time(), false, List.of("urn:d0"), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
-        WantedReplay wanted = WantedReplay.started("m", "data.m.replay.0a1b2c3d", plan, ReplayCommand.MAX, 0, 1);
-        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
+        DesiredReplay desired = DesiredReplay.started("m", "data.m.replay.0a1b2c3d", plan, ReplayCommand.MAX, 0, 1);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
         playback.fetch();
         playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time() + 9_000))), 0);
         playback.fetch();
         playback.take(
-                new Fetched.Begun(0, List.of(), page(Missions.event("c", NEXT.time(), "urn:d1"), wanted, false)), 0);
+                new Fetched.Begun(0, List.of(), page(Missions.event("c", NEXT.time(), "urn:d1"), desired, false)), 0);
 
         assertThat(playback.poll(0)).map(Played::reason).contains("ended");
         assertThat(playback.fetch()).isEmpty();
@@ -107,8 +107,8 @@ class PlaybackTest {
 
     @Test
     void saysWhatASeekReadsThatTakesLong() {
-        WantedReplay wanted = Wishes.with(Wishes.start(1), State.PAUSED, 1, NEXT.time(), 0);
-        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
+        DesiredReplay desired = Wishes.with(Wishes.start(1), State.PAUSED, 1, NEXT.time(), 0);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
         playback.fetch();
         assertThat(waiting(playback, 999)).isNull();
         assertThat(waiting(playback, 1_000)).isEqualTo("seeking: the recording is being opened");
@@ -119,7 +119,7 @@ class PlaybackTest {
                 .isEqualTo("seeking: what was known before 2023-11-14T22:13:21Z is being read");
         assertThat(playback.isSeeking()).isTrue();
 
-        playback.take(new Fetched.Begun(0, page(FIRST, wanted, false).events(), page(NEXT, wanted, true)), 1_300);
+        playback.take(new Fetched.Begun(0, page(FIRST, desired, false).events(), page(NEXT, desired, true)), 1_300);
         assertThat(waiting(playback, 1_300)).isNull();
         assertThat(playback.isSeeking()).isFalse();
     }
@@ -127,8 +127,8 @@ class PlaybackTest {
     @Test
     void endsAnEpochThatCannotBeginWithoutSteppingBackInTime() {
         PlaybackState played = PlaybackState.before(3, NEXT.time() + 5_000);
-        WantedReplay wanted = Wishes.with(Wishes.start(1), State.RUNNING, 1, NEXT.time(), 0);
-        Playback playback = new Playback(wanted, played, 0, Wishes::wall);
+        DesiredReplay desired = Wishes.with(Wishes.start(1), State.RUNNING, 1, NEXT.time(), 0);
+        Playback playback = new Playback(desired, played, 0, Wishes::wall);
         playback.fetch();
 
         Optional<Played> end = playback.take(new Fetched.Gone(3, "gone"), 0);
@@ -151,7 +151,7 @@ class PlaybackTest {
                 .containsExactly(State.FAILED, "all 262144 epochs are used; start another replay");
     }
 
-    private static ReadyPage page(StoredEvent event, WantedReplay wanted, boolean last) {
-        return Missions.ready(new Page(List.of(event), List.of(), Cursor.after(event), last), wanted, 0);
+    private static ReadyPage page(StoredEvent event, DesiredReplay desired, boolean last) {
+        return Missions.ready(new Page(List.of(event), List.of(), Cursor.after(event), last), desired, 0);
     }
 }

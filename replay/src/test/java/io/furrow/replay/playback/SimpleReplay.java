@@ -6,9 +6,9 @@ import java.util.List;
 
 import io.furrow.mission.Cursor;
 import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.EventId;
 
 /**
@@ -18,7 +18,7 @@ import io.furrow.model.event.EventId;
 final class SimpleReplay {
     private final List<StoredEvent> recording;
     private final List<String> lines = new ArrayList<>();
-    private WantedReplay wanted;
+    private DesiredReplay desired;
     private List<StoredEvent> primes;
     private List<StoredEvent> pass;
     private boolean open;
@@ -51,7 +51,7 @@ final class SimpleReplay {
     static List<String> lines(List<StoredEvent> recording, List<Wishes.Wish> wishes) {
         SimpleReplay replay = new SimpleReplay(recording);
         for (int i = 0; i < wishes.size(); i++) {
-            replay.change(wishes.get(i).wanted(), wishes.get(i).at());
+            replay.change(wishes.get(i).desired(), wishes.get(i).at());
             replay.goOn(
                     wishes.get(i).at(),
                     i + 1 < wishes.size() ? wishes.get(i + 1).at() : Long.MAX_VALUE);
@@ -59,19 +59,19 @@ final class SimpleReplay {
         return replay.lines;
     }
 
-    private void change(WantedReplay next, long now) {
-        boolean first = wanted == null;
+    private void change(DesiredReplay next, long now) {
+        boolean first = desired == null;
         long position = first ? 0 : position(now);
-        boolean onBehindRange = between && wanted.range() != null && next.range() == null;
-        long rangeEnd = first ? 0 : wanted.to();
-        boolean jump = next.seek() != null && (first || next.seek().sequence() > wanted.sequence());
-        wanted = next;
+        boolean onBehindRange = between && desired.range() != null && next.range() == null;
+        long rangeEnd = first ? 0 : desired.to();
+        boolean jump = next.seek() != null && (first || next.seek().sequence() > desired.sequence());
+        desired = next;
         anchor(now, position);
         if (next.step() != null && (jump || !isPaused())) {
             stepsDone = next.step().total();
         }
         repeated = isPaused() ? repeated : null;
-        if (next.wanted() == State.STOPPED) {
+        if (next.desired() == State.STOPPED) {
             end("stopped", now);
             between = false;
             ended = false;
@@ -86,11 +86,11 @@ final class SimpleReplay {
     }
 
     private boolean isPaused() {
-        return wanted.wanted() == State.PAUSED;
+        return desired.desired() == State.PAUSED;
     }
 
     private void anchor(long now, long position) {
-        Long startAt = wanted.plan().startAt();
+        Long startAt = desired.plan().startAt();
         clock = startAt == null ? now : Math.max(now, startAt - Wishes.wall(0));
         origin = position;
         approached = false;
@@ -104,13 +104,13 @@ final class SimpleReplay {
             return origin;
         }
         approach();
-        double at = now <= clock ? origin : origin + Math.floor((now - clock) * wanted.speed());
+        double at = now <= clock ? origin : origin + Math.floor((now - clock) * desired.speed());
         return (long) Math.max(reached, Math.min(at, pass.get(0).time()));
     }
 
     /** Skips of what lies before the next event all but the longest gap. */
     private void approach() {
-        Long longest = wanted.plan().maxGap();
+        Long longest = desired.plan().maxGap();
         if (!approached && longest != null) {
             long gap = pass.get(0).time() - Math.max(reached, origin);
             origin += Math.max(0, gap - longest);
@@ -122,7 +122,7 @@ final class SimpleReplay {
         long first = recording.get(0).time();
         long last = recording.get(recording.size() - 1).time();
         long least = from(first);
-        long most = Math.min(last + 1, wanted.to());
+        long most = Math.min(last + 1, desired.to());
         long point = to == null || to < least ? least : to > most ? Math.max(least, most) : to;
         epoch++;
         number = 0;
@@ -146,14 +146,14 @@ final class SimpleReplay {
     }
 
     private long from(long first) {
-        long from = wanted.plan().from() == null || wanted.plan().from() < first
+        long from = desired.plan().from() == null || desired.plan().from() < first
                 ? first
-                : wanted.plan().from();
-        return wanted.range() == null ? from : Math.max(from, wanted.range().from());
+                : desired.plan().from();
+        return desired.range() == null ? from : Math.max(from, desired.range().from());
     }
 
     private boolean isChosen(StoredEvent event) {
-        return wanted.plan().devices().isEmpty() || wanted.plan().devices().contains(event.entityId());
+        return desired.plan().devices().isEmpty() || desired.plan().devices().contains(event.entityId());
     }
 
     private void goOn(long from, long until) {
@@ -177,13 +177,13 @@ final class SimpleReplay {
                 line(now, "prime", primes.remove(0), reached);
             } else if (isPaused() && repeated == null && total() < stepsDone) {
                 back(now);
-            } else if (pass.isEmpty() || pass.get(0).time() >= wanted.to()) {
+            } else if (pass.isEmpty() || pass.get(0).time() >= desired.to()) {
                 repeated = null;
                 stepsDone = Math.max(stepsDone, total());
                 if (isPaused()) {
                     return;
                 }
-                boolean again = wanted.loops()
+                boolean again = desired.loops()
                         && (played || beginning > from(recording.get(0).time()));
                 end(again ? "loop" : "ended", now);
                 between = again;
@@ -196,7 +196,7 @@ final class SimpleReplay {
             } else {
                 approach();
                 StoredEvent event = pass.get(0);
-                long due = clock + (long) Math.ceil((event.time() - origin) / wanted.speed());
+                long due = clock + (long) Math.ceil((event.time() - origin) / desired.speed());
                 if (due > until) {
                     return;
                 }
@@ -207,7 +207,7 @@ final class SimpleReplay {
     }
 
     private long total() {
-        return wanted.step() == null ? stepsDone : wanted.step().total();
+        return desired.step() == null ? stepsDone : desired.step().total();
     }
 
     private void step(long now) {
@@ -250,7 +250,7 @@ final class SimpleReplay {
     }
 
     private void line(long now, String kind, StoredEvent event, long time) {
-        if (wanted.plan().stamps() == ReplayPlan.Stamps.NOW) {
+        if (desired.plan().stamps() == ReplayPlan.Stamps.NOW) {
             offset = Math.max(newestStamp, Wishes.wall(now)) - time;
         }
         newestStamp = time + offset;
@@ -258,13 +258,13 @@ final class SimpleReplay {
                 " ",
                 Long.toString(now),
                 Long.toString(newestStamp),
-                event == null ? "urn:ngsi-ld:Replay:" + wanted.replay() : event.entityId(),
+                event == null ? "urn:ngsi-ld:Replay:" + desired.replay() : event.entityId(),
                 kind,
                 "epoch " + epoch,
                 "sequence " + number++,
                 "offset " + offset,
                 Instant.ofEpochMilli(time).toString(),
                 event == null ? "null" : event.id(),
-                EventId.ofReplay(event == null ? "end" : event.id(), wanted.replay(), epoch)));
+                EventId.ofReplay(event == null ? "end" : event.id(), desired.replay(), epoch)));
     }
 }

@@ -6,9 +6,9 @@ import java.util.Random;
 
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 
 /** What is requested of a replay, as the control plane would write it. */
 final class Wishes {
@@ -24,15 +24,15 @@ final class Wishes {
     }
 
     /** @param at ms of the clock */
-    record Wish(long at, WantedReplay wanted) {}
+    record Wish(long at, DesiredReplay desired) {}
 
-    static WantedReplay start(double speed) {
-        return WantedReplay.started("m", "data.m.replay.0a1b2c3d", ReplayPlan.PLAIN, speed, 0, 1);
+    static DesiredReplay start(double speed) {
+        return DesiredReplay.started("m", "data.m.replay.0a1b2c3d", ReplayPlan.PLAIN, speed, 0, 1);
     }
 
-    static WantedReplay with(WantedReplay w, State wanted, double speed, Long seek, int steps) {
+    static DesiredReplay with(DesiredReplay w, State desired, double speed, Long seek, int steps) {
         long sequence = w.sequence() + 1;
-        WantedReplay next = w.wanted(wanted, sequence).at(speed, sequence);
+        DesiredReplay next = w.desired(desired, sequence).at(speed, sequence);
         next = seek == null ? next : next.seeking(seek, sequence);
         return steps == 0 ? next : next.stepping(steps, sequence);
     }
@@ -53,16 +53,16 @@ final class Wishes {
                 ReplayPlan.Stamps.values()[random.nextInt(5) == 0 ? 1 : 0],
                 random.nextInt(5) == 0 ? Long.valueOf(WALL - 5_000 + random.nextInt(50_000)) : null,
                 List.of());
-        WantedReplay wanted = WantedReplay.started("m", "data.m.replay.0a1b2c3d", plan, speed, 0, 1)
-                .wanted(random.nextInt(5) == 0 ? State.PAUSED : State.RUNNING, 1);
-        List<Wish> wishes = new ArrayList<>(List.of(new Wish(0, wanted)));
+        DesiredReplay desired = DesiredReplay.started("m", "data.m.replay.0a1b2c3d", plan, speed, 0, 1)
+                .desired(random.nextInt(5) == 0 ? State.PAUSED : State.RUNNING, 1);
+        List<Wish> wishes = new ArrayList<>(List.of(new Wish(0, desired)));
         long at = 0;
         for (int i = random.nextInt(15); i > 0; i--) {
             at += random.nextInt(3) == 0 ? 0 : random.nextInt(random.nextBoolean() ? 1_000 : 100_000);
-            wanted = next(wanted, random, first, length);
-            wishes.add(new Wish(at, wanted));
+            desired = next(desired, random, first, length);
+            wishes.add(new Wish(at, desired));
         }
-        wishes.add(new Wish(at + random.nextInt(50_000), with(wanted, State.STOPPED, wanted.speed(), null, 0)));
+        wishes.add(new Wish(at + random.nextInt(50_000), with(desired, State.STOPPED, desired.speed(), null, 0)));
         return wishes;
     }
 
@@ -80,67 +80,67 @@ final class Wishes {
                 ReplayPlan.Stamps.ORIGINAL,
                 null,
                 List.of());
-        WantedReplay wanted = WantedReplay.started("m", "data.m.replay.0a1b2c3d", plan, groupSpeed(random), 0, 1)
-                .following("0a1b2c3d", new WantedReplay.Clock(wall(2_000), plan.from()));
-        List<Wish> wishes = new ArrayList<>(List.of(new Wish(0, wanted)));
+        DesiredReplay desired = DesiredReplay.started("m", "data.m.replay.0a1b2c3d", plan, groupSpeed(random), 0, 1)
+                .following("0a1b2c3d", new DesiredReplay.Clock(wall(2_000), plan.from()));
+        List<Wish> wishes = new ArrayList<>(List.of(new Wish(0, desired)));
         long at = 0;
         for (int i = random.nextInt(15); i > 0; i--) {
             at += random.nextInt(random.nextBoolean() ? 1_000 : 30_000);
-            wanted = nextOfGroup(wanted, random, at);
-            wishes.add(new Wish(at, wanted));
+            desired = nextOfGroup(desired, random, at);
+            wishes.add(new Wish(at, desired));
         }
-        wishes.add(new Wish(at + 10_000, with(wanted, State.STOPPED, wanted.speed(), null, 0)));
+        wishes.add(new Wish(at + 10_000, with(desired, State.STOPPED, desired.speed(), null, 0)));
         return wishes;
     }
 
-    private static WantedReplay nextOfGroup(WantedReplay w, Random random, long at) {
+    private static DesiredReplay nextOfGroup(DesiredReplay w, Random random, long at) {
         long position = w.position(wall(at));
-        WantedReplay.Clock going =
-                new WantedReplay.Clock(Math.max(wall(at), w.clock().at()), position);
+        DesiredReplay.Clock going =
+                new DesiredReplay.Clock(Math.max(wall(at), w.clock().at()), position);
         return switch (random.nextInt(4)) {
             case 0 ->
-                w.wanted() == State.PAUSED
+                w.desired() == State.PAUSED
                         ? follow(
                                 with(w, State.RUNNING, w.speed(), null, 0),
                                 wall(at) + 1_000,
                                 w.clock().shows())
                         : follow(with(w, State.PAUSED, w.speed(), null, 0), wall(at), position);
-            case 1 -> follow(with(w, w.wanted(), groupSpeed(random), null, 0), going.at(), going.shows());
+            case 1 -> follow(with(w, w.desired(), groupSpeed(random), null, 0), going.at(), going.shows());
             default -> {
                 long to = w.plan().from()
                         + random.nextLong(w.plan().to() - w.plan().from());
-                yield follow(with(w, w.wanted(), w.speed(), to, 0), wall(at) + 1_000, to);
+                yield follow(with(w, w.desired(), w.speed(), to, 0), wall(at) + 1_000, to);
             }
         };
     }
 
-    private static WantedReplay follow(WantedReplay w, long at, long shows) {
-        return w.following(w.group(), new WantedReplay.Clock(at, shows));
+    private static DesiredReplay follow(DesiredReplay w, long at, long shows) {
+        return w.following(w.group(), new DesiredReplay.Clock(at, shows));
     }
 
     private static double groupSpeed(Random random) {
         return SPEEDS[random.nextInt(SPEEDS.length - 1)];
     }
 
-    private static WantedReplay next(WantedReplay w, Random random, long first, long length) {
+    private static DesiredReplay next(DesiredReplay w, Random random, long first, long length) {
         return switch (random.nextInt(6)) {
-            case 0 -> with(w, w.wanted() == State.PAUSED ? State.RUNNING : State.PAUSED, w.speed(), null, 0);
-            case 1, 2 -> with(w, w.wanted(), w.speed(), first - 5_000 + random.nextLong(length + 10_000), 0);
-            case 3 -> with(w, w.wanted(), speed(random), null, 0);
+            case 0 -> with(w, w.desired() == State.PAUSED ? State.RUNNING : State.PAUSED, w.speed(), null, 0);
+            case 1, 2 -> with(w, w.desired(), w.speed(), first - 5_000 + random.nextLong(length + 10_000), 0);
+            case 3 -> with(w, w.desired(), speed(random), null, 0);
             case 4 -> w.within(range(random, first, length), w.sequence() + 1);
             default ->
-                w.wanted() == State.PAUSED
-                        ? with(w, w.wanted(), w.speed(), null, random.nextInt(20) + (random.nextBoolean() ? 1 : -20))
+                w.desired() == State.PAUSED
+                        ? with(w, w.desired(), w.speed(), null, random.nextInt(20) + (random.nextBoolean() ? 1 : -20))
                         : with(w, State.PAUSED, w.speed(), null, 0);
         };
     }
 
     /** Null now and then. */
-    private static WantedReplay.Range range(Random random, long first, long length) {
+    private static DesiredReplay.Range range(Random random, long first, long length) {
         long from = first - 1_000 + random.nextLong(length + 1_000);
         return random.nextInt(3) == 0
                 ? null
-                : new WantedReplay.Range(from, from + 1 + random.nextLong(random.nextBoolean() ? 5_000 : length));
+                : new DesiredReplay.Range(from, from + 1 + random.nextLong(random.nextBoolean() ? 5_000 : length));
     }
 
     private static double speed(Random random) {

@@ -8,8 +8,8 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.mission.Cursor;
 import io.furrow.mission.PageLimits;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.Fetch;
 import io.furrow.replay.playback.Fetched;
@@ -25,7 +25,7 @@ class PageReaderTest {
     private final MemoryRecordings missions = new MemoryRecordings().with("m", TIME, TIME + 10, TIME + 20, TIME + 30);
     private final List<Fetched> answers = new CopyOnWriteArrayList<>();
     private final PageReader pages = new PageReader(
-            WantedReplay.started("m", Topics.replay("m", "0a1b2c3d"), ReplayPlan.PLAIN, 1, 0, 1),
+            DesiredReplay.started("m", Topics.replay("m", "0a1b2c3d"), ReplayPlan.PLAIN, 1, 0, 1),
             () -> {},
             new RunningReplay.Reading(
                     RecordingSources.of(missions),

@@ -20,8 +20,8 @@ import org.junit.jupiter.api.Test;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.ReplayStatus.State;
 import io.furrow.replay.playback.PlaybackState;
-import io.furrow.replay.source.WantedReplays.Told;
-import io.furrow.replay.source.WantedReplays.Wish;
+import io.furrow.replay.source.DesiredReplays.Told;
+import io.furrow.replay.source.DesiredReplays.Wish;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -38,11 +38,11 @@ class ReplayEnumeratorTest {
     private static Wish wish(String mission, long sequence) {
         return new Wish(
                 mission + ".0a1b2c3d",
-                ReplayReaderTest.wanted(mission, 1, State.RUNNING, sequence).toBytes());
+                ReplayReaderTest.desired(mission, 1, State.RUNNING, sequence).toBytes());
     }
 
     private static ReplaySplit split(String mission) {
-        return new ReplaySplit(mission + ".0a1b2c3d", wish(mission, 1).wanted(), PlaybackState.before(3, 77));
+        return new ReplaySplit(mission + ".0a1b2c3d", wish(mission, 1).desired(), PlaybackState.before(3, 77));
     }
 
     @Test
@@ -63,7 +63,7 @@ class ReplayEnumeratorTest {
     }
 
     @Test
-    void givesReplaysOfACheckpointToReadersAnewAndRemovesUnwantedOnes() {
+    void givesReplaysOfACheckpointToReadersAnewAndRemovesUndesiredOnes() {
         ReplayEnumerator enumerator = enumerator(split("c"));
         readers.register(0, enumerator, split("a"), split("b"), split("gone"));
         readers.register(1, enumerator);
@@ -186,7 +186,7 @@ class ReplayEnumeratorTest {
         assertThat(readers.assigned).extracting(Assigned::replay).containsExactly("a.0a1b2c3d");
     }
 
-    private static final class Script implements WantedReplays {
+    private static final class Script implements DesiredReplays {
         private static final long serialVersionUID = 1L;
 
         private transient List<Told> told = List.of();
@@ -267,8 +267,8 @@ class ReplayEnumeratorTest {
 
         @Override
         public void sendEventToSourceReader(int reader, SourceEvent event) {
-            WantedEvent wanted = (WantedEvent) event;
-            events.add(reader + " " + wanted.replay() + (wanted.wanted() == null ? " removed" : " told"));
+            DesiredEvent desired = (DesiredEvent) event;
+            events.add(reader + " " + desired.replay() + (desired.desired() == null ? " removed" : " told"));
         }
 
         @Override

@@ -17,10 +17,10 @@ import org.junit.jupiter.api.Test;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.PlaybackState;
@@ -54,17 +54,17 @@ class ReplayReaderTest {
         reader.close();
     }
 
-    static WantedReplay wanted(String mission, double speed, State state, long sequence) {
-        return WantedReplay.started(mission, Topics.replay(mission, "0a1b2c3d"), ReplayPlan.PLAIN, speed, 0, sequence)
-                .wanted(state, sequence);
+    static DesiredReplay desired(String mission, double speed, State state, long sequence) {
+        return DesiredReplay.started(mission, Topics.replay(mission, "0a1b2c3d"), ReplayPlan.PLAIN, speed, 0, sequence)
+                .desired(state, sequence);
     }
 
-    private void start(WantedReplay wanted) {
-        reader.addSplits(List.of(new ReplaySplit(wanted.replay(), wanted.toBytes(), PlaybackState.fresh())));
+    private void start(DesiredReplay desired) {
+        reader.addSplits(List.of(new ReplaySplit(desired.replay(), desired.toBytes(), PlaybackState.fresh())));
     }
 
-    private void wish(WantedReplay wanted) {
-        reader.handleSourceEvents(new WantedEvent(wanted.replay(), wanted.toBytes()));
+    private void wish(DesiredReplay desired) {
+        reader.handleSourceEvents(new DesiredEvent(desired.replay(), desired.toBytes()));
     }
 
     /** Until that many records of the mission of that kind are there; a minute at most without the reader being available. */
@@ -113,7 +113,7 @@ class ReplayReaderTest {
         missions.with("m", TIME, TIME + 200, TIME + 400, TIME + 600);
         long started = System.nanoTime();
 
-        start(wanted("m", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
         play("m", "end", 1);
 
         List<TopicRecord> events = played("m", "event");
@@ -127,11 +127,11 @@ class ReplayReaderTest {
     @Test
     void letsNoReplayHoldUpAnother() throws Exception {
         missions.with("m", TIME, TIME + 50);
-        start(wanted("stuck", 1, State.RUNNING, 1));
-        start(wanted("unknown", 1, State.RUNNING, 1));
+        start(desired("stuck", 1, State.RUNNING, 1));
+        start(desired("unknown", 1, State.RUNNING, 1));
         reader.addSplits(List.of(
                 new ReplaySplit("bad.0a1b2c3d", "no JSON".getBytes(StandardCharsets.UTF_8), PlaybackState.fresh())));
-        start(wanted("m", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
 
         playUntil(() -> !played("m", "end").isEmpty()
                 && status("unknown") != null
@@ -148,7 +148,7 @@ class ReplayReaderTest {
     @Test
     void saysThatItWaitsForARecordingAndGoesOn() throws Exception {
         missions.with("m", TIME, TIME + 1, TIME + 2).setAway("m", true);
-        start(wanted("m", ReplayCommand.MAX, State.RUNNING, 1));
+        start(desired("m", ReplayCommand.MAX, State.RUNNING, 1));
         playUntil(() -> status("m") != null && status("m").progress().waiting() != null);
         assertThat(status("m").state()).isEqualTo(State.RUNNING);
         assertThat(status("m").progress().waiting()).isEqualTo("the store is away");
@@ -165,8 +165,8 @@ class ReplayReaderTest {
         reader.close();
         reader = newReader(new ReplayClock(() -> System.nanoTime() + ahead.get()));
         missions.with("m", every100Millis(8)).with("other", every100Millis(400));
-        start(wanted("m", 1, State.RUNNING, 1));
-        start(wanted("other", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
+        start(desired("other", 1, State.RUNNING, 1));
         playUntil(() -> !played("m", "event").isEmpty());
 
         long began = System.nanoTime();
@@ -199,7 +199,7 @@ class ReplayReaderTest {
     @Test
     void measuresWhatItTells() throws Exception {
         missions.with("m", TIME, TIME + 20);
-        start(wanted("m", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
 
         playUntil(() -> status("m") != null && status("m").state() == State.ENDED);
 
@@ -210,7 +210,7 @@ class ReplayReaderTest {
     @Test
     void endsAnEmptyMissionWithAReason() throws Exception {
         missions.with("m");
-        start(wanted("m", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
 
         playUntil(() -> status("m") != null && status("m").state().isOver());
 
@@ -228,7 +228,7 @@ class ReplayReaderTest {
     @Test
     void tellsTheEndAtOnceAndThatItIsSettledAfterACheckpoint() throws Exception {
         missions.with("m", TIME);
-        start(wanted("m", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
         play("m", "end", 1);
         assertThat(status("m").state()).isEqualTo(State.ENDED);
         assertThat(status("m").settled()).isFalse();
@@ -244,7 +244,7 @@ class ReplayReaderTest {
     @Test
     void playsWhatIsRecordedWhileItPlays() throws Exception {
         missions.with("m", TIME, TIME + 10);
-        start(wanted("m", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 1);
 
         missions.add("m", TIME + 20);
@@ -256,7 +256,7 @@ class ReplayReaderTest {
     @Test
     void playsAgainFromItsEndInANewEpoch() throws Exception {
         missions.with("m", TIME, TIME + 10, TIME + 20, TIME + 30);
-        WantedReplay running = wanted("m", ReplayCommand.MAX, State.RUNNING, 1);
+        DesiredReplay running = desired("m", ReplayCommand.MAX, State.RUNNING, 1);
         start(running);
         play("m", "end", 1);
         await().until(() -> missions.open() == 0);
@@ -267,14 +267,14 @@ class ReplayReaderTest {
         assertThat(played("m", "event")).hasSize(6);
         await().until(() -> missions.open() == 0);
 
-        WantedReplay back = running.wanted(State.PAUSED, 3).stepping(-2, 3);
+        DesiredReplay back = running.desired(State.PAUSED, 3).stepping(-2, 3);
         wish(back);
         playUntil(() ->
                 status("m").state() == State.PAUSED && status("m").progress().events() == 1);
         assertThat(status("m").progress().epoch()).isEqualTo(2);
         assertThat(status("m").progress().position()).isEqualTo(TIME + 10);
         assertThat(missions.open()).isEqualTo(1);
-        wish(back.wanted(State.RUNNING, 4));
+        wish(back.desired(State.RUNNING, 4));
         play("m", "end", 3);
         assertThat(played("m", "event"))
                 .extracting(record -> record.headers().get(HeaderNames.REPLAY_EPOCH))
@@ -285,14 +285,14 @@ class ReplayReaderTest {
     @Test
     void restsAgainWhereNobodyWaitsForAStepBackFromItsEnd() throws Exception {
         missions.with("m", TIME, TIME + 10);
-        WantedReplay running = wanted("m", ReplayCommand.MAX, State.RUNNING, 1);
+        DesiredReplay running = desired("m", ReplayCommand.MAX, State.RUNNING, 1);
         start(running);
         play("m", "end", 1);
         await().until(() -> missions.open() == 0);
         missions.setAway("m", true);
-        wish(running.wanted(State.PAUSED, 2).stepping(-1, 2));
+        wish(running.desired(State.PAUSED, 2).stepping(-1, 2));
         playUntil(() -> status("m").progress().waiting() != null);
-        wish(running.wanted(State.RUNNING, 3));
+        wish(running.desired(State.RUNNING, 3));
         missions.setAway("m", false);
 
         playUntil(() -> status("m").sequence() == 3 && status("m").progress().waiting() == null);
@@ -304,11 +304,11 @@ class ReplayReaderTest {
     @Test
     void goesOnWhereACheckpointWas() throws Exception {
         missions.with("m", TIME, TIME + 10, TIME + 20, TIME + 100_000);
-        start(wanted("m", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 3);
 
         restart();
-        wish(wanted("m", ReplayCommand.MAX, State.RUNNING, 2));
+        wish(desired("m", ReplayCommand.MAX, State.RUNNING, 2));
         play("m", "end", 1);
 
         assertThat(played("m", "event")).extracting(TopicRecord::timestamp).endsWith(TIME + 20, TIME + 100_000);
@@ -321,7 +321,7 @@ class ReplayReaderTest {
     @Test
     void usesNoEpochAgainThatIsOnItsTopic() throws Exception {
         missions.with("m", TIME, TIME + 10, TIME + 100_000);
-        WantedReplay started = wanted("m", 1, State.RUNNING, 1);
+        DesiredReplay started = desired("m", 1, State.RUNNING, 1);
         start(started);
         play("m", "event", 2);
 
@@ -341,9 +341,9 @@ class ReplayReaderTest {
     void goesOnBehindItsTopicWhereNoCheckpointKnowsIt() throws Exception {
         missions.with("m", TIME, TIME + 10);
         topics.end = new TopicEnd(6, TIME + 900_000);
-        WantedReplay wanted = wanted("m", ReplayCommand.MAX, State.RUNNING, 1);
+        DesiredReplay desired = desired("m", ReplayCommand.MAX, State.RUNNING, 1);
         PlaybackState told = PlaybackState.before(5, TIME + 400_000);
-        reader.addSplits(List.of(new ReplaySplit(wanted.replay(), wanted.toBytes(), told)));
+        reader.addSplits(List.of(new ReplaySplit(desired.replay(), desired.toBytes(), told)));
 
         play("m", "end", 1);
 
@@ -357,7 +357,7 @@ class ReplayReaderTest {
     void beginsANewEpochOnATopicThatAReplayBeforeHasLeft() throws Exception {
         missions.with("m", TIME, TIME + 10);
         topics.end = new TopicEnd(0, TIME + 10);
-        start(wanted("m", ReplayCommand.MAX, State.RUNNING, 1));
+        start(desired("m", ReplayCommand.MAX, State.RUNNING, 1));
 
         play("m", "end", 1);
 
@@ -373,9 +373,9 @@ class ReplayReaderTest {
         byte[] later = "{\"sequence\": 7, \"replay\": 1}".getBytes(StandardCharsets.UTF_8);
         reader.addSplits(List.of(new ReplaySplit("bad.0a1b2c3d", later, PlaybackState.fresh())));
         missions.with("m", TIME, TIME + 100_000);
-        start(wanted("m", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 1);
-        reader.handleSourceEvents(new WantedEvent("m.0a1b2c3d", later));
+        reader.handleSourceEvents(new DesiredEvent("m.0a1b2c3d", later));
         play("m", "end", 1);
 
         reader.snapshotState(1);
@@ -390,8 +390,8 @@ class ReplayReaderTest {
     @Test
     void failsAReplayWhoseTopicWasDeletedAndNoOther() throws Exception {
         missions.with("m", TIME, TIME + 100_000).with("other", TIME, TIME + 100_000);
-        start(wanted("m", 1, State.RUNNING, 1));
-        start(wanted("other", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
+        start(desired("other", 1, State.RUNNING, 1));
         play("m", "event", 1);
         play("other", "event", 1);
 
@@ -408,7 +408,7 @@ class ReplayReaderTest {
     void failsAReplayOnATopicThatWasLeftWhenThatIsDeletedAndRefused() throws Exception {
         missions.with("m", TIME, TIME + 100_000);
         topics.end = new TopicEnd(0, TIME);
-        start(wanted("m", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 1);
 
         topics.refusal = "no more topics";
@@ -421,8 +421,8 @@ class ReplayReaderTest {
     @Test
     void failsAReplayWhoseTopicWasDeletedAndMadeAgainByTheBroker() throws Exception {
         missions.with("m", TIME, TIME + 100, TIME + 200_000).with("other", TIME, TIME + 200_000);
-        start(wanted("m", 1, State.RUNNING, 1));
-        start(wanted("other", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
+        start(desired("other", 1, State.RUNNING, 1));
         play("m", "event", 1);
         int before = topics.asked;
         playUntil(() -> topics.asked > before + 1);
@@ -437,7 +437,7 @@ class ReplayReaderTest {
     @Test
     void stopsAReplayWhoseTopicIsRefusedAfterARestart() throws Exception {
         missions.with("m", TIME, TIME + 100_000);
-        WantedReplay running = wanted("m", 1, State.RUNNING, 1);
+        DesiredReplay running = desired("m", 1, State.RUNNING, 1);
         start(running);
         play("m", "event", 1);
 
@@ -445,7 +445,7 @@ class ReplayReaderTest {
         restart();
         playUntil(() -> "no topic may be made".equals(status("m").progress().waiting()));
         assertThat(status("m").state()).isEqualTo(State.RUNNING);
-        wish(running.wanted(State.STOPPED, 2));
+        wish(running.desired(State.STOPPED, 2));
 
         playUntil(() -> status("m").state() == State.STOPPED);
         assertThat(played("m", "end")).isEmpty();
@@ -465,14 +465,14 @@ class ReplayReaderTest {
     @Test
     void obeysWhereACheckpointLeftItBehindItsEnd() throws Exception {
         missions.with("m", TIME, TIME + 10, TIME + 20, TIME + 30);
-        WantedReplay paused = wanted("m", 1, State.PAUSED, 1).stepping(3, 1);
+        DesiredReplay paused = desired("m", 1, State.PAUSED, 1).stepping(3, 1);
         start(paused);
         play("m", "event", 3);
-        wish(paused.within(new WantedReplay.Range(TIME, TIME + 15), 2));
+        wish(paused.within(new DesiredReplay.Range(TIME, TIME + 15), 2));
         playUntil(() -> status("m").sequence() == 2);
 
         restart();
-        wish(paused.wanted(State.STOPPED, 3));
+        wish(paused.desired(State.STOPPED, 3));
         playUntil(() -> status("m").state() == State.STOPPED);
 
         assertThat(played("m", "end")).hasSize(1);
@@ -481,10 +481,10 @@ class ReplayReaderTest {
     @Test
     void forgetsWhatNobodyWantsAndEndsItsEpoch() throws Exception {
         missions.with("m", TIME, TIME + 100_000);
-        start(wanted("m", 1, State.RUNNING, 1));
+        start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 1);
 
-        reader.handleSourceEvents(new WantedEvent("m.0a1b2c3d", null));
+        reader.handleSourceEvents(new DesiredEvent("m.0a1b2c3d", null));
         play("m", "end", 1);
 
         assertThat(reader.snapshotState(1)).isEmpty();
@@ -503,7 +503,7 @@ class ReplayReaderTest {
     @Test
     void endsWithItsReplayWhereNothingElseIsToCome() throws Exception {
         missions.with("m", TIME, TIME + 1);
-        start(wanted("m", ReplayCommand.MAX, State.RUNNING, 1));
+        start(desired("m", ReplayCommand.MAX, State.RUNNING, 1));
 
         assertThat(lastStatus()).isEqualTo(InputStatus.END_OF_INPUT);
 
@@ -512,7 +512,7 @@ class ReplayReaderTest {
 
     @Test
     void failsWithItsReplayWhereNothingElseIsToCome() {
-        start(wanted("unknown", 1, State.RUNNING, 1));
+        start(desired("unknown", 1, State.RUNNING, 1));
 
         assertThatThrownBy(this::lastStatus)
                 .isInstanceOf(SuppressRestartsException.class)

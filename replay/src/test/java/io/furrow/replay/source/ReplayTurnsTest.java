@@ -14,8 +14,8 @@ import org.junit.jupiter.api.Test;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.PlaybackState;
@@ -55,8 +55,8 @@ class ReplayTurnsTest {
     }
 
     /** Paused, with its first page read. */
-    private WantedReplay ready(String mission, double speed) throws Exception {
-        WantedReplay paused = ReplayReaderTest.wanted(mission, speed, State.PAUSED, 1);
+    private DesiredReplay ready(String mission, double speed) throws Exception {
+        DesiredReplay paused = ReplayReaderTest.desired(mission, speed, State.PAUSED, 1);
         reader.addSplits(List.of(new ReplaySplit(paused.replay(), paused.toBytes(), PlaybackState.fresh())));
         await().until(() -> {
             while (reader.pollNext(output) == InputStatus.MORE_AVAILABLE) {
@@ -68,9 +68,9 @@ class ReplayTurnsTest {
         return paused;
     }
 
-    private void resume(WantedReplay paused) {
-        reader.handleSourceEvents(
-                new WantedEvent(paused.replay(), paused.wanted(State.RUNNING, 2).toBytes()));
+    private void resume(DesiredReplay paused) {
+        reader.handleSourceEvents(new DesiredEvent(
+                paused.replay(), paused.desired(State.RUNNING, 2).toBytes()));
     }
 
     /** Names of the missions of what was played. */
@@ -97,7 +97,7 @@ class ReplayTurnsTest {
         missions.with("fast1", LongStream.range(TIME, TIME + EVENTS).toArray());
         missions.with("fast2", LongStream.range(TIME, TIME + EVENTS).toArray());
         missions.with("slow", TIME + 3, TIME + 5);
-        List<WantedReplay> replays =
+        List<DesiredReplay> replays =
                 List.of(ready("fast1", ReplayCommand.MAX), ready("fast2", ReplayCommand.MAX), ready("slow", 1));
         replays.forEach(this::resume);
         microsPerRecord = 50;
@@ -114,7 +114,7 @@ class ReplayTurnsTest {
     void measuresLatenessThatAnotherReplayHasCaused() throws Exception {
         missions.with("m1", TIME, TIME + 100);
         missions.with("m2", TIME, TIME + 100);
-        List<WantedReplay> replays = List.of(ready("m1", 1), ready("m2", 1));
+        List<DesiredReplay> replays = List.of(ready("m1", 1), ready("m2", 1));
         replays.forEach(this::resume);
         while (played().size() < 2) {
             reader.pollNext(output);
@@ -133,7 +133,7 @@ class ReplayTurnsTest {
 
     @Test
     void reportsNotAllReplaysAtOnce() throws Exception {
-        List<WantedReplay> replays = new ArrayList<>();
+        List<DesiredReplay> replays = new ArrayList<>();
         for (int i = 0; i < 20; i++) {
             missions.with("m" + i, TIME, TIME + 100_000);
             replays.add(ready("m" + i, 1));

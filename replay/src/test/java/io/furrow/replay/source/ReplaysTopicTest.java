@@ -41,7 +41,7 @@ class ReplaysTopicTest {
                 record("b", null)));
 
         assertThat(ReplaysTopic.newest(statuses))
-                .containsExactly(new WantedReplays.Told("a", new ReplayStatus(2, State.RUNNING, null, true, null)));
+                .containsExactly(new DesiredReplays.Told("a", new ReplayStatus(2, State.RUNNING, null, true, null)));
     }
 
     private static TopicRecord status(String replay, long sequence) {

@@ -150,9 +150,9 @@ final class RobotLink {
 
     private void poll(List<String> entities, int from) {
         ObjectNode query = NODES.objectNode();
-        ArrayNode wanted = query.putArray("entities");
+        ArrayNode desired = query.putArray("entities");
         List<String> page = entities.subList(from, Math.min(entities.size(), from + PAGE));
-        page.forEach(id -> wanted.addObject().put("id", id).put("type", TYPE));
+        page.forEach(id -> desired.addObject().put("id", id).put("type", TYPE));
         query.putArray("attrs").add("cmd");
         http.postAsync(settings.contextBroker(), "/v2/op/query?limit=" + PAGE, query)
                 .whenComplete((answer, failure) -> {

@@ -15,20 +15,20 @@ import java.util.function.Consumer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.MissionDeviceLists;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
+import io.furrow.simulators.desired.DeviceReconciler;
+import io.furrow.simulators.desired.DeviceReconciler.Step;
 import io.furrow.simulators.fleet.FarmFleet;
 import io.furrow.simulators.robot.WorkField;
+import io.furrow.simulators.scenario.DesiredDeviceReader;
 import io.furrow.simulators.scenario.SimulatedDevice;
 import io.furrow.simulators.scenario.UnusableScenarioException;
-import io.furrow.simulators.scenario.WantedDeviceReader;
-import io.furrow.simulators.wanted.DeviceReconciler;
-import io.furrow.simulators.wanted.DeviceReconciler.Step;
 
 /**
  * Reconciles a fleet with the desired devices. A device that cannot be created is retried when a field or robot appears
@@ -43,13 +43,13 @@ final class FleetReconciler {
     private final StatusPublisher board;
     private final long seed;
     private final DeviceReconciler reconciler = new DeviceReconciler();
-    private final Map<String, WantedDevice> wanted = new HashMap<>();
+    private final Map<String, DesiredDevice> desired = new HashMap<>();
     private final Map<String, Step> stuck = new LinkedHashMap<>();
     private final MissionDeviceLists lists = new MissionDeviceLists();
     /** Devices whose settings are not known yet, because their record is still to come. */
-    private final Map<String, WantedDevice> unresolved = new LinkedHashMap<>();
+    private final Map<String, DesiredDevice> unresolved = new LinkedHashMap<>();
 
-    private WantedDeviceReader reader;
+    private DesiredDeviceReader reader;
 
     /**
      * @param add adds devices of one mission to the fleet
@@ -61,26 +61,26 @@ final class FleetReconciler {
         this.remove = remove;
         this.board = board;
         this.seed = seed;
-        this.reader = new WantedDeviceReader(Map.of(), seed);
+        this.reader = new DesiredDeviceReader(Map.of(), seed);
     }
 
     /** Changes the fields for new devices; running ones stay as they are. */
     void know(Map<String, WorkField> fields) {
-        reader = new WantedDeviceReader(fields, seed);
+        reader = new DesiredDeviceReader(fields, seed);
         start(retried());
     }
 
     /** Processes records of {@code service.missions.devices}, null for a deleted part. */
     void takeLists(Map<String, byte[]> records) {
         records.forEach(lists::take);
-        Map<String, WantedDevice> waiting = new LinkedHashMap<>(unresolved);
+        Map<String, DesiredDevice> waiting = new LinkedHashMap<>(unresolved);
         unresolved.clear();
         take(waiting);
     }
 
     /** Processes the newest records of {@code service.devices} by key, null for a deleted device. */
-    void take(Map<String, WantedDevice> records) {
-        Map<String, WantedDevice> resolved = new LinkedHashMap<>();
+    void take(Map<String, DesiredDevice> records) {
+        Map<String, DesiredDevice> resolved = new LinkedHashMap<>();
         records.forEach((key, device) -> {
             unresolved.remove(key);
             if (device == null || !device.running()) {
@@ -93,7 +93,7 @@ final class FleetReconciler {
         takeResolved(resolved);
     }
 
-    private Optional<WantedDevice> resolve(WantedDevice device) {
+    private Optional<DesiredDevice> resolve(DesiredDevice device) {
         try {
             return lists.resolve(device);
         } catch (UnreadableException e) {
@@ -105,17 +105,17 @@ final class FleetReconciler {
         }
     }
 
-    private void takeResolved(Map<String, WantedDevice> records) {
+    private void takeResolved(Map<String, DesiredDevice> records) {
         List<Step> starts = new ArrayList<>();
         boolean robots = false;
-        for (Map.Entry<String, WantedDevice> each : records.entrySet()) {
+        for (Map.Entry<String, DesiredDevice> each : records.entrySet()) {
             String key = each.getKey();
-            WantedDevice device = each.getValue();
+            DesiredDevice device = each.getValue();
             stuck.remove(key);
             if (device == null) {
-                wanted.remove(key);
+                desired.remove(key);
             } else {
-                wanted.put(key, device);
+                desired.put(key, device);
                 robots |= ROBOT.equals(device.type());
             }
             Step step = reconciler.take(key, device).orElse(null);
@@ -161,7 +161,7 @@ final class FleetReconciler {
     private void start(List<Step> steps) {
         Map<String, List<FarmFleet.Member>> missions = new LinkedHashMap<>();
         steps.stream().sorted(Comparator.comparing(Step::key)).forEach(step -> {
-            WantedDevice device = wanted.get(step.key());
+            DesiredDevice device = desired.get(step.key());
             try {
                 FarmFleet.Member member = member(step.key(), device);
                 DeviceStatus running = reconciler.done(step, null).orElseThrow();
@@ -178,12 +178,12 @@ final class FleetReconciler {
         missions.values().forEach(add);
     }
 
-    private void failed(Step step, WantedDevice device, String reason) {
+    private void failed(Step step, DesiredDevice device, String reason) {
         stuck.put(step.key(), new Step.Start(step.key(), device));
         board.ended(step.key(), reconciler.done(step, reason).orElseThrow());
     }
 
-    private FarmFleet.Member member(String key, WantedDevice device) throws UnusableScenarioException {
+    private FarmFleet.Member member(String key, DesiredDevice device) throws UnusableScenarioException {
         DeviceVersion version = device.version();
         FiwareScope scope = new FiwareScope(version.service(), version.servicePath());
         SimulatedDevice simulated = reader.read(device);
@@ -193,7 +193,7 @@ final class FleetReconciler {
                     "device", "'%s' runs here already, for %s".formatted(device.device(), taken));
         }
         if (version.carriedBy() != null) {
-            WantedDevice carrier = wanted.get(scope.identity(version.carriedBy()));
+            DesiredDevice carrier = desired.get(scope.identity(version.carriedBy()));
             if (carrier == null || !ROBOT.equals(carrier.type()) || !carrier.running()) {
                 throw new UnusableScenarioException(
                         "carriedBy", "'%s' is no robot that runs here".formatted(version.carriedBy()));
@@ -205,7 +205,7 @@ final class FleetReconciler {
     /** Deletes statuses of devices that are no longer on the topic. */
     void forgetAllBut(Set<String> said) {
         said.stream()
-                .filter(key -> !wanted.containsKey(key) && !unresolved.containsKey(key))
+                .filter(key -> !desired.containsKey(key) && !unresolved.containsKey(key))
                 .forEach(key -> board.ended(key, null));
     }
 }

@@ -15,7 +15,7 @@ import org.apache.kafka.common.KafkaException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.model.device.WantedDevice;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.FleetSettings;
@@ -29,7 +29,7 @@ final class HostLoop implements AutoCloseable {
     private static final Duration RETRY_BACKOFF = Duration.ofSeconds(1);
 
     private final Clock clock = Clock.systemUTC();
-    private final WantedRecords records;
+    private final DesiredRecords records;
     private final StatusRecords statuses;
     private final FarmFleet fleet;
     private final StatusPublisher board;
@@ -46,7 +46,7 @@ final class HostLoop implements AutoCloseable {
                 .withToken(settings.token());
         this.secret = new FarmSecretCheck(settings.secret());
         FleetAccess access = new FleetAccess(fiware, settings.mqtt(), FleetAccess.Logins.of(secret));
-        this.records = new WantedRecords(
+        this.records = new DesiredRecords(
                 kafka,
                 List.of(Topics.DEVICES, Topics.MISSION_DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS, Topics.SECRETS));
         this.statuses = new StatusRecords(kafka);
@@ -118,11 +118,11 @@ final class HostLoop implements AutoCloseable {
         statuses.retryFailed();
     }
 
-    private static Map<String, WantedDevice> read(Map<String, byte[]> records) {
-        Map<String, WantedDevice> devices = new LinkedHashMap<>();
+    private static Map<String, DesiredDevice> read(Map<String, byte[]> records) {
+        Map<String, DesiredDevice> devices = new LinkedHashMap<>();
         records.forEach((key, value) -> {
             try {
-                devices.put(key, value == null ? null : WantedDevice.read(value));
+                devices.put(key, value == null ? null : DesiredDevice.read(value));
             } catch (UnreadableException e) {
                 LOG.warn("the desired device {} cannot be read and is ignored: {}", key, e.getMessage());
             }

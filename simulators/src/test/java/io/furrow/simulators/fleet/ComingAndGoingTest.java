@@ -20,14 +20,14 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.embedded.EmbeddedMqtt;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.device.Listener;
 import io.furrow.simulators.mqtt.MqttAccess;
-import io.furrow.simulators.scenario.WantedDeviceReader;
+import io.furrow.simulators.scenario.DesiredDeviceReader;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -182,10 +182,10 @@ class ComingAndGoingTest {
                     new DeviceVersion("urn:" + id, "farm", "/", "farm", mission, now.toEpochMilli(), null, 1, null);
             ObjectNode settings = JsonNodeFactory.instance.objectNode();
             settings.putArray("path").addArray().add(-3.5).add(40.3);
-            WantedDevice wanted =
-                    WantedDevice.simulated(version, "Thermometer", id, true, Duration.ofMillis(50), settings);
+            DesiredDevice desired =
+                    DesiredDevice.simulated(version, "Thermometer", id, true, Duration.ofMillis(50), settings);
             members.add(new FarmFleet.Member(
-                    new WantedDeviceReader(Map.of(), 0).read(wanted), FiwareScope.of("farm", "/"), now));
+                    new DesiredDeviceReader(Map.of(), 0).read(desired), FiwareScope.of("farm", "/"), now));
         }
         return members;
     }

@@ -18,19 +18,19 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.position.Position;
 import io.furrow.simulators.robot.Activity;
 import io.furrow.simulators.robot.RobotModel;
 import io.furrow.simulators.robot.RobotState;
 import io.furrow.simulators.robot.Trajectory;
+import io.furrow.simulators.scenario.DesiredDeviceReader;
 import io.furrow.simulators.scenario.SimulatedDevice;
 import io.furrow.simulators.scenario.SimulatedDevice.Camera;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
 import io.furrow.simulators.scenario.SimulatedDevice.Sensor;
-import io.furrow.simulators.scenario.WantedDeviceReader;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -46,12 +46,12 @@ class DemoMissionsTest {
     @BeforeEach
     void make() throws Exception {
         demo = resource("missions.json");
-        WantedDeviceReader reader = new WantedDeviceReader(Map.of(), 0);
+        DesiredDeviceReader reader = new DesiredDeviceReader(Map.of(), 0);
         for (JsonNode mission : demo.path("missions")) {
             for (JsonNode template : demo.path("templates")) {
                 if (template.path("template").equals(mission.path("template"))) {
                     for (JsonNode device : template.path("devices")) {
-                        devices.put(device.path("id").asText(), reader.read(wanted(mission, device)));
+                        devices.put(device.path("id").asText(), reader.read(desired(mission, device)));
                     }
                 }
             }
@@ -251,7 +251,7 @@ class DemoMissionsTest {
                 .toList();
     }
 
-    private static WantedDevice wanted(JsonNode mission, JsonNode device) {
+    private static DesiredDevice desired(JsonNode mission, JsonNode device) {
         DeviceVersion version = new DeviceVersion(
                 device.path("id").asText(),
                 "farm",
@@ -264,7 +264,7 @@ class DemoMissionsTest {
                 null);
         ObjectNode settings = device.deepCopy();
         settings.retain("area", "path", "speed", "faults", "parameters");
-        return WantedDevice.simulated(
+        return DesiredDevice.simulated(
                 version,
                 device.path("type").asText(),
                 version.id(),

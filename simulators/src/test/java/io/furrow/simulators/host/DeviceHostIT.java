@@ -60,7 +60,7 @@ class DeviceHostIT {
     }
 
     @Test
-    void runsWhatIsWantedFromWhenTheBrokerKnowsIt() throws Exception {
+    void runsWhatIsDesiredFromWhenTheBrokerKnowsIt() throws Exception {
         String device = entity("Thermometer", "late", 1);
         long sequence = bench.want("late", device, true, YARD);
         await().atMost(TIMEOUT)
@@ -98,7 +98,7 @@ class DeviceHostIT {
     }
 
     @Test
-    void stopsWhatIsNoLongerWantedAndForgetsWhatIsDeleted() throws Exception {
+    void stopsWhatIsNoLongerDesiredAndForgetsWhatIsDeleted() throws Exception {
         String stopped = run("end", 1);
         String deleted = run("end", 2);
         String goesOn = run("end", 3);

@@ -19,12 +19,12 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.GroupRef;
 import io.furrow.model.device.MissionDeviceList;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.simulators.fleet.FarmFleet;
 import io.furrow.simulators.robot.WorkField;
@@ -58,23 +58,25 @@ class FleetReconcilerTest {
 
     @Test
     void startsReplacesAndStops() {
-        take("t-1", wanted("t-1", 1, true, path(-3.5)));
+        take("t-1", desired("t-1", 1, true, path(-3.5)));
         board.up("t-1");
-        take("t-1", wanted("t-1", 2, true, path(-3.4)));
+        take("t-1", desired("t-1", 2, true, path(-3.4)));
         assertThat(running).containsExactly("t-1");
         assertThat(statuses).containsEntry("t-1", status(1, State.RUNNING));
 
         board.up("t-1");
         assertThat(statuses).containsEntry("t-1", status(2, State.RUNNING));
 
-        take("t-1", wanted("t-1", 3, false, path(-3.4)));
+        take("t-1", desired("t-1", 3, false, path(-3.4)));
         assertThat(running).isEmpty();
         assertThat(statuses).containsEntry("t-1", status(3, State.STOPPED));
     }
 
     @Test
     void triesAgainWhenTheFieldComesThatADeviceLacked() throws Exception {
-        take("t-1", wanted("t-1", 1, true, JsonNodeFactory.instance.objectNode().put("area", "orchard")));
+        take(
+                "t-1",
+                desired("t-1", 1, true, JsonNodeFactory.instance.objectNode().put("area", "orchard")));
         assertThat(statuses.get("t-1").reason()).startsWith("area: there is no field 'orchard'");
 
         hosting.know(Map.of("orchard", WorkField.of(NgsiJson.mapper().readTree(FIELD))));
@@ -86,7 +88,9 @@ class FleetReconcilerTest {
 
     @Test
     void doesNotStartWhatWasDeletedWhileItLackedSomething() throws Exception {
-        take("t-1", wanted("t-1", 1, true, JsonNodeFactory.instance.objectNode().put("area", "orchard")));
+        take(
+                "t-1",
+                desired("t-1", 1, true, JsonNodeFactory.instance.objectNode().put("area", "orchard")));
         take("t-1", null);
         hosting.know(Map.of("orchard", WorkField.of(NgsiJson.mapper().readTree(FIELD))));
 
@@ -102,7 +106,7 @@ class FleetReconcilerTest {
                 0,
                 5,
                 JsonNodeFactory.instance.arrayNode().add(path(-3.5).put("type", "Thermometer")));
-        WantedDevice device = inGroup(wanted("t-1", 6, true, JsonNodeFactory.instance.objectNode()), 5);
+        DesiredDevice device = inGroup(desired("t-1", 6, true, JsonNodeFactory.instance.objectNode()), 5);
         take("t-1", device);
         assertThat(running).isEmpty();
         assertThat(statuses).isEmpty();
@@ -114,15 +118,15 @@ class FleetReconcilerTest {
         assertThat(running).containsExactly("t-1");
         assertThat(statuses).containsEntry("t-1", status(6, State.RUNNING));
 
-        take("t-1", inGroup(wanted("t-1", 9, true, JsonNodeFactory.instance.objectNode()), 8));
-        take("t-1", wanted("t-1", 10, false, JsonNodeFactory.instance.objectNode()));
+        take("t-1", inGroup(desired("t-1", 9, true, JsonNodeFactory.instance.objectNode()), 8));
+        take("t-1", desired("t-1", 10, false, JsonNodeFactory.instance.objectNode()));
         assertThat(running).isEmpty();
         hosting.takeLists(Map.of(list.key(), new MissionDeviceList("weeding", 0, 8, list.devices()).toBytes()));
         assertThat(running).isEmpty();
     }
 
-    private static WantedDevice inGroup(WantedDevice device, long sequence) {
-        return new WantedDevice(
+    private static DesiredDevice inGroup(DesiredDevice device, long sequence) {
+        return new DesiredDevice(
                 device.version(),
                 device.type(),
                 device.device(),
@@ -136,8 +140,8 @@ class FleetReconcilerTest {
 
     @Test
     void runsOneOfTwoDevicesOfOneId() {
-        take("a", wanted("t-1", 1, true, path(-3.5)));
-        take("b", wanted("t-1", 2, true, path(-3.5)));
+        take("a", desired("t-1", 1, true, path(-3.5)));
+        take("b", desired("t-1", 2, true, path(-3.5)));
 
         assertThat(statuses.get("b").reason()).isEqualTo("device: 't-1' runs here already, for a");
         assertThat(running).containsExactly("t-1");
@@ -145,7 +149,7 @@ class FleetReconcilerTest {
 
     @Test
     void takesBackWhatIsSaidOfDevicesThatNobodyWants() {
-        take("t-1", wanted("t-1", 1, true, path(-3.5)));
+        take("t-1", desired("t-1", 1, true, path(-3.5)));
         board.up("t-1");
         hosting.forgetAllBut(Set.of("t-1", "t-2"));
 
@@ -155,15 +159,15 @@ class FleetReconcilerTest {
     /** Whatever comes, in whatever batches, also twice: in the end that runs which is requested, under its newest sequence. */
     @ParameterizedTest
     @ValueSource(longs = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12})
-    void endsAsItIsWanted(long seed) {
+    void endsAsItIsDesired(long seed) {
         SplittableRandom random = new SplittableRandom(seed);
-        Map<String, WantedDevice> topic = new TreeMap<>();
-        Map<String, WantedDevice> batch = new LinkedHashMap<>();
+        Map<String, DesiredDevice> topic = new TreeMap<>();
+        Map<String, DesiredDevice> batch = new LinkedHashMap<>();
         for (int sequence = 1; sequence <= 400; sequence++) {
             String id = "t-" + random.nextInt(8);
-            WantedDevice device = random.nextInt(5) == 0
+            DesiredDevice device = random.nextInt(5) == 0
                     ? null
-                    : wanted(id, sequence, random.nextInt(3) > 0, path(random.nextInt(3)));
+                    : desired(id, sequence, random.nextInt(3) > 0, path(random.nextInt(3)));
             topic.put(id, device);
             batch.put(id, device);
             if (random.nextInt(3) == 0) {
@@ -192,8 +196,8 @@ class FleetReconcilerTest {
         });
     }
 
-    private void take(String key, WantedDevice device) {
-        Map<String, WantedDevice> record = new HashMap<>();
+    private void take(String key, DesiredDevice device) {
+        Map<String, DesiredDevice> record = new HashMap<>();
         record.put(key, device);
         hosting.take(record);
     }
@@ -204,10 +208,10 @@ class FleetReconcilerTest {
         return settings;
     }
 
-    private static WantedDevice wanted(String id, long sequence, boolean runs, ObjectNode settings) {
+    private static DesiredDevice desired(String id, long sequence, boolean runs, ObjectNode settings) {
         DeviceVersion version = new DeviceVersion(
                 "urn:" + id, "farm", "/", "farm", "weeding", 1000, runs ? null : Long.valueOf(2000), sequence, null);
-        return WantedDevice.simulated(version, "Thermometer", id, runs, Duration.ofSeconds(1), settings);
+        return DesiredDevice.simulated(version, "Thermometer", id, runs, Duration.ofSeconds(1), settings);
     }
 
     private static DeviceStatus status(long sequence, State state) {

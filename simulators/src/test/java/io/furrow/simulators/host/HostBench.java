@@ -29,11 +29,11 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMqtt;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.SecretFingerprints;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.FleetSettings;
@@ -124,9 +124,9 @@ final class HostBench implements AutoCloseable {
             version = new DeviceVersion(entity, "farm", "/", "farm", mission, now, null, number, carrier.textValue());
         }
         String type = entity.split(":")[2];
-        WantedDevice wanted = WantedDevice.simulated(version, type, entity, running, Duration.ofMillis(100), json)
+        DesiredDevice desired = DesiredDevice.simulated(version, type, entity, running, Duration.ofMillis(100), json)
                 .withGeneration(generation);
-        producer.send(new ProducerRecord<>(Topics.DEVICES, key(entity), wanted.toBytes()))
+        producer.send(new ProducerRecord<>(Topics.DEVICES, key(entity), desired.toBytes()))
                 .get();
         return number;
     }

@@ -48,7 +48,7 @@ class KilledHostIT {
     }
 
     @Test
-    void takesUpWhatWasWantedWhileItWasDead() throws Exception {
+    void takesUpWhatWasDesiredWhileItWasDead() throws Exception {
         String stays = entity("Thermometer", "killed", 1);
         String stopped = entity("Thermometer", "killed", 2);
         String comes = entity("Thermometer", "killed", 3);

@@ -14,8 +14,8 @@ import java.util.stream.Collectors;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.control.CommandResult;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -65,24 +65,24 @@ final class ChaosChecks {
         return faults;
     }
 
-    private static void compare(String api, MissionActor wanted, JsonNode shown, List<String> faults) {
-        if (!wanted.exists() || shown == null) {
-            if (wanted.exists() || shown != null) {
+    private static void compare(String api, MissionActor desired, JsonNode shown, List<String> faults) {
+        if (!desired.exists() || shown == null) {
+            if (desired.exists() || shown != null) {
                 faults.add("%s shows of mission %s, which %s: %s"
-                        .formatted(api, wanted.mission(), wanted.exists() ? "is there" : "is not there", shown));
+                        .formatted(api, desired.mission(), desired.exists() ? "is there" : "is not there", shown));
             }
             return;
         }
         JsonNode status = shown.path("status");
         String state = status.path("state").asText();
-        int devices = wanted.devices().size();
+        int devices = desired.devices().size();
         boolean runs = state.equals("running")
                 && status.path("devices").asInt() == devices
                 && status.path("confirmed").asInt() == devices;
         boolean rests = Set.of("created", "stopped", "failed").contains(state);
-        if (wanted.isRunning() ? !runs : !rests) {
+        if (desired.isRunning() ? !runs : !rests) {
             faults.add("%s shows mission %s, wanted %s with %d devices, as %s"
-                    .formatted(api, wanted.mission(), wanted.isRunning() ? "running" : "stopped", devices, status));
+                    .formatted(api, desired.mission(), desired.isRunning() ? "running" : "stopped", devices, status));
         }
     }
 
@@ -93,7 +93,7 @@ final class ChaosChecks {
                 .filter(MissionActor::isRunning)
                 .forEach(each -> each.devices().forEach(id -> expected.put(id, each.mission())));
         List<String> faults = new ArrayList<>();
-        Map<String, WantedDevice> desired = desired(faults);
+        Map<String, DesiredDevice> desired = desired(faults);
         compare("service.devices", expected.keySet(), desired.keySet(), faults);
         compare(
                 "the IoT Agent's devices",
@@ -111,7 +111,7 @@ final class ChaosChecks {
         compare("the MQTT users", users, farm.mosquitto().users(), faults);
         for (MissionActor each : missions) {
             each.generations().forEach((id, generation) -> {
-                WantedDevice device = desired.get(id);
+                DesiredDevice device = desired.get(id);
                 if (device != null && device.generation() != generation) {
                     faults.add("the credentials of %s were rotated %d times, answered were %d"
                             .formatted(id, device.generation(), generation));
@@ -121,11 +121,11 @@ final class ChaosChecks {
         return faults;
     }
 
-    private Map<String, WantedDevice> desired(List<String> faults) {
-        Map<String, WantedDevice> running = new HashMap<>();
+    private Map<String, DesiredDevice> desired(List<String> faults) {
+        Map<String, DesiredDevice> running = new HashMap<>();
         Committed.table(farm.kafka().bootstrapServers(), Topics.DEVICES).forEach((key, value) -> {
             try {
-                WantedDevice device = WantedDevice.read(value);
+                DesiredDevice device = DesiredDevice.read(value);
                 if (device.running()) {
                     running.put(device.version().id(), device);
                 }
@@ -149,10 +149,10 @@ final class ChaosChecks {
     private static void compare(String what, Set<String> expected, Set<String> actual, List<String> faults) {
         Set<String> missing = new TreeSet<>(expected);
         missing.removeAll(actual);
-        Set<String> unwanted = new TreeSet<>(actual);
-        unwanted.removeAll(expected);
-        if (!missing.isEmpty() || !unwanted.isEmpty()) {
-            faults.add("%s: missing %s, not wanted %s".formatted(what, missing, unwanted));
+        Set<String> undesired = new TreeSet<>(actual);
+        undesired.removeAll(expected);
+        if (!missing.isEmpty() || !undesired.isEmpty()) {
+            faults.add("%s: missing %s, not wanted %s".formatted(what, missing, undesired));
         }
     }
 

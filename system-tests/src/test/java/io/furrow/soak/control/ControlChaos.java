@@ -162,11 +162,11 @@ public final class ControlChaos {
         reports.resume(mission);
     }
 
-    private void repeat(String name, Duration pause, BooleanSupplier wanted, Callable<Void> step) {
+    private void repeat(String name, Duration pause, BooleanSupplier desired, Callable<Void> step) {
         Thread thread = new Thread(
                 () -> {
                     try {
-                        while (wanted.getAsBoolean()) {
+                        while (desired.getAsBoolean()) {
                             step.call();
                             Thread.sleep(pause.toMillis());
                         }

@@ -6,8 +6,8 @@ import java.util.List;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -39,7 +39,7 @@ final class ObedientHost implements AutoCloseable {
 
     private void report(ConsumerRecord<String, byte[]> record) {
         try {
-            WantedDevice device = record.value() == null ? null : WantedDevice.read(record.value());
+            DesiredDevice device = record.value() == null ? null : DesiredDevice.read(record.value());
             if (device != null && device.simulated()) {
                 DeviceStatus.State state = device.running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED;
                 DeviceStatus status = new DeviceStatus(device.version().sequence(), state, null);

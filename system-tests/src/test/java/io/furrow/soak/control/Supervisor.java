@@ -17,7 +17,7 @@ final class Supervisor {
     private final ControlProcess control;
     private final List<String> faults;
     private final AtomicInteger restarts = new AtomicInteger();
-    private volatile boolean wanted = true;
+    private volatile boolean desired = true;
     private volatile long kafkaWasAway;
     private volatile boolean closed;
 
@@ -40,13 +40,13 @@ final class Supervisor {
     }
 
     synchronized void kill() throws InterruptedException {
-        wanted = false;
+        desired = false;
         control.kill();
     }
 
     synchronized void start() throws IOException {
         control.start();
-        wanted = true;
+        desired = true;
     }
 
     void close() {
@@ -61,7 +61,7 @@ final class Supervisor {
     }
 
     private synchronized void restartIfEnded() {
-        if (closed || !wanted || control.isAlive()) {
+        if (closed || !desired || control.isAlive()) {
             return;
         }
         boolean explained = kafkaWasAway != 0 && System.nanoTime() - kafkaWasAway < LATE.toNanos();

@@ -97,14 +97,14 @@ public final class ReplaySteering {
     }
 
     private static void want(SteeredReplay replay, KafkaProducer<byte[], byte[]> producer) throws Exception {
-        byte[] key = replay.wanted().replay().getBytes(StandardCharsets.UTF_8);
-        producer.send(new ProducerRecord<>(Topics.REPLAYS, key, replay.wanted().toBytes()))
+        byte[] key = replay.desired().replay().getBytes(StandardCharsets.UTF_8);
+        producer.send(new ProducerRecord<>(Topics.REPLAYS, key, replay.desired().toBytes()))
                 .get();
     }
 
     private void awaitStopped() throws UnreadableException {
         Set<String> open =
-                replays.stream().map(replay -> replay.wanted().replay()).collect(Collectors.toSet());
+                replays.stream().map(replay -> replay.desired().replay()).collect(Collectors.toSet());
         long until = System.nanoTime() + TIMEOUT.toNanos();
         TopicPartition statuses = new TopicPartition(Topics.REPLAYS_STATUS, 0);
         try (var consumer = new KafkaConsumer<>(kafka, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {

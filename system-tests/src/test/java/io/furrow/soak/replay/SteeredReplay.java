@@ -16,9 +16,9 @@ import io.furrow.mission.mongo.EventDocumentCodec;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.Retention;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus.State;
-import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -36,11 +36,11 @@ final class SteeredReplay {
             new ReplayPlan(null, null, null, true, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
 
     private final int index;
-    private WantedReplay wanted;
+    private DesiredReplay desired;
 
     SteeredReplay(int index) {
         this.index = index;
-        this.wanted = WantedReplay.started(mission(index), topic(index), LOOP, 1, 0, 1);
+        this.desired = DesiredReplay.started(mission(index), topic(index), LOOP, 1, 0, 1);
     }
 
     private static String mission(int index) {
@@ -51,8 +51,8 @@ final class SteeredReplay {
         return Topics.replay(mission(index), "0a1b2c3d");
     }
 
-    WantedReplay wanted() {
-        return wanted;
+    DesiredReplay desired() {
+        return desired;
     }
 
     void store(MongoClient client) throws UnreadableException {
@@ -72,30 +72,30 @@ final class SteeredReplay {
 
     /** Changes what is wanted at random. @return the command's name */
     String steer(Random random) {
-        long next = wanted.sequence() + 1;
-        boolean paused = wanted.wanted() == State.PAUSED;
+        long next = desired.sequence() + 1;
+        boolean paused = desired.desired() == State.PAUSED;
         switch (random.nextInt(4)) {
             case 0 -> {
-                wanted = wanted.wanted(paused ? State.RUNNING : State.PAUSED, next);
+                desired = desired.desired(paused ? State.RUNNING : State.PAUSED, next);
                 return paused ? "resume" : "pause";
             }
             case 1 -> {
-                wanted = wanted.seeking(TIME + random.nextInt(EVENTS * APART), next);
+                desired = desired.seeking(TIME + random.nextInt(EVENTS * APART), next);
                 return "seek";
             }
             case 2 -> {
-                wanted = wanted.at(SPEEDS[random.nextInt(SPEEDS.length)], next);
+                desired = desired.at(SPEEDS[random.nextInt(SPEEDS.length)], next);
                 return "speed";
             }
             default -> {
                 int steps = random.nextInt(4) == 0 ? -1 - random.nextInt(5) : 1 + random.nextInt(20);
-                wanted = wanted.wanted(State.PAUSED, next).stepping(steps, next);
+                desired = desired.desired(State.PAUSED, next).stepping(steps, next);
                 return "step";
             }
         }
     }
 
     void stop() {
-        wanted = wanted.wanted(State.STOPPED, wanted.sequence() + 1);
+        desired = desired.desired(State.STOPPED, desired.sequence() + 1);
     }
 }

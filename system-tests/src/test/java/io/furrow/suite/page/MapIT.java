@@ -164,7 +164,7 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void drawsAnEncounterThatIsPredictedUntilItIsWithdrawn(PageSuite suite) {
+    void drawsAnEncounterThatIsPredictedUntilItStarts(PageSuite suite) {
         FarmPage farm = suite.open("");
         farm.untilStore("store.primed && store.fields.size === 4");
         report(farm, 2, 40.3125, -3.4822);
@@ -178,7 +178,7 @@ class MapIT {
                 .containsText("Tractor 0 – Tractor 1predicted");
 
         int with = farm.mapPixels(WARNING);
-        collision(farm, "withdrawn");
+        collision(farm, "started");
         farm.page().waitForCondition(() -> farm.mapPixels(WARNING) < with - 300);
     }
 

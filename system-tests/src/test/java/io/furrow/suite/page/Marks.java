@@ -87,12 +87,12 @@ final class Marks {
         for (int number = 1; number <= sent.size(); number++) {
             long since = sent.get(number - 1);
             long before = number < sent.size() ? sent.get(number) : Long.MAX_VALUE;
-            int wanted = where.equals("canvas") ? number % 2 : number;
+            int desired = where.equals("canvas") ? number % 2 : number;
             for (Object each : seen) {
                 List<?> mark = (List<?>) each;
                 if (mark.get(0) instanceof Number what
                         && mark.get(1) instanceof Number when
-                        && what.intValue() == wanted
+                        && what.intValue() == desired
                         && when.longValue() >= since
                         && (where.equals("card") || when.longValue() < before)) {
                     delays.add(when.longValue() - since);

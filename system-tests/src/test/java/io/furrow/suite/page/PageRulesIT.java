@@ -183,6 +183,26 @@ class PageRulesIT {
                         "|/|T|x");
     }
 
+    /** Its type need not be known. */
+    @Test
+    void leadsFromAnAlarmToNoDeviceOfAnotherTenant() {
+        assertThat(run(TAKE + """
+                await import('/alarms/alarms.js');
+                const alarms = document.body.appendChild(document.createElement('furrow-alarms'));
+                take('pb-16', 'Robot', 'pbfarm', {});
+                const shown = (service) => {
+                  store.select(null);
+                  store.takeAlarm({ key: service, value: { alarm: service, kind: 'suspect-sensor', severity: 'warning', state: 'open', text: 'odd',
+                    raised: 1, subject: 'pb-16', identity: `${service}|/||pb-16`, devices: [{ id: 'pb-16', service }] } });
+                  alarms.draw();
+                  alarms.rows.get(service).element.querySelector('.alarm-text').click();
+                  return String(store.selection);
+                };
+                const all = [shown('pbother'), shown('pbfarm')];
+                alarms.remove();
+                return all;""")).containsExactly("null", "pb-16");
+    }
+
     @Test
     void showsAFieldFromTheTimeOnFromWhichItIsOne() {
         assertThat(run("""

@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision.encounter;
 
-import io.furrow.analytics.collision.grid.Geodesy;
 import io.furrow.analytics.eventtime.Timed;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.time.Epochs;
@@ -14,7 +13,6 @@ import io.furrow.flink.time.Epochs;
  * @param minDistance meters, the closest so far
  * @param startTime when the encounter started, epoch milliseconds
  * @param time when this phase was reached, epoch milliseconds
- * @param confirms of a start the id of the provisional record that it confirms; else empty
  */
 public record Encounter(
         Phase phase,
@@ -23,25 +21,12 @@ public record Encounter(
         double distance,
         double minDistance,
         long startTime,
-        long time,
-        String confirms)
+        long time)
         implements Timed {
-
-    public Encounter(
-            Phase phase,
-            PositionFix first,
-            PositionFix second,
-            double distance,
-            double minDistance,
-            long startTime,
-            long time) {
-        this(phase, first, second, distance, minDistance, startTime, time, "");
-    }
 
     /**
      * The pair and the start: a second skip the same events names its encounters the same, another epoch of a replay does
-     * not. Of what is provisional or
-     * withdrawn the pair and the times of both positions, because late data may still move the start.
+     * not.
      */
     public String id() {
         return id(pairId());
@@ -49,24 +34,7 @@ public record Encounter(
 
     /** @param pairId {@link #pairId()}, which costs a digest */
     public String id(String pairId) {
-        return phase == Phase.PROVISIONAL || phase == Phase.WITHDRAWN
-                ? pairId + "~" + Epochs.text(first.time()) + "~" + Epochs.text(second.time())
-                : pairId + "@" + Epochs.text(startTime);
-    }
-
-    /** What has arrived of a pair, until the watermark decides. */
-    public static Encounter provisional(PositionFix first, PositionFix second) {
-        double distance = Geodesy.distance(first, second);
-        long time = Math.max(first.time(), second.time());
-        return new Encounter(Phase.PROVISIONAL, first, second, distance, distance, time, time);
-    }
-
-    public Encounter withdrawn() {
-        return of(Phase.WITHDRAWN, distance, minDistance, startTime, time);
-    }
-
-    public Encounter confirming(Encounter provisional) {
-        return new Encounter(phase, first, second, distance, minDistance, startTime, time, provisional.id());
+        return pairId + "@" + Epochs.text(startTime);
     }
 
     /** The same pair and places in another phase, or of an encounter with another start. */

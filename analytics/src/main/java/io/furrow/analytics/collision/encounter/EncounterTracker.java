@@ -61,7 +61,8 @@ public final class EncounterTracker implements Serializable {
     private OpenEncounter seen(OpenEncounter known, PairObservation sighting, Consumer<Encounter> out) {
         double distance = Geodesy.distance(sighting.first(), sighting.second());
         if (known == null) {
-            OpenEncounter meeting = new OpenEncounter(sighting.time(), distance, sighting.time());
+            OpenEncounter meeting =
+                    new OpenEncounter(sighting.time(), distance, sighting.time(), sighting.first(), sighting.second());
             out.accept(encounter(Phase.STARTED, meeting, sighting, distance));
             return meeting;
         }
@@ -69,7 +70,9 @@ public final class EncounterTracker implements Serializable {
         OpenEncounter meeting = new OpenEncounter(
                 known.startTime(),
                 Math.min(known.minDistance(), distance),
-                report ? sighting.time() : known.reported());
+                report ? sighting.time() : known.reported(),
+                sighting.first(),
+                sighting.second());
         if (report) {
             out.accept(encounter(Phase.ONGOING, meeting, sighting, distance));
         }
@@ -81,6 +84,13 @@ public final class EncounterTracker implements Serializable {
             out.accept(encounter(Phase.ENDED, known, gone, Geodesy.distance(gone.first(), gone.second())));
         }
         return null;
+    }
+
+    /** The end of an encounter by other rules, at the newest of its positions. */
+    static Encounter cutOff(OpenEncounter open) {
+        long time = Math.max(open.first().time(), open.second().time());
+        PairObservation last = new PairObservation(open.first(), open.second(), time, -1);
+        return encounter(Phase.ENDED, open, last, Geodesy.distance(open.first(), open.second()));
     }
 
     private static Encounter encounter(Phase phase, OpenEncounter meeting, PairObservation sighting, double distance) {

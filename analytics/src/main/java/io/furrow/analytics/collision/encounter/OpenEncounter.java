@@ -2,12 +2,16 @@ package io.furrow.analytics.collision.encounter;
 
 import org.apache.flink.api.common.typeinfo.TypeInfo;
 
+import io.furrow.analytics.position.PositionFix;
+
 /**
  * What is remembered of a pair while it is close.
  *
  * @param startTime since when, epoch milliseconds
  * @param minDistance meters, the closest so far
  * @param reported event time of the newest record about it
+ * @param first the newest position of one device, in the order of {@link PositionFix#NAMING}
+ * @param second that of the other
  */
 @TypeInfo(OpenEncounterSerializer.class)
-public record OpenEncounter(long startTime, double minDistance, long reported) {}
+public record OpenEncounter(long startTime, double minDistance, long reported, PositionFix first, PositionFix second) {}

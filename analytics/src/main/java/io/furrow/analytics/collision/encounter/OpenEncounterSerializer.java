@@ -5,13 +5,14 @@ import java.io.IOException;
 import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
+import io.furrow.analytics.position.PositionFixSerializer;
 import io.furrow.flink.format.Format;
 
 /** How a {@link OpenEncounter} is written. */
 public final class OpenEncounterSerializer extends Format<OpenEncounter> {
     private static final long serialVersionUID = 1L;
-    /** Start, closest distance, newest report. */
-    private static final int VERSION = 1;
+    /** Start, closest distance, newest report, both fixes as parts. */
+    private static final int VERSION = 2;
 
     @Override
     public Class<OpenEncounter> type() {
@@ -28,6 +29,8 @@ public final class OpenEncounterSerializer extends Format<OpenEncounter> {
         out.writeLong(meeting.startTime());
         out.writeDouble(meeting.minDistance());
         out.writeLong(meeting.reported());
+        PositionFixSerializer.INSTANCE.writePart(meeting.first(), out);
+        PositionFixSerializer.INSTANCE.writePart(meeting.second(), out);
     }
 
     @Override
@@ -35,6 +38,11 @@ public final class OpenEncounterSerializer extends Format<OpenEncounter> {
         if (version != VERSION) {
             throw unknown(version);
         }
-        return new OpenEncounter(in.readLong(), in.readDouble(), in.readLong());
+        return new OpenEncounter(
+                in.readLong(),
+                in.readDouble(),
+                in.readLong(),
+                PositionFixSerializer.INSTANCE.readPart(in),
+                PositionFixSerializer.INSTANCE.readPart(in));
     }
 }

@@ -11,11 +11,7 @@ public enum Phase {
     /** The devices are on courses that will bring them close. */
     PREDICTED,
     /** The devices came close between their reports, though no report shows it. */
-    CROSSED,
-    /** Close by what has arrived; will be confirmed by a start, or withdrawn. */
-    PROVISIONAL,
-    /** What was provisional has not come true. */
-    WITHDRAWN;
+    CROSSED;
 
     /** The name as it stands in messages, for instance {@code started}. */
     public String code() {

@@ -4,9 +4,12 @@ import java.util.Comparator;
 import java.util.List;
 
 import org.apache.flink.metrics.Counter;
+import org.apache.flink.runtime.state.StateInitializationContext;
+import org.apache.flink.runtime.state.StateSnapshotContext;
 import org.apache.flink.util.Collector;
 
 import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.matching.RestoredRules;
 import io.furrow.analytics.eventtime.EventTimeOperator;
 
 /**
@@ -14,7 +17,8 @@ import io.furrow.analytics.eventtime.EventTimeOperator;
  *
  * <p><b>State</b>: sightings that wait for the watermark; start, closest distance and newest report of an encounter.
  *
- * <p><b>Cleared</b>: when the encounter has ended and no sighting waits.
+ * <p><b>Cleared</b>: when the encounter has ended and no sighting waits. Where restored with other rules, each encounter ends at its
+ * newest position.
  *
  * <p><b>Late</b>: nothing can be, the stage before acts before it forwards a watermark.
  *
@@ -25,12 +29,15 @@ public final class TrackEncounters extends EventTimeOperator<Pair, PairObservati
     private static final long serialVersionUID = 1L;
 
     private final EncounterTracker follower;
+    private final CollisionRules rules;
 
+    private transient RestoredRules restored;
     private transient Counter violations;
 
     public TrackEncounters(CollisionRules rules) {
         super(new PendingObservationsSerializer());
-        follower = new EncounterTracker(rules.exact());
+        this.rules = rules.exact();
+        follower = new EncounterTracker(this.rules);
     }
 
     @Override
@@ -39,9 +46,24 @@ public final class TrackEncounters extends EventTimeOperator<Pair, PairObservati
     }
 
     @Override
+    public void initializeState(StateInitializationContext context) throws Exception {
+        super.initializeState(context);
+        restored = RestoredRules.of(context.getOperatorStateStore(), rules);
+    }
+
+    @Override
+    public void snapshotState(StateSnapshotContext context) throws Exception {
+        super.snapshotState(context);
+        restored.snapshot();
+    }
+
+    @Override
     public void open() throws Exception {
         super.open();
         violations = getMetricGroup().counter("violations");
+        if (restored.changed()) {
+            forget(true, (encounter, out) -> out.collect(EncounterTracker.cutOff(encounter)));
+        }
     }
 
     @Override

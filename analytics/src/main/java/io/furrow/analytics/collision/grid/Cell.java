@@ -2,9 +2,7 @@ package io.furrow.analytics.collision.grid;
 
 import java.util.ArrayList;
 import java.util.Collection;
-import java.util.LinkedHashMap;
 import java.util.List;
-import java.util.Map;
 import java.util.function.Consumer;
 
 import org.apache.flink.api.common.typeinfo.TypeInfo;
@@ -13,7 +11,6 @@ import io.furrow.analytics.collision.encounter.PairObservation;
 import io.furrow.analytics.collision.matching.CrowdReport;
 import io.furrow.analytics.collision.matching.Matching;
 import io.furrow.analytics.collision.matching.Shortlist;
-import io.furrow.analytics.position.Device;
 
 /**
  * The devices of one grid cell; changed in place. Which pairs are followed follows from where the members are and from the
@@ -21,7 +18,7 @@ import io.furrow.analytics.position.Device;
  */
 @TypeInfo(CellSerializer.class)
 public final class Cell {
-    /** Made again if there are none, or for another threshold. */
+    /** Made again for the first member. */
     private CellIndex members = new CellIndex(0);
     /** How many members have a shortlist. */
     private int crowded;
@@ -81,22 +78,15 @@ public final class Cell {
         int from = 0;
         while (from < updates.size()) {
             int to = endOfInstant(updates, from);
-            applyAtOnce(updates.subList(from, to), matching, matching, out);
+            applyAtOnce(updates.subList(from, to), matching, out);
             from = to;
         }
     }
 
-    /**
-     * Applies the updates of one instant.
-     *
-     * @param before by which who was close is judged
-     * @param now by which who is close is judged; another only where all members are among the updates
-     */
-    public void applyAtOnce(List<CellUpdate> updates, Matching before, Matching now, Consumer<PairObservation> out) {
-        prepare(before.proximity());
-        List<Change> changes = takeOut(before == now ? updates : newestOfEach(updates), before);
-        prepare(now.proximity());
-        putIn(changes, now, updates.get(0).time(), out);
+    /** Applies the updates of one instant. */
+    public void applyAtOnce(List<CellUpdate> updates, Matching matching, Consumer<PairObservation> out) {
+        prepare(matching.proximity());
+        putIn(takeOut(updates, matching), matching, updates.get(0).time(), out);
     }
 
     /** The first update of a later instant than that of the given one. */
@@ -115,13 +105,6 @@ public final class Cell {
             members = new CellIndex(proximity.reach());
             known.forEach(members::add);
         }
-    }
-
-    /** Where rules changed twice at an instant, a device is notified of twice. */
-    private static List<CellUpdate> newestOfEach(List<CellUpdate> updates) {
-        Map<Device, CellUpdate> newest = new LinkedHashMap<>();
-        updates.forEach(update -> newest.put(update.fix().device(), update));
-        return List.copyOf(newest.values());
     }
 
     /**

@@ -3,8 +3,6 @@ package io.furrow.analytics.collision.grid;
 import java.util.Comparator;
 import java.util.List;
 
-import org.apache.flink.api.common.state.ListState;
-import org.apache.flink.api.common.state.ListStateDescriptor;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.runtime.state.StateInitializationContext;
 import org.apache.flink.runtime.state.StateSnapshotContext;
@@ -15,23 +13,21 @@ import org.apache.flink.util.OutputTag;
 
 import io.furrow.analytics.clock.LaggingPosition;
 import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.matching.KnownRules;
-import io.furrow.analytics.collision.matching.KnownRulesSerializer;
+import io.furrow.analytics.collision.matching.RestoredRules;
 import io.furrow.analytics.collision.position.PendingFixesSerializer;
 import io.furrow.analytics.eventtime.EventTimeOperator;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.format.FormatType;
 import io.furrow.flink.time.EventTimeReached;
 
 /**
  * Puts each device into the grid cells that have to know of it. Key: the device.
  *
  * <p><b>State</b>: positions that wait for the watermark, the newest that counts with its cells; how far event time
- * has come, because a restored job starts without a watermark and must not go back behind what it has emitted; the rules,
- * because restored with others it notifies all cells again.
+ * has come, because a restored job starts without a watermark and must not go back behind what it has emitted.
  *
- * <p><b>Cleared</b>: when the position's time-to-live ends and none waits.
+ * <p><b>Cleared</b>: when the position's time-to-live ends and none waits; where restored with other rules, all but the positions that
+ * wait.
  *
  * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device has reported no newer one.
  * So does, to {@code LATE}, a position of which {@value #MAX_WAITING} wait, counted as {@code crowdedOut}.
@@ -47,37 +43,24 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
         private static final long serialVersionUID = 1L;
     };
 
-    /** As soon as it arrives, every position that is not late, and the newest of a device that is, as long as it counts. */
-    public static final OutputTag<PositionFix> ACCEPTED = new OutputTag<>("accepted") {
-        private static final long serialVersionUID = 1L;
-    };
-
     /** Positions of a device. */
     static final int MAX_WAITING = 100_000;
 
     private static final long serialVersionUID = 1L;
 
-    private final boolean eager;
     private final Tracker tracker;
-    private final KnownRules rules;
+    private final CollisionRules rules;
 
-    private transient ListState<KnownRules> knownRules;
-    private transient boolean rulesChanged;
+    private transient RestoredRules restored;
     private transient EventTimeReached reached;
     private transient Counter accepted;
     private transient Counter late;
     private transient Counter crowdedOut;
 
     public TrackDevices(CollisionRules rules) {
-        this(rules, false);
-    }
-
-    /** @param eager whether {@link #ACCEPTED} is requested */
-    public TrackDevices(CollisionRules rules, boolean eager) {
         super(new PendingFixesSerializer());
-        this.eager = eager;
-        this.rules = KnownRules.of(rules.exact());
-        tracker = new Tracker(rules.exact());
+        this.rules = rules.exact();
+        tracker = new Tracker(this.rules);
     }
 
     @Override
@@ -90,11 +73,7 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
         super.initializeState(context);
         reached = EventTimeReached.restore(
                 context.getOperatorStateStore(), getRuntimeContext().getTaskInfo());
-        knownRules = context.getOperatorStateStore()
-                .getUnionListState(new ListStateDescriptor<>("rules", new FormatType<>(new KnownRulesSerializer())));
-        for (KnownRules each : knownRules.get()) {
-            rulesChanged |= !each.equals(rules);
-        }
+        restored = RestoredRules.of(context.getOperatorStateStore(), rules);
     }
 
     @Override
@@ -103,9 +82,8 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
         accepted = getMetricGroup().counter("accepted");
         late = getMetricGroup().counter("late");
         crowdedOut = getMetricGroup().counter("crowdedOut");
-        if (rulesChanged) {
-            long now = reached.furthest();
-            revise((track, out) -> tracker.renew(track, now, out::collect));
+        if (restored.changed()) {
+            forget(false, (track, out) -> {});
         }
     }
 
@@ -121,9 +99,6 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
             output.collect(LATE, record);
         } else {
             accepted.inc();
-            if (eager) {
-                output.collect(ACCEPTED, record);
-            }
         }
     }
 
@@ -136,9 +111,6 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
         LaggingPosition lagging =
                 new LaggingPosition(fix.topic(), fix.identity(), fix.id(), fix.mission(), fix.time(), passed, counted);
         output.collect(LAGGING, new StreamRecord<>(lagging, fix.time()));
-        if (eager && tracker.expiry(fix) > passed) {
-            output.collect(ACCEPTED, new StreamRecord<>(fix, fix.time()));
-        }
     }
 
     @Override
@@ -161,6 +133,6 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
     public void snapshotState(StateSnapshotContext context) throws Exception {
         super.snapshotState(context);
         reached.snapshot();
-        knownRules.update(List.of(rules));
+        restored.snapshot();
     }
 }

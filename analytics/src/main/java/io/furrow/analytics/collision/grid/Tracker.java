@@ -43,12 +43,7 @@ public final class Tracker implements Serializable {
 
     /** The first instant at which the track's position counts no more. */
     public long expiry(Track track) {
-        return expiry(track.last());
-    }
-
-    /** The same of a position. */
-    long expiry(PositionFix fix) {
-        return fix.time() + timeToLive;
+        return track.last().time() + timeToLive;
     }
 
     private Track expire(Track track, long until, Consumer<CellUpdate> out) {
@@ -71,34 +66,16 @@ public final class Tracker implements Serializable {
      * @param track null if it was nowhere
      */
     public Track move(Track track, PositionFix fix, Consumer<CellUpdate> out) {
-        return place(track, fix, fix.time(), out);
-    }
-
-    /**
-     * The same track in this grid, with all its cells notified again; null if its position counts no more.
-     *
-     * @param track made by other rules
-     * @param time of the updates
-     */
-    Track renew(Track track, long time, Consumer<CellUpdate> out) {
-        if (expiry(track) <= time) {
-            leave(track, time, out);
-            return null;
-        }
-        return place(track, track.last(), time, out);
-    }
-
-    private Track place(Track track, PositionFix fix, long time, Consumer<CellUpdate> out) {
         boolean excluded = zones.cover(fix.latitude(), fix.longitude());
         long[] cells = excluded ? NO_CELLS : grid.cells(fix.latitude(), fix.longitude());
         for (long left : track == null ? NO_CELLS : track.cells()) {
             if (!contains(cells, left)) {
-                out.accept(new CellUpdate(left, time, Presence.GONE, track.last()));
+                out.accept(new CellUpdate(left, fix.time(), Presence.GONE, track.last()));
             }
         }
         for (int i = 0; i < cells.length; i++) {
             Presence presence = i == 0 ? Presence.RESIDENT : Presence.HALO;
-            out.accept(new CellUpdate(cells[i], time, presence, fix));
+            out.accept(new CellUpdate(cells[i], fix.time(), presence, fix));
         }
         return new Track(fix, cells);
     }

@@ -4,13 +4,9 @@ import java.util.Comparator;
 import java.util.List;
 import java.util.function.Consumer;
 
-import org.apache.flink.api.common.state.ListState;
-import org.apache.flink.api.common.state.ListStateDescriptor;
-import org.apache.flink.api.common.state.OperatorStateStore;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.runtime.state.StateInitializationContext;
 import org.apache.flink.runtime.state.StateSnapshotContext;
-import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
@@ -22,17 +18,15 @@ import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Grid;
 import io.furrow.analytics.collision.grid.PendingUpdatesSerializer;
 import io.furrow.analytics.eventtime.EventTimeOperator;
-import io.furrow.flink.format.FormatType;
-import io.furrow.flink.time.EventTimeReached;
 
 /**
  * Finds the close pairs of each grid cell. Key: the cell's id.
  *
  * <p><b>State</b>: updates that wait for the watermark, the devices in the cell and around it with the shortlists of those in
- * crowds, what was notified of crowds within the last minute; per subtask how far event time has come and the rules, because
- * restored with others it must know who was close by those of before.
+ * crowds, what was notified of crowds within the last minute.
  *
- * <p><b>Cleared</b>: when the last device has gone, no update waits and there is nothing to report a crowd.
+ * <p><b>Cleared</b>: when the last device has gone, no update waits and there is nothing to report a crowd; all of it where restored with
+ * other rules.
  *
  * <p><b>Late</b>: nothing can be, the stage before acts before it forwards a watermark.
  *
@@ -49,19 +43,17 @@ public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, 
     private final Matching matching;
     private final ReportCrowds crowds;
 
-    private final KnownRules rules;
+    private final CollisionRules rules;
 
-    private transient ListState<RulesUntil> knownRules;
-    private transient MatchingHistory history;
-    private transient EventTimeReached reached;
+    private transient RestoredRules restored;
     private transient Counter leftOut;
     private transient Consumer<CellOverflow> overflows;
 
     public MatchPairs(CollisionRules rules) {
         super(new PendingUpdatesSerializer());
-        this.rules = KnownRules.of(rules.exact());
-        matching = new Matching(rules.exact());
-        crowds = new ReportCrowds(matching, new Grid(rules.exact()));
+        this.rules = rules.exact();
+        matching = new Matching(this.rules);
+        crowds = new ReportCrowds(matching, new Grid(this.rules));
     }
 
     @Override
@@ -72,17 +64,15 @@ public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, 
     @Override
     public void initializeState(StateInitializationContext context) throws Exception {
         super.initializeState(context);
-        OperatorStateStore store = context.getOperatorStateStore();
-        reached = EventTimeReached.restore(store, getRuntimeContext().getTaskInfo());
-        knownRules = store.getUnionListState(
-                new ListStateDescriptor<>("rules", new FormatType<>(new RulesUntilSerializer())));
-        history = new MatchingHistory(rules, matching);
-        history.restore(knownRules.get(), reached.furthest());
+        restored = RestoredRules.of(context.getOperatorStateStore(), rules);
     }
 
     @Override
     public void open() throws Exception {
         super.open();
+        if (restored.changed()) {
+            forget(true, (cell, out) -> {});
+        }
         leftOut = getMetricGroup().counter("pairsLeftOut");
         overflows = overflow -> {
             leftOut.inc(overflow.pairsLeftOut());
@@ -98,10 +88,7 @@ public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, 
             int to = Cell.endOfInstant(due, from);
             long time = due.get(from).time();
             crowds.advance(id, now, time - 1, overflows);
-            now.applyAtOnce(due.subList(from, to), history.before(time), history.from(time), out::collect);
-            if (now.devices() == 0 && history.isTurn(time)) {
-                now.report(null); // a cell of the grid that was
-            }
+            now.applyAtOnce(due.subList(from, to), matching, out::collect);
             crowds.applied(id, now, time, overflows);
             from = to;
         }
@@ -110,17 +97,9 @@ public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, 
     }
 
     @Override
-    public void processWatermark(Watermark mark) throws Exception {
-        super.processWatermark(mark);
-        reached.advance(mark.getTimestamp());
-        history.passed(mark.getTimestamp());
-    }
-
-    @Override
     public void snapshotState(StateSnapshotContext context) throws Exception {
         super.snapshotState(context);
-        reached.snapshot();
-        knownRules.update(history.toSave());
+        restored.snapshot();
     }
 
     /** When the next minute is full. */

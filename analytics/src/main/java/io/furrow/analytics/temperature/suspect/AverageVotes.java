@@ -7,7 +7,6 @@ import java.util.Map;
 import org.apache.flink.streaming.api.functions.windowing.ProcessWindowFunction;
 import org.apache.flink.streaming.api.windowing.windows.TimeWindow;
 import org.apache.flink.util.Collector;
-import org.apache.flink.util.OutputTag;
 
 import io.furrow.analytics.temperature.window.FieldAverage;
 import io.furrow.analytics.temperature.window.RobustMean;
@@ -17,23 +16,15 @@ import io.furrow.analytics.temperature.window.RobustMean;
  *
  * <p>State: the votes of each field and window. Cleared: with the window, when the watermark passes its end and the allowed
  * lateness. Late: a vote cast again replaces the device's earlier one, and the result is made again. Emits: one result per
- * field and window in which a device voted, when the watermark passes the end of the window; where there were devices enough,
- * what it thinks of each to {@link #VERDICTS}.
+ * field and window in which a device voted, when the watermark passes the end of the window.
  */
 public final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldAverage, String, TimeWindow> {
-    public static final OutputTag<Verdict> VERDICTS = new OutputTag<>("verdicts") {
-        private static final long serialVersionUID = 1L;
-    };
-
     private static final long serialVersionUID = 1L;
 
     private final double suspectFloor;
-    private final boolean judges;
 
-    /** @param judges whether anybody reads the verdicts */
-    AverageVotes(double suspectFloor, boolean judges) {
+    AverageVotes(double suspectFloor) {
         this.suspectFloor = suspectFloor;
-        this.judges = judges;
     }
 
     @Override
@@ -41,7 +32,7 @@ public final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldA
         Map<String, DeviceVote> latest = new HashMap<>();
         DeviceVote newest = null; // by the version of the field: whose domain counts
         for (DeviceVote vote : votes) {
-            latest.remove(vote.untypedVoter());
+            latest.remove(vote.untyped());
             latest.put(vote.voter(), vote);
             newest = newest == null || vote.validFrom() > newest.validFrom() ? vote : newest;
         }
@@ -52,31 +43,13 @@ public final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldA
                 .map(latest::get)
                 .sorted(DeviceVote.NAMING)
                 .toList();
-        FieldAverage result = new FieldAverage(
+        out.collect(new FieldAverage(
                 newest.field(),
                 newest.domain(),
                 newest.scope(),
                 newest.windowStart(),
                 newest.windowEnd(),
                 average.naming(suspects.stream().map(DeviceVote::device).toList()),
-                suspects.stream().map(DeviceVote::typeOrNone).toList());
-        out.collect(result);
-        if (judges && result.average().verified()) {
-            latest.values().forEach(vote -> context.output(VERDICTS, verdict(result, vote, suspects.contains(vote))));
-        }
-    }
-
-    private static Verdict verdict(FieldAverage result, DeviceVote vote, boolean suspect) {
-        return new Verdict(
-                vote.device(),
-                result.scope(),
-                result.field(),
-                result.domain(),
-                suspect,
-                vote.value(),
-                result.average().mean(),
-                result.windowStart(),
-                result.windowEnd(),
-                vote.type());
+                suspects.stream().map(DeviceVote::typeOrNone).toList()));
     }
 }

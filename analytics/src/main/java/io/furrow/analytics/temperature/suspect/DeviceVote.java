@@ -29,14 +29,14 @@ public record DeviceVote(
     static final Comparator<DeviceVote> NAMING =
             Comparator.comparing(DeviceVote::device).thenComparing(DeviceVote::typeOrNone);
 
-    /** Type and id: no two devices of a field share it. */
+    /** Type and id; the length makes it unambiguous: no two devices of a field share it. */
     String voter() {
-        return typeOrNone().length() + ":" + typeOrNone() + device;
+        return type == null ? untyped() : type.length() + ":" + type + device;
     }
 
-    /** The same of the device's vote of before types were told apart. */
-    String untypedVoter() {
-        return "0:" + device;
+    /** The voter of a vote of the device of before types were told apart. */
+    String untyped() {
+        return ":" + device;
     }
 
     String typeOrNone() {

@@ -41,7 +41,7 @@ public final class VoteStage {
         return votes.keyBy(DeviceVote::fieldIdentity)
                 .window(EpochWindows.of(options.slide(), options.slide()))
                 .allowedLateness(options.allowedLateness())
-                .process(new AverageVotes(options.suspectFloor(), options.suspectAfter() > 0))
+                .process(new AverageVotes(options.suspectFloor()))
                 .uid("average-votes")
                 .name("Average the votes of each field");
     }

@@ -11,7 +11,6 @@ import io.furrow.analytics.temperature.InputScope;
  * @param scope of the devices that were averaged
  * @param windowStart first instant of the window, epoch ms
  * @param windowEnd first instant after the window, epoch ms
- * @param average of no devices in a window without a reading
  * @param suspectTypes of the entities of its suspects, in their order; empty where it is not known
  */
 public record FieldAverage(

@@ -15,7 +15,6 @@ import org.slf4j.LoggerFactory;
 import io.furrow.analytics.Seeds;
 import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.Worlds;
-import io.furrow.analytics.collision.eager.Arrival;
 import io.furrow.analytics.collision.grid.Cell;
 import io.furrow.analytics.collision.grid.CellRules;
 import io.furrow.analytics.collision.grid.CellUpdate;
@@ -200,23 +199,6 @@ class CrowdTest {
         return second(5, second, 0.3).stream()
                 .map(fix -> new CellUpdate(7, fix.time(), presence, fix))
                 .toList();
-    }
-
-    @Test
-    void limitsWhatIsProvisionalToo() throws Exception {
-        var stage = Stage.spot(rules(CROWD, 100));
-        int told = 0;
-        for (int second = 0; second < 3; second++) {
-            for (PositionFix fix : second(300, second, 0.3)) {
-                stage.receive(new Arrival(7, fix.time(), Presence.RESIDENT, fix));
-            }
-            told = stage.told().size();
-            stage.restart();
-        }
-        assertThat(told).isBetween(CROWD * CROWD / 2, 300 * 5);
-        assertThat(stage.advance(START + 60_000)).allMatch(glimpse -> !glimpse.close());
-        assertThat(stage.stateEntries()).isZero();
-        stage.stop();
     }
 
     private static void follow(Encounter encounter, Map<String, Set<String>> open) {

@@ -18,10 +18,6 @@ import org.apache.flink.util.OutputTag;
 
 import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.debounce.DebounceEncounters;
-import io.furrow.analytics.collision.eager.Arrival;
-import io.furrow.analytics.collision.eager.ProvisionalProximity;
-import io.furrow.analytics.collision.eager.SpotPairs;
-import io.furrow.analytics.collision.eager.TrackArrivals;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.TrackDevices;
 import io.furrow.analytics.collision.matching.MatchPairs;
@@ -76,22 +72,6 @@ public final class Stage<K, I, O> {
                 Encounter::pair,
                 TypeInformation.of(Pair.class),
                 Encounter::time);
-    }
-
-    public static Stage<Device, PositionFix, Arrival> arrivals(CollisionRules rules) throws Exception {
-        return new Stage<>(
-                () -> new KeyedProcessOperator<>(new TrackArrivals(rules)),
-                PositionFix::device,
-                TypeInformation.of(Device.class),
-                PositionFix::time);
-    }
-
-    public static Stage<Long, Arrival, ProvisionalProximity> spot(CollisionRules rules) throws Exception {
-        return new Stage<>(
-                () -> new KeyedProcessOperator<>(new SpotPairs(rules)),
-                Arrival::cell,
-                Types.LONG,
-                arrival -> arrival.fix().time());
     }
 
     public void receive(List<I> inputs) throws Exception {

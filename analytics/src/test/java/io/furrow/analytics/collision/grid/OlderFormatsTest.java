@@ -10,17 +10,10 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.EnumSource;
 
-import io.furrow.analytics.collision.eager.Arrival;
-import io.furrow.analytics.collision.eager.ArrivalSerializer;
-import io.furrow.analytics.collision.eager.Arrivals;
-import io.furrow.analytics.collision.eager.ArrivalsSerializer;
-import io.furrow.analytics.collision.eager.ProvisionalProximity;
-import io.furrow.analytics.collision.eager.ProvisionalProximitySerializer;
 import io.furrow.analytics.collision.encounter.PairObservation;
 import io.furrow.analytics.collision.encounter.PairObservationSerializer;
 import io.furrow.analytics.collision.encounter.PendingObservationsSerializer;
 import io.furrow.analytics.collision.matching.CrowdReport;
-import io.furrow.analytics.collision.matching.Shortlist;
 import io.furrow.analytics.collision.position.PendingFixesSerializer;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.format.Format;
@@ -45,24 +38,16 @@ class OlderFormatsTest {
             new PositionFix("t", "|/|b", "b", "R", "m", "|/|a", 40.5, -3.25, 0, 0, 1000);
 
     private static final String UPDATE = "fffffffffffffff900000000000003e801" + A;
-    private static final String ARRIVAL = "000000000000000700000000000003e902" + A;
     private static final String SIGHTING = A + B + "00000000000003e8ff";
-    private static final String GLIMPSE = A + B + "0000000000000003000000000000000401";
     private static final String TRACK = A + "000000020000000000000003fffffffffffffffc";
-    private static final String MEETING = "00000000000001f43ff800000000000000000000000003e8";
     private static final String CELL = "0000000201" + A + "02" + B + "00000001047c2f7c610100000000000003e801" + B;
-    private static final String ARRIVALS =
-            "00000001000000000000000700000000000003e900" + A + "000000010174047c2f7c6100000001047c2f7c62";
 
     @Test
     void areReadInVersion1() throws Exception {
         assertThat(read(new CellUpdateSerializer(), 1, UPDATE))
                 .isEqualTo(new CellUpdate(-7, 1000, Presence.HALO, FIRST));
-        assertThat(read(new ArrivalSerializer(), 1, ARRIVAL)).isEqualTo(new Arrival(7, 1001, Presence.GONE, FIRST));
         assertThat(read(new PairObservationSerializer(), 1, SIGHTING))
                 .isEqualTo(new PairObservation(FIRST, SECOND, 1000, -1));
-        assertThat(read(new ProvisionalProximitySerializer(), 1, GLIMPSE))
-                .isEqualTo(new ProvisionalProximity(FIRST, SECOND, 3, 4, true));
         Track track = read(new TrackSerializer(), 1, TRACK);
         assertThat(track.last()).isEqualTo(FIRST);
         assertThat(track.cells()).containsExactly(3, -4);
@@ -73,17 +58,13 @@ class OlderFormatsTest {
         Cell cell = read(new CellSerializer(), 2, CELL);
         assertThat(cell.members()).extracting(Member::fix).containsExactlyInAnyOrder(FIRST, SECOND);
         assertThat(cell.report()).isEqualTo(new CrowdReport(1000, true, SECOND));
-
-        Arrivals arrivals = read(new ArrivalsSerializer(), 2, ARRIVALS);
-        assertThat(arrivals.all()).containsExactly(new Arrival(7, 1001, Presence.RESIDENT, FIRST));
-        assertThat(arrivals.shortlists().values()).containsExactly(new Shortlist(List.of("|/|b")));
     }
 
     @Test
     void areReadWithWhatWaitsForThem() throws Exception {
         areWrittenAnew(new PendingUpdatesSerializer(), 2, "00000001" + UPDATE + "01" + CELL);
         areWrittenAnew(new PendingFixesSerializer(), 1, "00000001" + A + "01" + TRACK);
-        areWrittenAnew(new PendingObservationsSerializer(), 1, "00000001" + SIGHTING + "01" + MEETING);
+        areWrittenAnew(new PendingObservationsSerializer(), 1, "00000001" + SIGHTING + "00");
         areWrittenAnew(new PendingObservationsSerializer(), 1, "0000000000");
     }
 
@@ -98,12 +79,9 @@ class OlderFormatsTest {
     void areRefusedInAVersionThatIsUnknown() {
         for (Format<?> format : List.of(
                 new CellUpdateSerializer(),
-                new ArrivalSerializer(),
                 new PairObservationSerializer(),
-                new ProvisionalProximitySerializer(),
                 new TrackSerializer(),
                 new CellSerializer(),
-                new ArrivalsSerializer(),
                 new PendingUpdatesSerializer())) {
             for (int version : new int[] {0, format.version() + 1}) {
                 assertThatThrownBy(() -> read(format, version, "00000000"))

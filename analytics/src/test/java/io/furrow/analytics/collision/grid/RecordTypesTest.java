@@ -18,8 +18,6 @@ import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.debounce.SteadyState;
-import io.furrow.analytics.collision.eager.Arrival;
-import io.furrow.analytics.collision.eager.Arrivals;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.OpenEncounter;
 import io.furrow.analytics.collision.encounter.Pair;
@@ -51,7 +49,7 @@ class RecordTypesTest {
             new PositionFix("t", "farm|/|" + "x".repeat(300), "x".repeat(300), "", "", "", 0, 1, 0, 0, 0),
             new CellUpdate(-7, 1000, Presence.HALO, FIX),
             new PairObservation(FIX, FIX, 1000, -1),
-            new OpenEncounter(500, 1.5, 1000)
+            new OpenEncounter(500, 1.5, 1000, FIX, FIX)
         };
     }
 
@@ -159,18 +157,6 @@ class RecordTypesTest {
         out.writeBoolean(true);
         out.writeLong(500);
         return out.getCopyOfBuffer();
-    }
-
-    @Test
-    void arrivalsGoThroughTheirFormatWithTheirShortlists() throws Exception {
-        Arrivals arrivals = new Arrivals();
-        Arrival here = new Arrival(7, 500, Presence.RESIDENT, Fixes.east("c", 3, 500));
-        arrivals.put(here, new Shortlist(List.of("farm|/|a")));
-        assertThat(copied(arrivals).all()).containsExactly(here);
-        assertThat(copied(arrivals).shortlists())
-                .isEqualTo(arrivals.shortlists())
-                .hasSize(1);
-        assertThat(serializer(arrivals).copy(arrivals).shortlists()).isEqualTo(arrivals.shortlists());
     }
 
     private static Member inACrowd(PositionFix fix) {

@@ -31,9 +31,9 @@ public final class DeviceTypes implements RestartingWorker.Work, Function<String
     private final Properties client;
     private volatile Types types;
 
-    private record Types(Map<String, String> reported, Map<String, String> wanted) {
+    private record Types(Map<String, String> reported, Map<String, String> desired) {
         void take(ConsumerRecord<String, byte[]> record) {
-            Map<String, String> map = record.topic().equals(Topics.DEVICES) ? wanted : reported;
+            Map<String, String> map = record.topic().equals(Topics.DEVICES) ? desired : reported;
             String type = record.value() == null ? null : type(record);
             if (record.key() != null && type == null) {
                 map.remove(record.key());
@@ -74,7 +74,7 @@ public final class DeviceTypes implements RestartingWorker.Work, Function<String
             return null;
         }
         String reported = known.reported().get(identity);
-        return reported == null ? known.wanted().get(identity) : reported;
+        return reported == null ? known.desired().get(identity) : reported;
     }
 
     /** Whether all records that existed at the start were read. */
@@ -87,7 +87,7 @@ public final class DeviceTypes implements RestartingWorker.Work, Function<String
         return known == null
                 ? "reads the types of devices"
                 : "%d desired and %d reported types"
-                        .formatted(known.wanted().size(), known.reported().size());
+                        .formatted(known.desired().size(), known.reported().size());
     }
 
     @Override

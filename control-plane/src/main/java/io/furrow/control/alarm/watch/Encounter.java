@@ -58,7 +58,7 @@ public record Encounter(
     }
 
     /**
-     * Returns the type of a member's entity; null if nobody knows it.
+     * Returns the type of a member's entity; null if unknown.
      *
      * @param known types by tenant, service path and id, for records that name none
      */

@@ -55,13 +55,13 @@ public final class AuditHistory {
      *
      * @throws ProblemException where Kafka is unavailable, or too many ask
      */
-    public Page read(long before, int limit, Predicate<AuditedEntry> wanted) {
+    public Page read(long before, int limit, Predicate<AuditedEntry> desired) {
         if (!free.tryAcquire()) {
             throw ProblemException.overloaded();
         }
         try (Consumer<String, byte[]> consumer =
                 new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
-            return read(consumer, before, limit, wanted);
+            return read(consumer, before, limit, desired);
         } catch (KafkaException e) {
             throw new ProblemException(
                     503,
@@ -73,7 +73,7 @@ public final class AuditHistory {
     }
 
     private static Page read(
-            Consumer<String, byte[]> consumer, long before, int limit, Predicate<AuditedEntry> wanted) {
+            Consumer<String, byte[]> consumer, long before, int limit, Predicate<AuditedEntry> desired) {
         consumer.assign(List.of(AUDIT));
         long first = consumer.beginningOffsets(List.of(AUDIT)).get(AUDIT);
         long end = Math.min(before, consumer.endOffsets(List.of(AUDIT)).get(AUDIT));
@@ -84,7 +84,7 @@ public final class AuditHistory {
             long start = Math.max(least, end - STEP);
             List<AuditedEntry> step = step(consumer, start, end, deadline);
             for (int i = step.size() - 1; i >= 0; i--) {
-                if (wanted.test(step.get(i))) {
+                if (desired.test(step.get(i))) {
                     found.add(step.get(i));
                     if (found.size() == limit) {
                         long position = step.get(i).position();

@@ -9,8 +9,9 @@ public record AuditedEntry(long position, ObjectNode value) {
         return value.put("position", position);
     }
 
-    /** @param wanted null for any */
-    public boolean isAbout(String member, String wanted) {
-        return wanted == null || wanted.equals(value.path("about").path(member).textValue());
+    /** @param desired null for any */
+    public boolean isAbout(String member, String desired) {
+        return desired == null
+                || desired.equals(value.path("about").path(member).textValue());
     }
 }

@@ -9,10 +9,10 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.control.health.SilenceCause;
+import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.device.MissionDeviceLists;
-import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -26,12 +26,12 @@ public final class DesiredDevices {
     }
 
     /** @param identity tenant, service path and id of the entity */
-    public Optional<WantedDevice> find(String identity) {
+    public Optional<DesiredDevice> find(String identity) {
         return view.find(Topics.DEVICES, identity).flatMap(device -> read(device, new MissionDeviceLists()));
     }
 
     /** Those of a mission that shall run. */
-    public List<WantedDevice> of(String mission) {
+    public List<DesiredDevice> of(String mission) {
         MissionDeviceLists lists = new MissionDeviceLists();
         int parts = view.find(Topics.MISSIONS, mission)
                 .map(found -> found.path("parts").asInt())
@@ -39,7 +39,7 @@ public final class DesiredDevices {
         for (int part = 0; part < parts; part++) {
             take(lists, MissionDeviceList.key(mission, part));
         }
-        List<WantedDevice> devices = new ArrayList<>();
+        List<DesiredDevice> devices = new ArrayList<>();
         view.entries(Topics.DEVICES)
                 .map(ServiceView.Entry::value)
                 .filter(device -> mission.equals(device.path("mission").textValue())
@@ -89,7 +89,7 @@ public final class DesiredDevices {
         }
     }
 
-    private Optional<WantedDevice> read(ObjectNode device, MissionDeviceLists lists) {
+    private Optional<DesiredDevice> read(ObjectNode device, MissionDeviceLists lists) {
         take(
                 lists,
                 MissionDeviceList.key(
@@ -103,10 +103,10 @@ public final class DesiredDevices {
     }
 
     /** Without settings where those of its group are not known yet. */
-    private static Optional<WantedDevice> resolve(ObjectNode device, MissionDeviceLists lists) {
+    private static Optional<DesiredDevice> resolve(ObjectNode device, MissionDeviceLists lists) {
         try {
-            WantedDevice wanted = WantedDevice.read(NgsiJson.write(device));
-            return lists.resolve(wanted).or(() -> Optional.of(wanted));
+            DesiredDevice desired = DesiredDevice.read(NgsiJson.write(device));
+            return lists.resolve(desired).or(() -> Optional.of(desired));
         } catch (UnreadableException e) {
             return Optional.empty(); // the readers of the topic report it
         }

@@ -57,7 +57,7 @@ final class RecordSender implements AutoCloseable {
      * @return completes once Kafka has it
      * @throws ProblemException where too much waits already
      */
-    CompletableFuture<Void> send(ProducerRecord<String, byte[]> record, BooleanSupplier wanted) {
+    CompletableFuture<Void> send(ProducerRecord<String, byte[]> record, BooleanSupplier desired) {
         int size = record.value().length;
         if (!bytes.tryAcquire(size)) {
             throw ProblemException.overloaded();
@@ -65,7 +65,7 @@ final class RecordSender implements AutoCloseable {
         CompletableFuture<Void> sent = new CompletableFuture<>();
         sent.whenComplete((done, failure) -> bytes.release(size));
         try {
-            executor.execute(() -> send(record, wanted, sent));
+            executor.execute(() -> send(record, desired, sent));
         } catch (RejectedExecutionException e) {
             sent.cancel(false);
             throw ProblemException.overloaded();
@@ -73,8 +73,8 @@ final class RecordSender implements AutoCloseable {
         return sent;
     }
 
-    private void send(ProducerRecord<String, byte[]> record, BooleanSupplier wanted, CompletableFuture<Void> sent) {
-        if (!wanted.getAsBoolean()) {
+    private void send(ProducerRecord<String, byte[]> record, BooleanSupplier desired, CompletableFuture<Void> sent) {
+        if (!desired.getAsBoolean()) {
             sent.cancel(false);
             return;
         }

@@ -61,8 +61,8 @@ public final class ReplayView {
         return view.find(Topics.REPLAYS_STATUS, replay);
     }
 
-    private ObjectNode withStatus(ObjectNode wanted) {
-        status(wanted.path(REPLAY).asText()).ifPresent(status -> wanted.set("status", status));
-        return wanted;
+    private ObjectNode withStatus(ObjectNode desired) {
+        status(desired.path(REPLAY).asText()).ifPresent(status -> desired.set("status", status));
+        return desired;
     }
 }

@@ -71,9 +71,9 @@ public final class MadeUpCommands {
         };
     }
 
-    private WantedReplay.Range range() {
+    private DesiredReplay.Range range() {
         long from = time().toEpochMilli();
-        return new WantedReplay.Range(from, from + 1 + random.nextInt(99));
+        return new DesiredReplay.Range(from, from + 1 + random.nextInt(99));
     }
 
     private ReplayPlan replayPlan(Long maxGap) {

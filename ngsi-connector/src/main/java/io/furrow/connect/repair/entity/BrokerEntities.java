@@ -124,12 +124,12 @@ public final class BrokerEntities {
         return subject.covers(state.entity().id(), state.entity().type());
     }
 
-    private Page page(Range range, Told wanted) throws BrokerException, InterruptedException {
+    private Page page(Range range, Told desired) throws BrokerException, InterruptedException {
         int limit = Math.min(range.limit(), fitting);
         while (true) {
             try {
                 JsonNode answer =
-                        ask(scope, EntityRequests.page(range.first(limit), subject, wanted), TREE_TO_BODY * maxBytes);
+                        ask(scope, EntityRequests.page(range.first(limit), subject, desired), TREE_TO_BODY * maxBytes);
                 return new Page(states(answer, range.order(), range.from()), limit, answer.size() >= limit);
             } catch (UnreadableException e) {
                 inParts(e);

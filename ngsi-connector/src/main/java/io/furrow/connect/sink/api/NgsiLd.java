@@ -141,10 +141,10 @@ public record NgsiLd(String context) implements ContextBrokerApi {
                 names.add(id);
             }
         });
-        String wanted = "&options=sysAttrs&limit=" + names.size() + "&id=" + list(names);
+        String desired = "&options=sysAttrs&limit=" + names.size() + "&id=" + list(names);
         boolean typesAreKnown = ids.values().stream().noneMatch(Collection::isEmpty); // a deletion knows none
         String query = typesAreKnown ? "type=" + list(types) : "local=true";
-        return scoped(BrokerRequest.get(scope, "/ngsi-ld/v1/entities?" + query + wanted));
+        return scoped(BrokerRequest.get(scope, "/ngsi-ld/v1/entities?" + query + desired));
     }
 
     private static String list(Set<String> names) {

@@ -76,10 +76,10 @@ final class BodyReader implements Runnable {
                 body.completeExceptionally(chunk.getFailure());
                 return;
             }
-            int wanted = (int) Math.min((long) size + chunk.remaining(), limit);
-            if (wanted > kept.length) {
+            int desired = (int) Math.min((long) size + chunk.remaining(), limit);
+            if (desired > kept.length) {
                 unread = chunk;
-                grow((int) Math.min(Math.max(wanted, 2L * kept.length), limit), this);
+                grow((int) Math.min(Math.max(desired, 2L * kept.length), limit), this);
                 return;
             }
             boolean last = chunk.isLast();

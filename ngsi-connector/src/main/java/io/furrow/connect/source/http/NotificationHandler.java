@@ -98,9 +98,9 @@ public final class NotificationHandler extends Handler.Abstract.NonBlocking {
         ByteBudget budget = limits.translations();
         long estimate = HeapEstimate.of(received.body());
         boolean fits = estimate <= budget.size() || !received.complete();
-        long wanted = fits ? Math.min(estimate, budget.size()) : asDeadLetter(received);
-        return budget.take(wanted, deadline - System.nanoTime()).thenApply(taken -> {
-            memory.translation = wanted;
+        long desired = fits ? Math.min(estimate, budget.size()) : asDeadLetter(received);
+        return budget.take(desired, deadline - System.nanoTime()).thenApply(taken -> {
+            memory.translation = desired;
             return fits ? translator.translate(received) : translator.refuse(received, tooMuch(estimate, budget));
         });
     }

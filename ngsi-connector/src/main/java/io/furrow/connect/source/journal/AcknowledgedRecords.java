@@ -125,18 +125,18 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
     /** One look at the topics, from their ends backwards. */
     private final class Search {
         private final Consumer<byte[], byte[]> consumer;
-        private final List<Event> wanted;
+        private final List<Event> desired;
         private final Set<String> left = new HashSet<>();
         private final long oldest;
         private final Instant deadline = Instant.now().plus(TIMEOUT);
         /** Before this Kafka may have deleted events. */
         private long deletedBefore = Long.MIN_VALUE;
 
-        Search(Consumer<byte[], byte[]> consumer, List<Event> wanted) {
+        Search(Consumer<byte[], byte[]> consumer, List<Event> desired) {
             this.consumer = consumer;
-            this.wanted = wanted;
-            wanted.forEach(event -> left.add(event.id()));
-            oldest = wanted.stream().mapToLong(Event::received).min().orElseThrow();
+            this.desired = desired;
+            desired.forEach(event -> left.add(event.id()));
+            oldest = desired.stream().mapToLong(Event::received).min().orElseThrow();
         }
 
         Optional<Event> missing() {
@@ -150,12 +150,12 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
             Map<TopicPartition, Long> ends = consumer.endOffsets(partitions, TIMEOUT);
             partitions.forEach(partition -> look(partition, begins.get(partition), ends.get(partition)));
             Predicate<Event> isMissing = event -> left.contains(event.id()) && event.received() >= deletedBefore;
-            return wanted.stream().filter(isMissing).findFirst();
+            return desired.stream().filter(isMissing).findFirst();
         }
 
         private void look(TopicPartition partition, long begin, long end) {
             consumer.assign(List.of(partition));
-            long step = 2L * wanted.size() + 100;
+            long step = 2L * desired.size() + 100;
             long to = end;
             while (to > begin && !left.isEmpty()) {
                 long from = Math.max(begin, to - step);

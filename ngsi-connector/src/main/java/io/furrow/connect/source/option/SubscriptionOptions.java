@@ -16,8 +16,8 @@ import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
 import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.subscription.Content;
+import io.furrow.connect.subscription.DesiredSubscription.Pace;
 import io.furrow.connect.subscription.Subject;
-import io.furrow.connect.subscription.WantedSubscription.Pace;
 
 /** Options for the subscriptions that the source creates and manages. */
 public record SubscriptionOptions(AbstractConfig config) {

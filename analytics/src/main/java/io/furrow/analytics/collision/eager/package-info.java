@@ -1,2 +1,0 @@
-/** Provisional alarms on arrival, before the watermark decides. */
-package io.furrow.analytics.collision.eager;

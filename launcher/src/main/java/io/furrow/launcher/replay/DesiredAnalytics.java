@@ -1,0 +1,33 @@
+package io.furrow.launcher.replay;
+
+import java.util.List;
+
+import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.replay.ReplayStatus;
+
+/**
+ * Which analytics jobs a replay wants.
+ *
+ * @param over whether nothing will come of the replay any more, and all that came is committed
+ */
+record DesiredAnalytics(String topic, List<AnalyticsJob> jobs, boolean over) {
+    DesiredAnalytics {
+        jobs = List.copyOf(jobs);
+    }
+
+    /** @param status null if there is none yet */
+    static DesiredAnalytics of(DesiredReplay replay, ReplayStatus status) {
+        List<AnalyticsJob> jobs = replay.plan().analytics().stream()
+                .map(job -> new AnalyticsJob(job, replay.topic()))
+                .toList();
+        boolean over =
+                status != null && status.state().isOver() && status.settled() && status.sequence() >= replay.sequence();
+        return new DesiredAnalytics(replay.topic(), jobs, over);
+    }
+
+    /** Of a replay that is requested no more. */
+    DesiredAnalytics ended() {
+        return new DesiredAnalytics(topic, jobs, true);
+    }
+}

@@ -1,0 +1,136 @@
+package io.furrow.model.device;
+
+import java.time.DateTimeException;
+import java.time.Duration;
+import java.util.Objects;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * A record of {@code service.devices} as the control plane writes it: to whom the device belongs, which is all that jobs read,
+ * how it is provisioned, and whether a host simulates it. The host reconciles what it runs with these records and publishes the
+ * result on {@code service.devices.status}, see {@link DeviceStatus}.
+ *
+ * @param type of the entity; null if the device reports with a login of its own and is not provisioned
+ * @param device id at the IoT Agent and in MQTT topics; null if {@code type} is
+ * @param running false if it shall be removed; {@code version} then has an end
+ * @param period between two measures; null if it is not known
+ * @param simulated whether a host runs it; a real device is up by its first report
+ * @param settings {@code area}, {@code path}, {@code speed}, {@code faults}, {@code parameters}, where the record itself has them;
+ *     owned by the record
+ * @param group where they are else, see {@link MissionDeviceLists#resolve}; null if the record itself has them
+ * @param generation how often its credentials were rotated, see {@link FarmSecret#device(String, String, int)}
+ */
+public record DesiredDevice(
+        DeviceVersion version,
+        String type,
+        String device,
+        boolean running,
+        Duration period,
+        boolean simulated,
+        ObjectNode settings,
+        GroupRef group,
+        int generation) {
+    private static final String SETTINGS = "settings";
+    private static final String GROUP = "group";
+    private static final String SIMULATED = "simulated";
+    private static final String GENERATION = "generation";
+
+    public DesiredDevice {
+        Objects.requireNonNull(version);
+        Objects.requireNonNull(settings);
+    }
+
+    /** A simulated device, if it has a type, with its settings in itself, whose credentials were never rotated. */
+    public static DesiredDevice simulated(
+            DeviceVersion version, String type, String device, boolean running, Duration period, ObjectNode settings) {
+        return new DesiredDevice(version, type, device, running, period, type != null, settings, null, 0);
+    }
+
+    /** The same with settings of its own. */
+    DesiredDevice with(ObjectNode own) {
+        return new DesiredDevice(version, type, device, running, period, simulated, own, null, generation);
+    }
+
+    public DesiredDevice withGeneration(int other) {
+        return new DesiredDevice(version, type, device, running, period, simulated, settings, group, other);
+    }
+
+    /** Where a real device stands that does not tell it: {@code {latitude, longitude}}, degrees; null if it tells it. */
+    public JsonNode place() {
+        JsonNode at = settings.path("at");
+        return at.isObject() && !simulated ? at : null;
+    }
+
+    /** The same after another version of it. */
+    public DesiredDevice with(DeviceVersion other, boolean shallRun) {
+        return new DesiredDevice(other, type, device, shallRun, period, simulated, settings, group, generation);
+    }
+
+    /**
+     * Reads the value of a record; one that says no more than to whom the device belongs is of a device that is not provisioned.
+     *
+     * @throws UnreadableException as {@link DeviceVersion#read}, and where {@code period} is no duration or {@code generation} no
+     *     whole number from 0 on
+     */
+    public static DesiredDevice read(byte[] value) throws UnreadableException {
+        DeviceVersion version = DeviceVersion.read(value);
+        JsonNode json = NgsiJson.read(value);
+        return new DesiredDevice(
+                version,
+                json.path("type").textValue(),
+                json.path("device").textValue(),
+                !"stopped".equals(json.path("wanted").textValue()),
+                period(json.path("period").textValue()),
+                json.path(SIMULATED).asBoolean(),
+                json.path(SETTINGS) instanceof ObjectNode settings ? settings : JsonNodeFactory.instance.objectNode(),
+                GroupRef.read(json.path(GROUP)),
+                generation(json.path(GENERATION)));
+    }
+
+    private static int generation(JsonNode number) throws UnreadableException {
+        if (number.isMissingNode()) {
+            return 0;
+        }
+        if (!number.isIntegralNumber() || !number.canConvertToInt() || number.intValue() < 0) {
+            throw new UnreadableException(
+                    Reason.NOT_AN_EVENT, "'generation' of the device is no whole number from 0 on");
+        }
+        return number.intValue();
+    }
+
+    private static Duration period(String iso) throws UnreadableException {
+        try {
+            return iso == null ? null : Duration.parse(iso);
+        } catch (DateTimeException e) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "'period' of the device is no duration", e);
+        }
+    }
+
+    public byte[] toBytes() {
+        ObjectNode json = version.toJson();
+        if (type != null) {
+            json.put("type", type).put("device", device).put(SIMULATED, simulated);
+        }
+        json.put("wanted", running ? "running" : "stopped");
+        if (period != null) {
+            json.put("period", period.toString());
+        }
+        if (!settings.isEmpty()) {
+            json.set(SETTINGS, settings);
+        }
+        if (group != null) {
+            group.describe(json.putObject(GROUP));
+        }
+        if (generation > 0) {
+            json.put(GENERATION, generation);
+        }
+        return NgsiJson.write(json);
+    }
+}
