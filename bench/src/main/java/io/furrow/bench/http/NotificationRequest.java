@@ -15,7 +15,7 @@ import java.util.stream.LongStream;
 /**
  * A notification of one entity as Orion 4.7 sends it (normalized, the headers and the order of members recorded from it),
  * ready as the bytes of a request. Its number, its entity's id and its times are written over the old ones in place, so that a
- * request costs some copied bytes. The body has exactly the length asked for.
+ * request costs some copied bytes. The body has exactly the length asked for. Entities stand in rows, some 100 m from each other.
  */
 public final class NotificationRequest {
     /** What the number stands behind in the entity, in every form that keeps attributes normalized. */
@@ -33,6 +33,11 @@ public final class NotificationRequest {
     private static final String END_OF_DATA = "]}";
     private static final String ID_PREFIX = "urn:ngsi-ld:SoilProbe:";
     private static final int MAX_MEASURES = 8;
+    private static final String BEFORE_PLACE = "\"coordinates\":[-3.7";
+    private static final int PLACE_DIGITS = 3;
+    private static final int ROW = 32;
+    private static final String NO_PLACE = "0".repeat(PLACE_DIGITS);
+    private static final String BETWEEN_PLACES = ",40.4";
     private static final String NO_ID = "0".repeat(ID_DIGITS);
     private static final String NO_NUMBER = "1" + "0".repeat(DIGITS - 1);
     private static final String NO_TIME = "2026-01-01T00:00:00.000Z";
@@ -45,6 +50,8 @@ public final class NotificationRequest {
     private final int entities;
     private final int entityAt;
     private final int idAt;
+    private final int longitudeAt;
+    private final int latitudeAt;
     private final int numberAt;
     private final int[] timesAt;
     private long millis = -1;
@@ -56,6 +63,8 @@ public final class NotificationRequest {
         this.entities = entities;
         this.entityAt = text.indexOf(DATA) + DATA.length();
         this.idAt = text.indexOf(ID_PREFIX) + ID_PREFIX.length();
+        this.longitudeAt = text.indexOf(BEFORE_PLACE) + BEFORE_PLACE.length();
+        this.latitudeAt = longitudeAt + PLACE_DIGITS + BETWEEN_PLACES.length();
         this.numberAt = text.indexOf(BEFORE_NUMBER) + BEFORE_NUMBER.length();
         List<Integer> times = new ArrayList<>();
         for (int at = text.indexOf(NO_TIME); at >= 0; at = text.indexOf(NO_TIME, at + 1)) {
@@ -96,7 +105,10 @@ public final class NotificationRequest {
 
     /** The request with this number, to be written before the next call. */
     public ByteBuffer with(long number, long epochMillis) {
-        digits(idAt, ID_DIGITS, number % entities);
+        long entity = number % entities;
+        digits(idAt, ID_DIGITS, entity);
+        digits(longitudeAt, PLACE_DIGITS, entity % ROW);
+        digits(latitudeAt, PLACE_DIGITS, entity / ROW);
         digits(numberAt + 1, DIGITS - 1, number);
         if (epochMillis != millis) {
             millis = epochMillis;
@@ -169,8 +181,9 @@ public final class NotificationRequest {
                 .append("{\"type\":\"DateTime\",\"value\":\"")
                 .append(NO_TIME)
                 .append("\",\"metadata\":{}},\"location\":")
-                .append(
-                        "{\"type\":\"geo:json\",\"value\":{\"type\":\"Point\",\"coordinates\":[-3.7,40.41]},\"metadata\":{}},")
+                .append("{\"type\":\"geo:json\",\"value\":{\"type\":\"Point\",")
+                .append(BEFORE_PLACE + NO_PLACE + BETWEEN_PLACES + NO_PLACE)
+                .append("]},\"metadata\":{}},")
                 .append(BEFORE_NUMBER)
                 .append(NO_NUMBER)
                 .append(",\"metadata\":{}},");

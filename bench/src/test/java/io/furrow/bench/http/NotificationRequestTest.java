@@ -41,6 +41,7 @@ class NotificationRequestTest {
 
         assertThat(entity.path("id").asText()).isEqualTo("urn:ngsi-ld:SoilProbe:000007");
         assertThat(entity.path("sequence").path("value").asLong()).isEqualTo(100_000_001_234_567L);
+        assertThat(entity.at("/location/value/coordinates")).hasToString("[-3.7007,40.4]");
         assertThat(entity.findValues("TimeInstant"))
                 .hasSizeGreaterThan(3)
                 .allSatisfy(time -> assertThat(time.path("value").asText()).isEqualTo("2026-03-04T05:06:07.089Z"));

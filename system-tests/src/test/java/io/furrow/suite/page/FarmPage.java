@@ -148,6 +148,17 @@ final class FarmPage implements AutoCloseable {
         return new double[] {((Number) pixel.get(0)).doubleValue(), ((Number) pixel.get(1)).doubleValue()};
     }
 
+    /** Where it is drawn once no other device is drawn there with it. */
+    double[] ownSpot(String entity) {
+        page.waitForFunction(
+                "async (id) => { const { store } = await import('/core/store.js'); const { project } = await import('/map/projection.js');"
+                        + " const { devices, map } = document.querySelector('furrow-map');"
+                        + " const pixel = map.getPixelFromCoordinate(project(...store.entities.get(id).position));"
+                        + " return devices.at(...pixel)?.entity?.id === id; }",
+                entity);
+        return spot(entity);
+    }
+
     /** Pixels of the map's canvases that have exactly a colour. */
     int mapPixels(int rgb) {
         return ((Number) page.evaluate("""

@@ -50,10 +50,10 @@ class MapIT {
     @Test
     void selectsTheCardOfADeviceThatIsClicked(PageSuite suite) {
         FarmPage farm = suite.open("");
-        farm.untilStore("store.entities.has('" + THERMOMETER + "') && store.primed");
+        farm.untilStore("store.entities.has('" + THERMOMETER + "') && store.primed && store.fields.size > 0");
         assertThat(farm.card(THERMOMETER)).not().hasClass(java.util.regex.Pattern.compile("selected"));
 
-        double[] spot = farm.spot(THERMOMETER);
+        double[] spot = farm.ownSpot(THERMOMETER);
         farm.page().mouse().click(spot[0], spot[1]);
 
         assertThat(farm.card(THERMOMETER)).hasClass(java.util.regex.Pattern.compile("selected"));
