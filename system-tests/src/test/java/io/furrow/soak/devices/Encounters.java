@@ -10,9 +10,13 @@ import java.util.TreeSet;
 
 import io.furrow.model.ngsi.Entity;
 
-/** The encounters of devices that move, by their definition: while the newest positions of two are within five meters. */
+/**
+ * The encounters of devices that move, by their definition: while the newest positions of two are within five meters and no older
+ * than 30 seconds.
+ */
 public final class Encounters {
     private static final double THRESHOLD_METERS = 5;
+    private static final long TIME_TO_LIVE_MILLIS = 30_000;
     private static final double EARTH_RADIUS_METERS = 6_371_000;
 
     private Encounters() {}
@@ -20,9 +24,11 @@ public final class Encounters {
     /** @param sent positions in the order of their times @return those that begin and end within this time */
     public static Set<String> expected(List<ProgramEvent> sent, long from, long to) {
         Map<String, ProgramEvent> last = new HashMap<>();
-        Map<String, Long> began = new HashMap<>();
+        Map<String, Open> open = new HashMap<>();
         Set<String> encounters = new TreeSet<>();
         for (ProgramEvent each : sent) {
+            expire(open, each.time(), from, encounters);
+            last.values().removeIf(other -> other.time() + TIME_TO_LIVE_MILLIS <= each.time());
             last.put(each.device(), each);
             for (ProgramEvent other : last.values()) {
                 if (other.device().equals(each.device())) {
@@ -30,16 +36,31 @@ public final class Encounters {
                 }
                 String pair = Roster.pair(each.device(), other.device());
                 if (meters(each, other) <= THRESHOLD_METERS) {
-                    began.putIfAbsent(pair, each.time());
+                    Open before = open.get(pair);
+                    long start = before == null ? each.time() : before.start();
+                    open.put(pair, new Open(start, other.time() + TIME_TO_LIVE_MILLIS));
                 } else {
-                    Long start = began.remove(pair);
-                    if (start != null && start >= from && each.time() <= to) {
-                        encounters.add(name(pair, start, each.time()));
+                    Open ended = open.remove(pair);
+                    if (ended != null && ended.start() >= from && each.time() <= to) {
+                        encounters.add(name(pair, ended.start(), each.time()));
                     }
                 }
             }
         }
+        expire(open, to, from, encounters);
         return encounters;
+    }
+
+    /** @param until when the older of the two positions has lost its validity */
+    private record Open(long start, long until) {}
+
+    private static void expire(Map<String, Open> open, long time, long from, Set<String> encounters) {
+        open.forEach((pair, each) -> {
+            if (each.until() <= time && each.start() >= from) {
+                encounters.add(name(pair, each.start(), each.until()));
+            }
+        });
+        open.values().removeIf(each -> each.until() <= time);
     }
 
     /** @return those that began and ended within this time */

@@ -1,14 +1,16 @@
 package io.furrow.soak.year;
 
 import java.io.IOException;
+import java.nio.file.FileVisitResult;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.nio.file.SimpleFileVisitor;
+import java.nio.file.attribute.BasicFileAttributes;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
-import java.util.stream.Stream;
 
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
@@ -45,15 +47,36 @@ final class Footprint {
         }
         all.put("alarms", (double)
                 farm.up().get("/api/alarms?state=open&limit=10000").size());
-        try (Stream<Path> files = Files.walk(farm.data())) {
-            all.put("files", (double) files.count());
-        }
+        all.put("files", files(farm.data()));
         long pid = farm.up().javaProcess().pid();
         all.put("threads", (double)
                 Files.list(Path.of("/proc", Long.toString(pid), "task")).count());
         all.put("heap MB", heapMegabytes(pid));
         all.put("start s", startSeconds);
         return all;
+    }
+
+    /** Some are deleted meanwhile. */
+    private static double files(Path folder) throws IOException {
+        int[] count = {0};
+        Files.walkFileTree(folder, new SimpleFileVisitor<>() {
+            @Override
+            public FileVisitResult visitFile(Path file, BasicFileAttributes attributes) {
+                count[0]++;
+                return FileVisitResult.CONTINUE;
+            }
+
+            @Override
+            public FileVisitResult visitFileFailed(Path file, IOException e) {
+                return FileVisitResult.CONTINUE;
+            }
+
+            @Override
+            public FileVisitResult postVisitDirectory(Path folder, IOException e) {
+                return FileVisitResult.CONTINUE;
+            }
+        });
+        return count[0];
     }
 
     /** Of all live objects; counting them collects the rest. */
