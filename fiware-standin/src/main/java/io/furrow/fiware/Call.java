@@ -1,6 +1,5 @@
 package io.furrow.fiware;
 
-import java.util.Arrays;
 import java.util.List;
 import java.util.Optional;
 
@@ -72,7 +71,7 @@ public record Call(
     }
 
     public JsonNode json() throws NgsiError {
-        requireMediaType("application/json");
+        requireJson();
         try {
             return NgsiJson.read(body);
         } catch (UnreadableException e) {
@@ -80,10 +79,10 @@ public record Call(
         }
     }
 
-    public void requireMediaType(String... accepted) throws NgsiError {
+    public void requireJson() throws NgsiError {
         String type = headers.get("Content-Type");
         String bare = type == null ? "" : type.split(";")[0].trim();
-        if (!Arrays.asList(accepted).contains(bare)) {
+        if (!bare.equals("application/json")) {
             throw NgsiError.badMediaType(bare);
         }
     }

@@ -67,9 +67,8 @@ public final class FiwareStandIn implements AutoCloseable {
                     new ContextBrokerApi(broker, notifier));
             started.push(contextBroker::close);
             iotAgent = LoopbackServer.start(
-                    "iot-agent", settings.iotAgentPort(), settings.allowed(), new IotAgentApi(registry, agent));
+                    "iot-agent", settings.iotAgentPort(), settings.allowed(), new IotAgentApi(registry));
             started.push(iotAgent::close);
-            agent.connect(iotAgent.uri());
             if (settings.mqttBroker() != null) {
                 MqttLink link = MqttLink.open(settings, agent);
                 started.push(link::close);

@@ -16,7 +16,6 @@ import io.furrow.fiware.agent.Device;
 import io.furrow.fiware.agent.DeviceRegistry;
 import io.furrow.fiware.agent.ServiceGroup;
 import io.furrow.fiware.api.EntityReader;
-import io.furrow.fiware.api.SyntaxRules;
 import io.furrow.fiware.broker.Attribute;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.NgsiTime;
@@ -145,7 +144,6 @@ final class KeptState {
         json.required("attributes")
                 .properties()
                 .forEach(one -> attributes.put(one.getKey(), attribute(one.getValue())));
-        attributes.keySet().removeIf(SyntaxRules::isReserved); // stored by a build that took them
         return new StoredEntity(
                 scope(json),
                 json.required("id").asText(),

@@ -77,13 +77,4 @@ final class AgentErrors {
     private static NgsiError noDevice(String id, String where) {
         return new NgsiError(404, "DEVICE_NOT_FOUND", "No device was found with id:" + id + " and " + where);
     }
-
-    /** The context broker has no entity for the device. */
-    static NgsiError noEntity(Device device, JsonNode change) {
-        return new NgsiError(
-                404,
-                "ENTITY_GENERIC_ERROR",
-                "Error accesing entity data for device: " + device.id() + " of type: " + device.entityType() + " and "
-                        + DeviceJson.change(device, change));
-    }
 }

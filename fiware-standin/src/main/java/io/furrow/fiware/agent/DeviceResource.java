@@ -19,11 +19,9 @@ final class DeviceResource {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 
     private final DeviceRegistry registry;
-    private final IotAgent agent;
 
-    DeviceResource(DeviceRegistry registry, IotAgent agent) {
+    DeviceResource(DeviceRegistry registry) {
         this.registry = registry;
-        this.agent = agent;
     }
 
     Reply answer(Call call) throws NgsiError {
@@ -38,7 +36,6 @@ final class DeviceResource {
         FiwareScope scope = call.scope();
         return switch (call.method()) {
             case "GET" -> Reply.ok(DeviceJson.listed(find(scope, id)));
-            case "PUT" -> change(call, find(scope, id));
             case "DELETE" -> {
                 registry.remove(scope, id);
                 yield Reply.noContent();
@@ -88,22 +85,5 @@ final class DeviceResource {
         ObjectNode list = NODES.objectNode().put("count", all.size());
         list.set("devices", page);
         return Reply.ok(list);
-    }
-
-    private Reply change(Call call, Device device) throws NgsiError {
-        JsonNode change = IotAgentApi.json(call);
-        if (!change.isObject()) {
-            throw AgentErrors.wrongSyntax();
-        }
-        if (change.has("device_id")) {
-            throw new NgsiError(400, "BAD_REQUEST", "Request error: Can't change the ID of a preprovisioned device");
-        }
-        if (!agent.hasEntity(device)) {
-            throw AgentErrors.noEntity(device, change);
-        }
-        ObjectNode merged = device.json().deepCopy();
-        merged.setAll((ObjectNode) change);
-        registry.replace(device, Device.read(device.scope(), merged, device.group()));
-        return Reply.noContent();
     }
 }

@@ -41,15 +41,10 @@ public record AttributeInput(Optional<String> type, JsonNode value, Optional<Obj
                 now);
     }
 
-    /** Merges with the stored attribute; metadata not in the request stay unless all are overridden. */
-    public Attribute merged(Attribute before, boolean overrideMetadata, Instant now) throws NgsiError {
-        ObjectNode merged = before.metadata();
-        if (overrideMetadata) {
-            merged = metadata.orElseGet(JsonNodeFactory.instance::objectNode);
-        } else if (metadata.isPresent()) {
-            merged = before.metadata().deepCopy();
-            merged.setAll(metadata.get());
-        }
+    /** Merges with the stored attribute; metadata not in the request stay. */
+    public Attribute merged(Attribute before, Instant now) throws NgsiError {
+        ObjectNode merged = before.metadata().deepCopy();
+        metadata.ifPresent(merged::setAll);
         return attribute(type.orElse(before.type()), merged, before.created(), now);
     }
 

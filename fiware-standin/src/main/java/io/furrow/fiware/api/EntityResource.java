@@ -9,7 +9,6 @@ import io.furrow.fiware.NgsiError;
 import io.furrow.fiware.Reply;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.EntityUpdate;
-import io.furrow.fiware.broker.EntityUpdate.Options;
 import io.furrow.fiware.broker.StoredEntity;
 
 /** {@code /v2/entities} and {@code /v2/entities/<id>}. */
@@ -44,7 +43,7 @@ final class EntityResource {
             boolean known = !broker.tenant(call.service())
                     .find(call.scope().servicePath(), entity.id(), entity.type())
                     .isEmpty();
-            broker.upsert(call.scope(), entity, options(call), call.correlator());
+            broker.upsert(call.scope(), entity, call.option("forcedUpdate"), call.correlator());
             return known ? Reply.noContent().with("Location", location) : Reply.created(location);
         }
         broker.create(call.scope(), entity, call.correlator());
@@ -61,9 +60,5 @@ final class EntityResource {
         Optional<String> type = call.parameter("type");
         SyntaxRules.checkEntity(id, type);
         return broker.get(call.service(), call.paths(), id, type);
-    }
-
-    static Options options(Call call) {
-        return new Options(call.option("forcedUpdate"), call.option("overrideMetadata"));
     }
 }

@@ -62,8 +62,7 @@ public record Change(
         return new Change(Kind.CREATE, Optional.empty(), entity, actions, actions.keySet());
     }
 
-    static Change merge(
-            StoredEntity before, Map<String, AttributeInput> inputs, EntityUpdate.Options options, Instant now)
+    static Change merge(StoredEntity before, Map<String, AttributeInput> inputs, boolean forced, Instant now)
             throws NgsiError {
         Map<String, Attribute> attributes = sorted(before);
         Map<String, String> actions = new LinkedHashMap<>();
@@ -73,9 +72,9 @@ public record Change(
             Attribute old = attributes.get(name);
             Attribute merged = old == null
                     ? input.getValue().created(now)
-                    : input.getValue().merged(old, options.overrideMetadata(), now);
+                    : input.getValue().merged(old, now);
             actions.put(name, old == null ? "append" : "update");
-            if (old == null || options.forced() || !merged.sameAs(old)) {
+            if (old == null || forced || !merged.sameAs(old)) {
                 changed.add(name);
                 attributes.put(name, merged);
             }

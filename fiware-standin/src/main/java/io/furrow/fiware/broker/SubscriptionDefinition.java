@@ -33,23 +33,12 @@ public record SubscriptionDefinition(
     /**
      * Selects changes.
      *
-     * @param attributes one of these must have changed; empty for any
-     * @param filter matched against the entity after the change
+     * @param entities any of them
      */
-    public record Subject(
-            List<Selector> entities, Set<String> attributes, Optional<QueryFilter> filter, Set<Change.Kind> kinds) {
+    public record Subject(List<Selector> entities, Set<Change.Kind> kinds) {
         boolean covers(Change change) {
             StoredEntity entity = change.after();
-            return kinds.contains(change.kind())
-                    && entities.stream().anyMatch(selector -> selector.matches(entity))
-                    && (attributes.isEmpty() || touches(change))
-                    && filter.map(passes -> passes.test(entity)).orElse(true);
-        }
-
-        private boolean touches(Change change) {
-            Set<String> named =
-                    change.kind() == Change.Kind.UPDATE ? change.actions().keySet() : change.changed();
-            return named.stream().anyMatch(attributes::contains);
+            return kinds.contains(change.kind()) && entities.stream().anyMatch(selector -> selector.matches(entity));
         }
     }
 
