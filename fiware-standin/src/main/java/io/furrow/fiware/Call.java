@@ -22,6 +22,8 @@ public record Call(
         String method, List<String> path, Fields query, HttpFields headers, Correlator correlator, byte[] body) {
     public static final String SERVICE = "fiware-service";
     public static final String SERVICE_PATH = "fiware-servicepath";
+    private static final int DEFAULT_LIMIT = 20;
+    private static final int MAX_LIMIT = 1000;
 
     public Optional<String> parameter(String name) {
         return Optional.ofNullable(query.getValue(name)).filter(value -> !value.isEmpty());
@@ -34,6 +36,28 @@ public record Call(
 
     public boolean option(String name) {
         return list("options").contains(name);
+    }
+
+    /** How many elements of a list are skipped. */
+    public int offset() throws NgsiError {
+        return number("offset", 0);
+    }
+
+    /** How many elements of a list are answered at most. */
+    public int limit() throws NgsiError {
+        int limit = number("limit", DEFAULT_LIMIT);
+        if (limit > MAX_LIMIT) {
+            throw NgsiError.badRequest("Bad pagination limit: /" + limit + "/ [max: " + MAX_LIMIT + "]");
+        }
+        return limit;
+    }
+
+    private int number(String name, int otherwise) throws NgsiError {
+        String text = parameter(name).orElse(Integer.toString(otherwise));
+        if (!text.matches("\\d{1,9}")) {
+            throw NgsiError.badRequest("Bad pagination " + name + ": /" + text + "/ [must be a decimal number]");
+        }
+        return Integer.parseInt(text);
     }
 
     public boolean lacks(String header) {

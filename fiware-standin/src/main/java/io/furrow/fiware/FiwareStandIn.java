@@ -47,7 +47,7 @@ public final class FiwareStandIn implements AutoCloseable {
     private FiwareStandIn(FiwareSettings settings, Clock clock) {
         AtomicLong revision = new AtomicLong();
         DeviceRegistry registry = new DeviceRegistry(revision, clock);
-        notifier = new Notifier(clock, settings.connections());
+        notifier = new Notifier(clock, settings.connections() == FiwareSettings.Connections.PERSISTENT);
         history = new MeasureHistory(clock);
         agent = new IotAgent(registry, history);
         ContextBroker broker = new ContextBroker(notifier, agent, clock, revision);
@@ -70,7 +70,8 @@ public final class FiwareStandIn implements AutoCloseable {
                     "iot-agent", settings.iotAgentPort(), settings.allowed(), new IotAgentApi(registry));
             started.push(iotAgent::close);
             if (settings.mqttBroker() != null) {
-                MqttLink link = MqttLink.open(settings, agent);
+                MqttLink link =
+                        MqttLink.open(settings.mqttBroker(), settings.mqttUser(), settings.mqttPassword(), agent);
                 started.push(link::close);
                 agent.connect(link);
             }

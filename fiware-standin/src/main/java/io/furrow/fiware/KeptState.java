@@ -15,7 +15,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.fiware.agent.Device;
 import io.furrow.fiware.agent.DeviceRegistry;
 import io.furrow.fiware.agent.ServiceGroup;
-import io.furrow.fiware.api.EntityReader;
+import io.furrow.fiware.api.AttributeInput;
 import io.furrow.fiware.broker.Attribute;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.NgsiTime;
@@ -157,8 +157,8 @@ final class KeptState {
     private static Attribute attribute(JsonNode json) {
         return new Attribute(
                 json.required("type").asText(),
-                EntityReader.canonical(json.required("value")),
-                object(EntityReader.canonical(json.required("metadata"))),
+                AttributeInput.canonical(json.required("value")),
+                object(AttributeInput.canonical(json.required("metadata"))),
                 time(json, "created"),
                 time(json, "modified"));
     }

@@ -11,7 +11,6 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.fiware.Call;
 import io.furrow.fiware.NgsiError;
 import io.furrow.fiware.Reply;
-import io.furrow.fiware.api.EntityQuery;
 import io.furrow.model.event.FiwareScope;
 
 /** {@code /iot/devices} and {@code /iot/devices/<id>}. */
@@ -78,10 +77,7 @@ final class DeviceResource {
     private Reply list(Call call) throws NgsiError {
         List<Device> all = registry.devices(call.scope());
         ArrayNode page = NODES.arrayNode();
-        all.stream()
-                .skip(EntityQuery.number(call, "offset", 0))
-                .limit(EntityQuery.limit(call))
-                .forEach(device -> page.add(DeviceJson.listed(device)));
+        all.stream().skip(call.offset()).limit(call.limit()).forEach(device -> page.add(DeviceJson.listed(device)));
         ObjectNode list = NODES.objectNode().put("count", all.size());
         list.set("devices", page);
         return Reply.ok(list);

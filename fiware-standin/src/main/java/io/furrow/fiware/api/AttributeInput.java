@@ -1,10 +1,12 @@
 package io.furrow.fiware.api;
 
+import java.math.BigDecimal;
 import java.time.Instant;
 import java.util.Map;
 import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
@@ -23,7 +25,7 @@ public record AttributeInput(Optional<String> type, JsonNode value, Optional<Obj
         return new AttributeInput(Optional.of(type), value, Optional.empty());
     }
 
-    static AttributeInput valueOnly(JsonNode value) {
+    public static AttributeInput valueOnly(JsonNode value) {
         return new AttributeInput(Optional.empty(), value, Optional.empty());
     }
 
@@ -88,5 +90,25 @@ public record AttributeInput(Optional<String> type, JsonNode value, Optional<Obj
             case OBJECT, ARRAY -> "StructuredValue";
             default -> "None";
         };
+    }
+
+    /** Numbers in the context broker's format: 18.0 and 18 are the same value, written 18. */
+    public static JsonNode canonical(JsonNode value) {
+        if (value.isBigDecimal()) {
+            BigDecimal number = value.decimalValue().stripTrailingZeros();
+            return number.scale() > 0 || number.precision() - number.scale() > 18
+                    ? JsonNodeFactory.instance.numberNode(number)
+                    : JsonNodeFactory.instance.numberNode(number.longValueExact());
+        }
+        if (value instanceof ObjectNode object) {
+            object.properties().forEach(member -> member.setValue(canonical(member.getValue())));
+        } else if (value instanceof ArrayNode array) {
+            for (int i = 0; i < array.size(); i++) {
+                array.set(i, canonical(array.get(i)));
+            }
+        } else if (value.isInt()) {
+            return JsonNodeFactory.instance.numberNode(value.longValue());
+        }
+        return value;
     }
 }

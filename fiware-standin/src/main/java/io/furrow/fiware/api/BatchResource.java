@@ -60,11 +60,7 @@ final class BatchResource {
         Rendering shown =
                 new Rendering(texts(body.path("attrs")), texts(body.path("metadata")), Rendering.Format.NORMALIZED);
         ArrayNode entities = JsonNodeFactory.instance.arrayNode();
-        found.stream()
-                .skip(EntityQuery.number(call, "offset", 0))
-                .limit(EntityQuery.limit(call))
-                .map(shown::of)
-                .forEach(entities::add);
+        found.stream().skip(call.offset()).limit(call.limit()).map(shown::of).forEach(entities::add);
         return Reply.ok(entities);
     }
 

@@ -23,10 +23,8 @@ import io.furrow.fiware.broker.StoredEntity;
 import io.furrow.fiware.broker.Tenant;
 
 /** {@code GET /v2/entities}: filter, order and page. The only {@code q} is a date of the entity, at least a given one. */
-public record EntityQuery(
+record EntityQuery(
         Predicate<StoredEntity> filter, Comparator<StoredEntity> order, Page page, PathFilter paths, Rendering shown) {
-    private static final int DEFAULT_LIMIT = 20;
-    private static final int MAX_LIMIT = 1000;
     private static final Set<String> PARAMETERS = Set.of(
             "id",
             "idPattern",
@@ -49,7 +47,7 @@ public record EntityQuery(
                 throw NgsiError.unsupported("parameter '" + name + "' in a query of entities");
             }
         }
-        Page page = new Page(number(call, "offset", 0), limit(call));
+        Page page = new Page(call.offset(), call.limit());
         return new EntityQuery(filter(call), order(call.list("orderBy")), page, call.paths(), rendering(call));
     }
 
@@ -118,21 +116,5 @@ public record EntityQuery(
             case "dateModified" -> Comparator.comparing(StoredEntity::modified);
             default -> throw NgsiError.unsupported("orderBy '" + field + "'");
         };
-    }
-
-    public static int limit(Call call) throws NgsiError {
-        int limit = number(call, "limit", DEFAULT_LIMIT);
-        if (limit > MAX_LIMIT) {
-            throw NgsiError.badRequest("Bad pagination limit: /" + limit + "/ [max: " + MAX_LIMIT + "]");
-        }
-        return limit;
-    }
-
-    public static int number(Call call, String name, int otherwise) throws NgsiError {
-        String text = call.parameter(name).orElse(Integer.toString(otherwise));
-        if (!text.matches("\\d{1,9}")) {
-            throw NgsiError.badRequest("Bad pagination " + name + ": /" + text + "/ [must be a decimal number]");
-        }
-        return Integer.parseInt(text);
     }
 }

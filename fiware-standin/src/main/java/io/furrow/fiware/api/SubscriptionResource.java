@@ -80,8 +80,8 @@ final class SubscriptionResource {
         List<Subscription> all = visible(call);
         ArrayNode page = JsonNodeFactory.instance.arrayNode();
         all.stream()
-                .skip(EntityQuery.number(call, "offset", 0))
-                .limit(EntityQuery.limit(call))
+                .skip(call.offset())
+                .limit(call.limit())
                 .map(subscription -> subscription.json(broker.now()))
                 .forEach(page::add);
         return Reply.page(call, page, all.size());
