@@ -14,6 +14,7 @@ import io.furrow.fiware.agent.MqttLink;
 import io.furrow.fiware.api.ContextBrokerApi;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.Notifier;
+import io.furrow.fiware.http.LoopbackServer;
 
 /**
  * Runs an IoT agent and a context broker in this JVM: NGSI-v2 at {@link #contextBroker()}, provisioning at {@link

@@ -15,14 +15,15 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.fiware.agent.Device;
 import io.furrow.fiware.agent.DeviceRegistry;
 import io.furrow.fiware.agent.ServiceGroup;
-import io.furrow.fiware.api.AttributeInput;
 import io.furrow.fiware.broker.Attribute;
+import io.furrow.fiware.broker.AttributeInput;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.NgsiTime;
-import io.furrow.fiware.broker.PathFilter;
 import io.furrow.fiware.broker.StoredEntity;
 import io.furrow.fiware.broker.Subscription;
 import io.furrow.fiware.broker.Tenant;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.PathFilter;
 import io.furrow.model.event.FiwareScope;
 
 /**

@@ -9,9 +9,9 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.api.AttributeInput;
-import io.furrow.fiware.api.SyntaxRules;
+import io.furrow.fiware.broker.AttributeInput;
+import io.furrow.fiware.broker.SyntaxRules;
+import io.furrow.fiware.http.NgsiError;
 
 /**
  * Maps measures of a device to attributes.

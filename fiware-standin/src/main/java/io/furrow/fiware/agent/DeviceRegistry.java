@@ -10,7 +10,7 @@ import java.util.concurrent.atomic.AtomicLong;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.http.NgsiError;
 import io.furrow.model.event.FiwareScope;
 
 /** Registers groups and devices, provisioned or by their first measure. */

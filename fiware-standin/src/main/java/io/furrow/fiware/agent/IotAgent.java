@@ -13,12 +13,12 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.fiware.Correlator;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.api.AttributeInput;
-import io.furrow.fiware.api.SyntaxRules;
+import io.furrow.fiware.broker.AttributeInput;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.NgsiTime;
+import io.furrow.fiware.broker.SyntaxRules;
+import io.furrow.fiware.http.Correlator;
+import io.furrow.fiware.http.NgsiError;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;

@@ -7,10 +7,10 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.LoopbackServer;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.LoopbackServer;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.Reply;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 

@@ -9,9 +9,9 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.Reply;
 import io.furrow.model.event.FiwareScope;
 
 /** {@code /iot/services}. Lists ignore {@code limit} and {@code offset}, as the agent does. */

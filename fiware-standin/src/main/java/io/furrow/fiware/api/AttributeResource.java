@@ -5,12 +5,14 @@ import java.util.Map;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
+import io.furrow.fiware.broker.AttributeInput;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.EntityUpdate;
 import io.furrow.fiware.broker.EntityUpdate.Action;
+import io.furrow.fiware.broker.SyntaxRules;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.Reply;
 
 /** Updates of {@code /v2/entities/<id>/attrs} and deletions of {@code …/attrs/<name>}. */
 final class AttributeResource {

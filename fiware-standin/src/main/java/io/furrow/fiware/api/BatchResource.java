@@ -10,14 +10,15 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.EntityUpdate;
 import io.furrow.fiware.broker.EntityUpdate.Action;
 import io.furrow.fiware.broker.Rendering;
 import io.furrow.fiware.broker.StoredEntity;
+import io.furrow.fiware.broker.SyntaxRules;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.Reply;
 import io.furrow.model.event.FiwareScope;
 
 /**

@@ -6,12 +6,12 @@ import java.util.Set;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.LoopbackServer;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.Notifier;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.LoopbackServer;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.Reply;
 
 /** Routes {@code /version} and {@code /v2}, with Orion's status codes and error bodies. */
 public final class ContextBrokerApi implements LoopbackServer.Endpoint {

@@ -13,14 +13,15 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
 import io.furrow.fiware.broker.NgsiTime;
-import io.furrow.fiware.broker.PathFilter;
 import io.furrow.fiware.broker.Rendering;
 import io.furrow.fiware.broker.StoredEntity;
+import io.furrow.fiware.broker.SyntaxRules;
 import io.furrow.fiware.broker.Tenant;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.PathFilter;
+import io.furrow.fiware.http.Reply;
 
 /** {@code GET /v2/entities}: filter, order and page. The only {@code q} is a date of the entity, at least a given one. */
 record EntityQuery(

@@ -9,8 +9,10 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.broker.AttributeInput;
 import io.furrow.fiware.broker.EntityUpdate;
+import io.furrow.fiware.broker.SyntaxRules;
+import io.furrow.fiware.http.NgsiError;
 
 /** Reads entities and attributes of requests, normalized or {@code keyValues}; refuses what Orion refuses. */
 final class EntityReader {

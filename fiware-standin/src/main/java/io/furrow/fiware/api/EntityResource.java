@@ -4,12 +4,13 @@ import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.EntityUpdate;
 import io.furrow.fiware.broker.StoredEntity;
+import io.furrow.fiware.broker.SyntaxRules;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.Reply;
 
 /** {@code /v2/entities} and {@code /v2/entities/<id>}. */
 final class EntityResource {

@@ -8,8 +8,7 @@ import java.util.Optional;
 import java.util.Set;
 import java.util.TreeMap;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.api.AttributeInput;
+import io.furrow.fiware.http.NgsiError;
 import io.furrow.model.event.FiwareScope;
 
 /**

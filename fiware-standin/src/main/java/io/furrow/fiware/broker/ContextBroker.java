@@ -15,11 +15,10 @@ import java.util.concurrent.atomic.AtomicLong;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-import io.furrow.fiware.Correlator;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.api.AttributeInput;
-import io.furrow.fiware.api.SyntaxRules;
 import io.furrow.fiware.broker.EntityUpdate.Action;
+import io.furrow.fiware.http.Correlator;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.PathFilter;
 import io.furrow.model.event.FiwareScope;
 
 /** Stores the entities of all tenants and notifies matching subscriptions of changes. */

@@ -3,8 +3,7 @@ package io.furrow.fiware.broker;
 import java.util.Map;
 import java.util.Optional;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.api.AttributeInput;
+import io.furrow.fiware.http.NgsiError;
 
 /**
  * A requested update of an entity.

@@ -21,7 +21,7 @@ import org.eclipse.jetty.http.HttpMethod;
 import org.eclipse.jetty.util.component.LifeCycle;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
-import io.furrow.fiware.Correlator;
+import io.furrow.fiware.http.Correlator;
 import io.furrow.model.text.FailureText;
 
 /**

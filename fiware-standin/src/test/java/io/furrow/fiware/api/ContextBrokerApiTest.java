@@ -12,7 +12,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.fiware.Client;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
-import io.furrow.fiware.LoopbackServer;
+import io.furrow.fiware.http.LoopbackServer;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -1,4 +1,4 @@
-package io.furrow.fiware.api;
+package io.furrow.fiware.broker;
 
 import java.util.Optional;
 import java.util.Set;
@@ -8,8 +8,7 @@ import java.util.regex.PatternSyntaxException;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.broker.EntityUpdate;
+import io.furrow.fiware.http.NgsiError;
 import io.furrow.model.ngsi.Entity;
 
 /**

@@ -1,4 +1,4 @@
-package io.furrow.fiware;
+package io.furrow.fiware.http;
 
 import java.util.List;
 import java.util.Optional;
@@ -7,7 +7,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.eclipse.jetty.http.HttpFields;
 import org.eclipse.jetty.util.Fields;
 
-import io.furrow.fiware.broker.PathFilter;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;

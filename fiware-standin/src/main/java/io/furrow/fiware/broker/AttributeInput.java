@@ -1,4 +1,4 @@
-package io.furrow.fiware.api;
+package io.furrow.fiware.broker;
 
 import java.math.BigDecimal;
 import java.time.Instant;
@@ -10,9 +10,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.broker.Attribute;
-import io.furrow.fiware.broker.NgsiTime;
+import io.furrow.fiware.http.NgsiError;
 
 /**
  * An attribute of a request.

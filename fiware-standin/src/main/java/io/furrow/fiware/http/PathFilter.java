@@ -1,4 +1,4 @@
-package io.furrow.fiware.broker;
+package io.furrow.fiware.http;
 
 import java.util.List;
 

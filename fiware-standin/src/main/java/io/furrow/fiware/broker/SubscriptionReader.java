@@ -1,4 +1,4 @@
-package io.furrow.fiware.api;
+package io.furrow.fiware.broker;
 
 import java.net.URI;
 import java.net.URISyntaxException;
@@ -17,15 +17,11 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.broker.Change;
-import io.furrow.fiware.broker.NgsiTime;
-import io.furrow.fiware.broker.Rendering;
-import io.furrow.fiware.broker.SubscriptionDefinition;
 import io.furrow.fiware.broker.SubscriptionDefinition.Limits;
 import io.furrow.fiware.broker.SubscriptionDefinition.Selector;
 import io.furrow.fiware.broker.SubscriptionDefinition.Subject;
 import io.furrow.fiware.broker.SubscriptionDefinition.Target;
+import io.furrow.fiware.http.NgsiError;
 
 /**
  * Reads {@code POST /v2/subscriptions}. Refuses options of Orion that the stand-in lacks by name; ignores unknown ones,
