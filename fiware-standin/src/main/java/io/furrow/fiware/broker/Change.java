@@ -23,7 +23,7 @@ import io.furrow.model.event.FiwareScope;
  * @param actions by attribute named in the request: {@code append}, {@code update} or {@code delete}
  * @param changed attributes that are new, removed or of another type, value or metadata; all named by a forced update
  */
-public record Change(
+record Change(
         Kind kind,
         Optional<StoredEntity> before,
         StoredEntity after,

@@ -24,7 +24,7 @@ public record SubscriptionDefinition(
     }
 
     /** Selects entities by id and type. */
-    public record Selector(Predicate<String> id, Predicate<String> type) {
+    record Selector(Predicate<String> id, Predicate<String> type) {
         boolean matches(StoredEntity entity) {
             return type.test(entity.type()) && id.test(entity.id());
         }
@@ -35,7 +35,7 @@ public record SubscriptionDefinition(
      *
      * @param entities any of them
      */
-    public record Subject(List<Selector> entities, Set<Change.Kind> kinds) {
+    record Subject(List<Selector> entities, Set<Change.Kind> kinds) {
         boolean covers(Change change) {
             StoredEntity entity = change.after();
             return kinds.contains(change.kind()) && entities.stream().anyMatch(selector -> selector.matches(entity));
@@ -48,7 +48,7 @@ public record SubscriptionDefinition(
      * @param headers additional or replaced headers; an empty value removes one
      * @param timeout after which a missing answer is a failure
      */
-    public record Target(URI url, Map<String, String> headers, Duration timeout) {}
+    record Target(URI url, Map<String, String> headers, Duration timeout) {}
 
     /**
      * Limits of notification.
@@ -56,5 +56,5 @@ public record SubscriptionDefinition(
      * @param throttling minimum time between two notifications; those in between are not sent
      * @param maxFails consecutive failures after which the subscription is deactivated
      */
-    public record Limits(boolean active, Optional<Instant> expires, Duration throttling, Optional<Integer> maxFails) {}
+    record Limits(boolean active, Optional<Instant> expires, Duration throttling, Optional<Integer> maxFails) {}
 }
