@@ -49,12 +49,12 @@ final class BatchResource {
             throw NgsiError.unsupported("a query by anything but entities");
         }
         Set<StoredEntity> found = new LinkedHashSet<>();
-        for (JsonNode wanted : body.get("entities")) {
-            if (!wanted.path("id").isTextual()) {
+        for (JsonNode named : body.get("entities")) {
+            if (!named.path("id").isTextual()) {
                 throw NgsiError.unsupported("a query of entities without an id");
             }
-            String id = wanted.get("id").textValue();
-            Optional<String> type = Optional.ofNullable(wanted.path("type").textValue());
+            String id = named.get("id").textValue();
+            Optional<String> type = Optional.ofNullable(named.path("type").textValue());
             SyntaxRules.checkEntity(id, type);
             found.addAll(broker.tenant(call.service()).find(call.paths(), id, type));
         }
