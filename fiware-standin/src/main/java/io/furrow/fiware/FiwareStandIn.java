@@ -14,6 +14,7 @@ import io.furrow.fiware.agent.MqttLink;
 import io.furrow.fiware.api.ContextBrokerApi;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.Notifier;
+import io.furrow.fiware.http.LoopbackServer;
 
 /**
  * Runs an IoT agent and a context broker in this JVM: NGSI-v2 at {@link #contextBroker()}, provisioning at {@link
@@ -47,7 +48,7 @@ public final class FiwareStandIn implements AutoCloseable {
     private FiwareStandIn(FiwareSettings settings, Clock clock) {
         AtomicLong revision = new AtomicLong();
         DeviceRegistry registry = new DeviceRegistry(revision, clock);
-        notifier = new Notifier(clock, settings.connections());
+        notifier = new Notifier(clock, settings.connections() == FiwareSettings.Connections.PERSISTENT);
         history = new MeasureHistory(clock);
         agent = new IotAgent(registry, history);
         ContextBroker broker = new ContextBroker(notifier, agent, clock, revision);
@@ -67,11 +68,11 @@ public final class FiwareStandIn implements AutoCloseable {
                     new ContextBrokerApi(broker, notifier));
             started.push(contextBroker::close);
             iotAgent = LoopbackServer.start(
-                    "iot-agent", settings.iotAgentPort(), settings.allowed(), new IotAgentApi(registry, agent));
+                    "iot-agent", settings.iotAgentPort(), settings.allowed(), new IotAgentApi(registry));
             started.push(iotAgent::close);
-            agent.connect(iotAgent.uri());
             if (settings.mqttBroker() != null) {
-                MqttLink link = MqttLink.open(settings, agent);
+                MqttLink link =
+                        MqttLink.open(settings.mqttBroker(), settings.mqttUser(), settings.mqttPassword(), agent);
                 started.push(link::close);
                 agent.connect(link);
             }

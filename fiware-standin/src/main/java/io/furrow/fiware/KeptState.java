@@ -15,15 +15,15 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.fiware.agent.Device;
 import io.furrow.fiware.agent.DeviceRegistry;
 import io.furrow.fiware.agent.ServiceGroup;
-import io.furrow.fiware.api.EntityReader;
-import io.furrow.fiware.api.SyntaxRules;
 import io.furrow.fiware.broker.Attribute;
+import io.furrow.fiware.broker.AttributeInput;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.NgsiTime;
-import io.furrow.fiware.broker.PathFilter;
 import io.furrow.fiware.broker.StoredEntity;
 import io.furrow.fiware.broker.Subscription;
 import io.furrow.fiware.broker.Tenant;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.PathFilter;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -145,7 +145,6 @@ final class KeptState {
         json.required("attributes")
                 .properties()
                 .forEach(one -> attributes.put(one.getKey(), attribute(one.getValue())));
-        attributes.keySet().removeIf(SyntaxRules::isReserved); // stored by a build that took them
         return new StoredEntity(
                 scope(json),
                 json.required("id").asText(),
@@ -159,8 +158,8 @@ final class KeptState {
     private static Attribute attribute(JsonNode json) {
         return new Attribute(
                 json.required("type").asText(),
-                EntityReader.canonical(json.required("value")),
-                object(EntityReader.canonical(json.required("metadata"))),
+                AttributeInput.canonical(json.required("value")),
+                object(AttributeInput.canonical(json.required("metadata"))),
                 time(json, "created"),
                 time(json, "modified"));
     }

@@ -32,6 +32,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.fiware.http.NgsiError;
 import io.furrow.model.ngsi.JsonProblem;
 import io.furrow.model.ngsi.NgsiJson;
 

@@ -48,6 +48,11 @@ public record Client(URI base, String service, String servicePath, List<String> 
         return send("GET", path, "");
     }
 
+    /** The value of an attribute; missing if the entity does not have it. */
+    public JsonNode value(String entity, String attribute) {
+        return get("/v2/entities/" + entity).json().path(attribute).path("value");
+    }
+
     public Answer post(String path, String json) {
         return send("POST", path, json);
     }

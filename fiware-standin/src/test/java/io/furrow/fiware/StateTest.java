@@ -2,14 +2,12 @@ package io.furrow.fiware;
 
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
-import java.io.InputStream;
 import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.BasicFileAttributes;
 import java.util.Arrays;
-import java.util.Objects;
 import java.util.zip.GZIPOutputStream;
 
 import org.junit.jupiter.api.Tag;
@@ -161,53 +159,7 @@ class StateTest {
             broker.patch("/v2/entities/Probe:d1/attrs?options=keyValues", "{\"on\": 1}");
 
             // Nobody can be reached without MQTT, but it was taken for a command.
-            assertThat(broker.get("/v2/entities/Probe:d1/attrs/on_status/value").body())
-                    .isEqualTo("\"ERROR\"");
-        }
-    }
-
-    /** Written when groups had no number, devices had an entity at once, and any text was taken. */
-    @Test
-    void goesOnFromAFileOfTheTimeBeforeItAnsweredAsRecorded() throws IOException {
-        Files.createDirectories(file().getParent());
-        try (InputStream old = StateTest.class.getResourceAsStream("/fiware-state/before-recorded-exchanges.json.gz")) {
-            Files.copy(Objects.requireNonNull(old), file());
-        }
-
-        try (FiwareStandIn standIn = start()) {
-            Client broker = Client.of(standIn.contextBroker());
-            Client agent = Client.of(standIn.iotAgent());
-            assertThat(broker.get("/v2/entities/t1/attrs/note/value").body()).isEqualTo("\"a=b\"");
-            assertThat(broker.get("/v2/entities/Probe:d1/attrs/Domain/value").body())
-                    .isEqualTo("\"farm (north)\"");
-            assertThat(broker.get(SUBSCRIPTIONS).json().at("/0/id").asText()).isEqualTo("6b02998677c3a0d176000001");
-            assertThat(broker.get(SUBSCRIPTIONS).json().at("/0/throttling").asInt())
-                    .isEqualTo(3);
-            assertThat(agent.get("/iot/services").json().at("/services/0/_id").asInt())
-                    .isEqualTo(1);
-            assertThat(agent.get("/iot/devices/d1").json().at("/commands/0/object_id"))
-                    .hasToString("\"on\"");
-        }
-    }
-
-    @Test
-    void leavesOutAttributesWithNamesThatTheEntityNeeds() throws IOException {
-        String attribute =
-                "{'type':'Text','value':'x','metadata':{},'created':'2026-11-21T01:00:00.000Z','modified':'2026-11-21T01:00:00.000Z'}";
-        Files.createDirectories(file().getParent());
-        Files.write(
-                file(),
-                gzip(("{'fiwareState':1}\n{'entity':{'service':'agri','servicePath':'/plot1','id':'t1','type':'Probe',"
-                                + "'created':'2026-11-21T01:00:00.000Z','modified':'2026-11-21T01:00:00.000Z',"
-                                + "'attributes':{'id':%s,'note':%s}}}\n{'end':1}")
-                        .formatted(attribute, attribute)
-                        .replace('\'', '"')));
-
-        try (FiwareStandIn standIn = start()) {
-            assertThat(Client.of(standIn.contextBroker())
-                            .get("/v2/entities/t1?options=keyValues")
-                            .body())
-                    .isEqualTo("{\"id\":\"t1\",\"type\":\"Probe\",\"note\":\"x\"}");
+            assertThat(broker.value("Probe:d1", "on_status")).hasToString("\"ERROR\"");
         }
     }
 

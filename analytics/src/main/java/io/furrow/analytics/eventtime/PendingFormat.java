@@ -10,10 +10,7 @@ import io.furrow.flink.format.Format;
 /** How a {@link Pending} is written; a subclass says what its messages and its remembered value are. */
 public abstract class PendingFormat<M extends Timed, S> extends Format<Pending<M, S>> {
     private static final long serialVersionUID = 1L;
-    /**
-     * Number of messages, messages as parts, whether something is remembered, what it is as a part. In versions 1 and 2 messages are
-     * without their version, which was 1, and so is what is remembered, of which it was that of the whole.
-     */
+    /** Number of messages, messages as parts, whether something is remembered, what it is as a part. */
     private static final int VERSION = 3;
 
     private final Format<M> messages;
@@ -49,16 +46,15 @@ public abstract class PendingFormat<M extends Timed, S> extends Format<Pending<M
 
     @Override
     public final Pending<M, S> read(int version, DataInputView in) throws IOException {
-        if (version < 1 || version > VERSION) {
+        if (version != VERSION) {
             throw unknown(version);
         }
-        boolean versions = version == VERSION;
         Pending<M, S> pending = new Pending<>();
         for (int left = in.readInt(); left > 0; left--) {
-            pending.waiting.add(versions ? messages.readPart(in) : messages.read(1, in));
+            pending.waiting.add(messages.readPart(in));
         }
         if (in.readBoolean()) {
-            pending.remembered = versions ? remembered.readPart(in) : remembered.read(version, in);
+            pending.remembered = remembered.readPart(in);
         }
         return pending;
     }

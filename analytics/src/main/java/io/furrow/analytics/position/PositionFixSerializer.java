@@ -15,11 +15,6 @@ public final class PositionFixSerializer extends Format<PositionFix> {
     /** The components in their order. */
     private static final int VERSION = 1;
 
-    /** Of a value in whose version 1 the fixes, as parts, were without a version of their own, which was 1. */
-    public PositionFix readPart(int whole, DataInputView in) throws IOException {
-        return whole == 1 ? read(1, in) : readPart(in);
-    }
-
     @Override
     public Class<PositionFix> type() {
         return PositionFix.class;

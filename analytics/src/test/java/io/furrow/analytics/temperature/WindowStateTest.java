@@ -77,12 +77,11 @@ class WindowStateTest {
     }
 
     @Test
-    void averagesTakeAVoteOfBeforeTypesWereToldApartForThatOfTheSameDevice() throws Exception {
+    void averagesTakeAVoteOfEachTypeOfAnId() throws Exception {
         KeyedOneInputStreamOperatorTestHarness<String, DeviceVote, FieldAverage> averages = operator("average-votes");
-        averages.processElement(vote(null, "t0", 60), MINUTE - 1);
-        averages.processElement(vote(null, "t1", 60), MINUTE - 1);
         averages.processElement(vote("Thermometer", "t0", 18), MINUTE - 1);
         averages.processElement(vote("Station", "t0", 18), MINUTE - 1);
+        averages.processElement(vote("Thermometer", "t1", 60), MINUTE - 1);
 
         averages.processWatermark(MINUTE - 1);
         assertThat(averages.extractOutputValues())

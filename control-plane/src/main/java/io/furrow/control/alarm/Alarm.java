@@ -12,7 +12,6 @@ import io.furrow.model.control.AlarmKind;
 
 /**
  * A condition that needs attention: stored, and published as a record of {@code service.alarms} keyed by its id.
- * Members that an earlier version did not write are null.
  *
  * @param alarm its id, {@code <kind>-<number>}; never reused
  * @param change its latest change

@@ -65,15 +65,14 @@ final class AlarmLimit {
     }
 
     /**
-     * Returns what is stored of a kind and identity; null if nothing is. What an older version stored has an identity without types, or
-     * the subject alone.
+     * Returns what is stored of a kind and identity; null if nothing is. What a result reported that named no types has an identity
+     * without them.
      */
     static <T> T find(Records<T> records, AlarmKind kind, String identity) {
         T found = records.get(Cause.key(kind, identity));
         String[] parts = identity.split("\\|", 4);
         if (found == null && parts.length == 4 && KINDS.contains(kind)) {
             found = records.get(Cause.key(kind, parts[0] + "|" + parts[1] + "||" + parts[3]));
-            found = found == null ? records.get(Cause.key(kind, parts[3])) : found;
         }
         return found;
     }

@@ -21,7 +21,7 @@ record Heartbeat(
         Long deviceTime,
         Double battery,
         boolean off) {
-    /** Key of a pulse; no device has it, so that earlier versions skip it. */
+    /** Key of a pulse; no device has it. */
     static final String PULSE_KEY = "";
 
     /**

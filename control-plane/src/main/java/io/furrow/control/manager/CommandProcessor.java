@@ -121,10 +121,7 @@ public final class CommandProcessor<C extends Command>
         String id = asked.id();
         Optional<String> known = id == null ? Optional.empty() : answered.fingerprint(id, now);
         if (known.isPresent()) {
-            // Of requests that an earlier version answered the fingerprint is not known, but the answer.
-            boolean same =
-                    known.get().equals(asked.fingerprint()) || known.get().startsWith("{");
-            if (!same) {
+            if (!known.get().equals(asked.fingerprint())) {
                 send(asked, refusal(asked, ErrorCode.REQUEST_ID_REUSED, "this id was given to another request"), now);
             }
             return;

@@ -1,9 +1,6 @@
 package io.furrow.control.mission;
 
-import com.fasterxml.jackson.databind.node.ArrayNode;
-
 import io.furrow.control.manager.StateJson;
-import io.furrow.model.control.mission.MissionDevices;
 
 /**
  * What is requested of a mission: remembered, and a record of {@code service.missions} under its name. Its devices are listed on {@code
@@ -18,7 +15,6 @@ import io.furrow.model.control.mission.MissionDevices;
  * @param duration after which it is stopped, ms; null for never
  * @param created when, epoch ms
  * @param sequence grows with every change of anything that is requested
- * @param devices the device list of a mission that was written before lists had parts; else null
  */
 public record Mission(
         String mission,
@@ -30,48 +26,30 @@ public record Mission(
         Long start,
         Long duration,
         long created,
-        long sequence,
-        ArrayNode devices) {
-
-    /** How many devices the list has. */
-    @Override
-    public int deviceCount() {
-        return devices == null ? deviceCount : MissionDevices.of(devices).count();
-    }
+        long sequence) {
 
     static Mission of(String mission, String domain, long now) {
-        return new Mission(mission, domain, null, 0, 0, false, null, null, now, 0, null);
+        return new Mission(mission, domain, null, 0, 0, false, null, null, now, 0);
     }
 
     Mission from(String newTemplate) {
         return new Mission(
-                mission, domain, newTemplate, parts, deviceCount, running, start, duration, created, sequence, devices);
+                mission, domain, newTemplate, parts, deviceCount, running, start, duration, created, sequence);
     }
 
     /** The same with a list that was written. */
     Mission listing(int newParts, int newDeviceCount) {
         return new Mission(
-                mission, domain, template, newParts, newDeviceCount, running, start, duration, created, sequence, null);
+                mission, domain, template, newParts, newDeviceCount, running, start, duration, created, sequence);
     }
 
     Mission desired(Long newStart, Long newDuration, long newSequence) {
         return new Mission(
-                mission,
-                domain,
-                template,
-                parts,
-                deviceCount,
-                true,
-                newStart,
-                newDuration,
-                created,
-                newSequence,
-                devices);
+                mission, domain, template, parts, deviceCount, true, newStart, newDuration, created, newSequence);
     }
 
     Mission undesired(long newSequence) {
-        return new Mission(
-                mission, domain, template, parts, deviceCount, false, start, duration, created, newSequence, devices);
+        return new Mission(mission, domain, template, parts, deviceCount, false, start, duration, created, newSequence);
     }
 
     byte[] toBytes() {

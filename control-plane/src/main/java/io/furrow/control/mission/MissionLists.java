@@ -81,13 +81,12 @@ final class MissionLists {
      * @return the mission with it
      */
     Mission append(Mission mission, MissionDevices more) throws RefusedException {
-        Mission before = inParts(mission);
-        MissionDevices all = of(before).plus(more);
         if (more.groups().isEmpty()) {
-            return before;
+            return mission;
         }
-        put(before, before.parts(), more);
-        Mission after = before.listing(before.parts() + 1, all.count());
+        MissionDevices all = of(mission).plus(more);
+        put(mission, mission.parts(), more);
+        Mission after = mission.listing(mission.parts() + 1, all.count());
         int bytes = 0;
         for (int part = 0; part < after.parts(); part++) {
             bytes += parts.get(MissionDeviceList.key(mission.mission(), part)).length;
@@ -99,11 +98,6 @@ final class MissionLists {
                             .formatted(mission.mission(), bytes, Limits.MISSION_BYTES));
         }
         return after;
-    }
-
-    /** The same where its list is in parts; else its list is written as its first part. */
-    Mission inParts(Mission mission) throws RefusedException {
-        return mission.devices() == null ? mission : replace(mission, MissionDevices.of(mission.devices()));
     }
 
     void forget(Mission mission) {
@@ -140,9 +134,6 @@ final class MissionLists {
     }
 
     private List<MissionDeviceList> parts(Mission mission) {
-        if (mission.devices() != null) {
-            return List.of(new MissionDeviceList(mission.mission(), 0, 0, mission.devices()));
-        }
         List<MissionDeviceList> all = new ArrayList<>();
         for (int part = 0; part < mission.parts(); part++) {
             all.add(read(parts.get(MissionDeviceList.key(mission.mission(), part))));

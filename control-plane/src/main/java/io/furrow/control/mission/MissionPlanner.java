@@ -42,7 +42,7 @@ final class MissionPlanner {
             throw new RefusedException(
                     ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + domain + "'; create it first");
         }
-        Mission mission = known == null ? fresh(name, domain, now) : lists.inParts(known);
+        Mission mission = known == null ? fresh(name, domain, now) : known;
         if (plan instanceof MissionPlan.OfDevices of) {
             return listing(mission.from(null), of.devices());
         } else if (plan instanceof MissionPlan.FromTemplate from) {

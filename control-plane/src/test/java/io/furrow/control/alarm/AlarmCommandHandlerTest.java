@@ -6,8 +6,6 @@ import java.util.List;
 import java.util.Set;
 
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.params.ParameterizedTest;
-import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.control.manager.KeptOutbox;
 import io.furrow.control.manager.MapRecords;
@@ -93,13 +91,11 @@ class AlarmCommandHandlerTest {
         assertThat(alarm("suspect-sensor-1").state()).isEqualTo(AlarmState.CLOSED);
     }
 
-    /** The control plane may be older, and then the job that does not name types. */
-    @ParameterizedTest
-    @ValueSource(strings = {"s", "farm|/||s"})
-    void goesOnWithAnAlarmOfAnOlderVersion(String olderIdentity) {
+    @Test
+    void namesTheTypesInTheNextAlarmOfAResultThatNamedNone() {
         Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR);
         Cause newer = cause.identifiedBy("farm|/|Thermometer|s");
-        handler.raise(cause.identifiedBy(olderIdentity), NOW);
+        handler.raise(cause.identifiedBy("farm|/||s"), NOW);
         handler.raise(newer, NOW + 10);
         assertThat(current()).hasSize(1);
         handler.end(AlarmKind.SUSPECT_SENSOR, newer.identity(), "over", NOW + 20);
@@ -107,11 +103,10 @@ class AlarmCommandHandlerTest {
         assertThat(current()).singleElement().returns(newer.identity(), Alarm::identity);
     }
 
-    @ParameterizedTest
-    @ValueSource(strings = {"", "farm|/||"})
-    void countsACauseThatAnOlderVersionCountedOnce(String olderScope) {
+    @Test
+    void countsACauseOnceOfWhichAResultNamedNoTypes() {
         for (int i = 0; i < AlarmLimit.MAX_ALARMS + 3; i++) {
-            handler.raise(pair(i).identifiedBy(olderScope + "pair" + i), NOW);
+            handler.raise(pair(i).identifiedBy("farm|/||pair" + i), NOW);
         }
         String last = "pair" + (AlarmLimit.MAX_ALARMS + 2);
         handler.raise(pair(AlarmLimit.MAX_ALARMS + 2).identifiedBy("farm|/|ROBOT ROBOT|" + last), NOW + 1);

@@ -10,9 +10,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class AlarmTest {
 
-    /** As version 0.1 wrote it before there were groups. */
     @Test
-    void readsAnAlarmWithoutTheMembersThatCameLater() {
+    void readsAnAlarmWithoutTheMembersThatMayBeMissing() {
         Alarm read = StateJson.read("""
                 {"alarm":"silent-device-1","kind":"silent-device","subject":"urn:t:1","severity":"minor","state":"open",                "change":"opened","text":"it is silent","devices":[{"id":"urn:t:1","type":"Thermometer"}],                "raised":1700000000000,"changed":1700000000000,"count":1,"sequence":1}""".getBytes(StandardCharsets.UTF_8), Alarm.class);
         assertThat(read)

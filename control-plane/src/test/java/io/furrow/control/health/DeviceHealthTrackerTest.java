@@ -142,7 +142,6 @@ class DeviceHealthTrackerTest {
         assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
     }
 
-    /** As an earlier version raised one per device. */
     @Test
     void closesAlarmsOfSilenceThatNothingIsTheCauseOf() {
         Cause single = new Cause(AlarmKind.SILENT_DEVICE, ID, "x", List.of(), null);

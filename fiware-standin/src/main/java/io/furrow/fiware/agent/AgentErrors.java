@@ -6,7 +6,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.http.NgsiError;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -76,14 +76,5 @@ final class AgentErrors {
 
     private static NgsiError noDevice(String id, String where) {
         return new NgsiError(404, "DEVICE_NOT_FOUND", "No device was found with id:" + id + " and " + where);
-    }
-
-    /** The context broker has no entity for the device. */
-    static NgsiError noEntity(Device device, JsonNode change) {
-        return new NgsiError(
-                404,
-                "ENTITY_GENERIC_ERROR",
-                "Error accesing entity data for device: " + device.id() + " of type: " + device.entityType() + " and "
-                        + DeviceJson.change(device, change));
     }
 }

@@ -88,19 +88,4 @@ final class DeviceJson {
         }
         return json.putNull("internalId");
     }
-
-    /** For the error of a change: the lists of the request, the others empty. */
-    static ObjectNode change(Device device, JsonNode change) {
-        ObjectNode json = NODES.objectNode()
-                .put("id", device.id())
-                .put("name", device.entityId())
-                .put("type", device.entityType())
-                .put("service", device.scope().service())
-                .put("subservice", device.scope().servicePath());
-        json.set("active", list(change.path("attributes")));
-        json.set("lazy", list(change.path("lazy")));
-        json.set("commands", list(change.path("commands")));
-        json.set("staticAttributes", list(change.path("static_attributes")));
-        return json;
-    }
 }

@@ -9,10 +9,9 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.api.AttributeInput;
-import io.furrow.fiware.api.EntityReader;
-import io.furrow.fiware.api.SyntaxRules;
+import io.furrow.fiware.broker.AttributeInput;
+import io.furrow.fiware.broker.SyntaxRules;
+import io.furrow.fiware.http.NgsiError;
 
 /**
  * Maps measures of a device to attributes.
@@ -57,7 +56,7 @@ record DeviceMapping(
         Map<String, AttributeInput> fixed = new LinkedHashMap<>();
         for (JsonNode attribute : json.path("static_attributes")) {
             JsonNode value = attribute.has("value")
-                    ? EntityReader.canonical(attribute.get("value").deepCopy())
+                    ? AttributeInput.canonical(attribute.get("value").deepCopy())
                     : NODES.nullNode();
             String type = attribute.path("type").asText(AttributeInput.defaultType(value));
             fixed.put(text(attribute, "name"), AttributeInput.of(type, value));
@@ -100,7 +99,7 @@ record DeviceMapping(
         Map<String, AttributeInput> attributes = new LinkedHashMap<>();
         for (Map.Entry<String, JsonNode> member : measure.properties()) {
             Target target = active.get(member.getKey());
-            JsonNode value = EntityReader.canonical(member.getValue());
+            JsonNode value = AttributeInput.canonical(member.getValue());
             if (target != null) {
                 attributes.put(target.name(), target.input(value));
             } else if (member.getKey().equals(TIME_INSTANT)) {

@@ -10,8 +10,7 @@ import java.util.concurrent.atomic.AtomicLong;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.broker.PathFilter;
+import io.furrow.fiware.http.NgsiError;
 import io.furrow.model.event.FiwareScope;
 
 /** Registers groups and devices, provisioned or by their first measure. */
@@ -88,15 +87,6 @@ public final class DeviceRegistry {
         if (devices.containsKey(device.scope().identity(device.id()))) {
             throw AgentErrors.duplicateDevice(device);
         }
-        put(device);
-    }
-
-    synchronized void replace(Device before, Device after) throws NgsiError {
-        remove(before.scope(), before.id());
-        put(after);
-    }
-
-    private void put(Device device) {
         devices.put(device.scope().identity(device.id()), device);
         byTopic.put(new Topic(device.apikey(), device.id()), device);
         byEntity.put(device.scope().identity(device.entityId()), device);
@@ -117,13 +107,6 @@ public final class DeviceRegistry {
 
     public synchronized List<Device> devices() {
         return List.copyOf(devices.values());
-    }
-
-    synchronized List<Device> devices(String service, PathFilter paths) {
-        return devices.values().stream()
-                .filter(device -> device.scope().service().equals(service)
-                        && paths.matches(device.scope().servicePath()))
-                .toList();
     }
 
     synchronized List<Device> devices(FiwareScope scope) {

@@ -8,10 +8,9 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
-import io.furrow.fiware.api.EntityQuery;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.Reply;
 import io.furrow.model.event.FiwareScope;
 
 /** {@code /iot/devices} and {@code /iot/devices/<id>}. */
@@ -19,11 +18,9 @@ final class DeviceResource {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 
     private final DeviceRegistry registry;
-    private final IotAgent agent;
 
-    DeviceResource(DeviceRegistry registry, IotAgent agent) {
+    DeviceResource(DeviceRegistry registry) {
         this.registry = registry;
-        this.agent = agent;
     }
 
     Reply answer(Call call) throws NgsiError {
@@ -38,7 +35,6 @@ final class DeviceResource {
         FiwareScope scope = call.scope();
         return switch (call.method()) {
             case "GET" -> Reply.ok(DeviceJson.listed(find(scope, id)));
-            case "PUT" -> change(call, find(scope, id));
             case "DELETE" -> {
                 registry.remove(scope, id);
                 yield Reply.noContent();
@@ -81,29 +77,9 @@ final class DeviceResource {
     private Reply list(Call call) throws NgsiError {
         List<Device> all = registry.devices(call.scope());
         ArrayNode page = NODES.arrayNode();
-        all.stream()
-                .skip(EntityQuery.number(call, "offset", 0))
-                .limit(EntityQuery.limit(call))
-                .forEach(device -> page.add(DeviceJson.listed(device)));
+        all.stream().skip(call.offset()).limit(call.limit()).forEach(device -> page.add(DeviceJson.listed(device)));
         ObjectNode list = NODES.objectNode().put("count", all.size());
         list.set("devices", page);
         return Reply.ok(list);
-    }
-
-    private Reply change(Call call, Device device) throws NgsiError {
-        JsonNode change = IotAgentApi.json(call);
-        if (!change.isObject()) {
-            throw AgentErrors.wrongSyntax();
-        }
-        if (change.has("device_id")) {
-            throw new NgsiError(400, "BAD_REQUEST", "Request error: Can't change the ID of a preprovisioned device");
-        }
-        if (!agent.hasEntity(device)) {
-            throw AgentErrors.noEntity(device, change);
-        }
-        ObjectNode merged = device.json().deepCopy();
-        merged.setAll((ObjectNode) change);
-        registry.replace(device, Device.read(device.scope(), merged, device.group()));
-        return Reply.noContent();
     }
 }

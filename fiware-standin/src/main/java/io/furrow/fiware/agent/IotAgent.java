@@ -1,8 +1,6 @@
 package io.furrow.fiware.agent;
 
-import java.net.URI;
 import java.util.LinkedHashMap;
-import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
@@ -15,14 +13,12 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.fiware.Correlator;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.api.AttributeInput;
-import io.furrow.fiware.api.SyntaxRules;
+import io.furrow.fiware.broker.AttributeInput;
 import io.furrow.fiware.broker.ContextBroker;
-import io.furrow.fiware.broker.EntityUpdate.Options;
 import io.furrow.fiware.broker.NgsiTime;
-import io.furrow.fiware.broker.PathFilter;
+import io.furrow.fiware.broker.SyntaxRules;
+import io.furrow.fiware.http.Correlator;
+import io.furrow.fiware.http.NgsiError;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -47,7 +43,6 @@ public final class IotAgent implements ContextBroker.Commands {
     private final LongAdder refused = new LongAdder();
     private final Set<String> warned = ConcurrentHashMap.newKeySet();
     private volatile ContextBroker broker;
-    private volatile URI provider = URI.create("http://127.0.0.1");
     private volatile Downlink downlink = (apikey, deviceId, command) -> false;
 
     public IotAgent(DeviceRegistry registry, MeasureHistory history) {
@@ -60,11 +55,6 @@ public final class IotAgent implements ContextBroker.Commands {
         broker = contextBroker;
     }
 
-    /** @param base of the agent, its address for the context broker */
-    public void connect(URI base) {
-        provider = base;
-    }
-
     public void connect(Downlink toDevices) {
         downlink = toDevices;
     }
@@ -75,14 +65,6 @@ public final class IotAgent implements ContextBroker.Commands {
 
     public long refused() {
         return refused.sum();
-    }
-
-    /** Whether the device has an entity, which its first measure creates. */
-    boolean hasEntity(Device device) {
-        FiwareScope scope = device.scope();
-        return !broker.tenant(scope.service())
-                .find(scope.servicePath(), device.entityId(), Optional.of(device.entityType()))
-                .isEmpty();
     }
 
     /** Processes a message of a device: one measure, or an array of them. */
@@ -113,25 +95,11 @@ public final class IotAgent implements ContextBroker.Commands {
     }
 
     @Override
-    public Optional<Registration> registration(FiwareScope scope, String entityId, Optional<String> type) {
+    public Set<String> of(FiwareScope scope, String entityId, Optional<String> type) {
         return registry.ofEntity(scope, entityId)
-                .flatMap(this::registration)
-                .filter(registration -> registration.covers(entityId, type));
-    }
-
-    @Override
-    public List<Registration> registrations(String service, PathFilter paths) {
-        return registry.devices(service, paths).stream()
-                .flatMap(device -> registration(device).stream())
-                .toList();
-    }
-
-    private Optional<Registration> registration(Device device) {
-        Set<String> names = device.mapping().commands();
-        return names.isEmpty()
-                ? Optional.empty()
-                : Optional.of(
-                        new Registration(device.scope(), device.entityId(), device.entityType(), names, provider));
+                .filter(device -> type.isEmpty() || type.get().equals(device.entityType()))
+                .map(device -> device.mapping().commands())
+                .orElse(Set.of());
     }
 
     @Override
@@ -157,7 +125,7 @@ public final class IotAgent implements ContextBroker.Commands {
         for (AttributeInput attribute : attributes.values()) {
             SyntaxRules.check(attribute);
         }
-        broker.upsert(device.scope(), device.update(attributes), Options.NONE, Correlator.fresh());
+        broker.upsert(device.scope(), device.update(attributes), false, Correlator.fresh());
     }
 
     private interface Reaction {

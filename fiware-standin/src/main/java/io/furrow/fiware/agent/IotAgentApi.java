@@ -7,16 +7,15 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.LoopbackServer;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.LoopbackServer;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.Reply;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Routes the provisioning API of the IoT agent: {@code /iot/services} (also {@code /iot/groups}), {@code /iot/devices},
- * {@code /iot/about}.
+ * Routes the provisioning API of the IoT agent: {@code /iot/services}, {@code /iot/devices}, {@code /iot/about}.
  */
 public final class IotAgentApi implements LoopbackServer.Endpoint {
     private static final String PAGE = """
@@ -35,19 +34,19 @@ public final class IotAgentApi implements LoopbackServer.Endpoint {
     private final ServiceGroupResource groups;
     private final DeviceResource devices;
 
-    public IotAgentApi(DeviceRegistry registry, IotAgent agent) {
+    public IotAgentApi(DeviceRegistry registry) {
         this.groups = new ServiceGroupResource(registry);
-        this.devices = new DeviceResource(registry, agent);
+        this.devices = new DeviceResource(registry);
     }
 
     @Override
     public Reply answer(Call call) throws NgsiError {
         List<String> path = call.path();
-        if (path.equals(List.of("iot", "about")) || path.equals(List.of("version"))) {
+        if (path.equals(List.of("iot", "about"))) {
             return Reply.ok(JsonNodeFactory.instance.objectNode().put("version", "3.14.0-furrow-stand-in"));
         }
         String resource = path.size() > 1 && path.get(0).equals("iot") ? path.get(1) : "";
-        boolean ofGroups = path.size() == 2 && (resource.equals("services") || resource.equals("groups"));
+        boolean ofGroups = path.size() == 2 && resource.equals("services");
         boolean ofDevices = path.size() <= 3 && resource.equals("devices");
         if (!ofGroups && !ofDevices) {
             return notFound(call);
@@ -73,7 +72,7 @@ public final class IotAgentApi implements LoopbackServer.Endpoint {
         if (call.body().length == 0) {
             return JsonNodeFactory.instance.objectNode();
         }
-        call.requireMediaType("application/json");
+        call.requireJson();
         try {
             return NgsiJson.read(call.body());
         } catch (UnreadableException e) {

@@ -28,8 +28,6 @@ import io.reactivex.schedulers.Schedulers;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.fiware.FiwareSettings;
-
 /**
  * The MQTT client of the agent: subscribes to {@code /<apikey>/<device>/attrs} and {@code …/cmdexe}, also with the
  * prefix {@code /json}, and publishes {@code …/cmd} (QoS 0, as the agent's default). QoS 1 in a persistent session:
@@ -58,7 +56,7 @@ public final class MqttLink implements IotAgent.Downlink, AutoCloseable {
         CLOSED
     }
 
-    private final FiwareSettings settings;
+    private final URI broker;
     private final IotAgent agent;
     private final Mqtt3AsyncClient client;
     private final ExecutorService receiver = Executors.newSingleThreadExecutor(MqttLink::receiverThread);
@@ -66,25 +64,28 @@ public final class MqttLink implements IotAgent.Downlink, AutoCloseable {
     private volatile Phase phase = Phase.OPENING;
     private volatile CompletableFuture<Void> pause = CompletableFuture.completedFuture(null);
 
-    /** @throws IllegalStateException if the broker cannot be reached or refuses the user */
-    public static MqttLink open(FiwareSettings settings, IotAgent agent) {
-        MqttLink link = new MqttLink(settings, agent);
+    /**
+     * @param broker {@code tcp://host:port}
+     * @param user null without authentication
+     * @throws IllegalStateException if the broker cannot be reached or refuses the user
+     */
+    public static MqttLink open(URI broker, String user, String password, IotAgent agent) {
+        MqttLink link = new MqttLink(broker, user, password, agent);
         try {
             link.connect();
             return link;
         } catch (CompletionException e) {
             link.close();
             throw new IllegalStateException(
-                    "the IoT agent cannot use the MQTT broker at " + settings.mqttBroker()
+                    "the IoT agent cannot use the MQTT broker at " + broker
                             + "; is it running, are user and password right?",
                     e.getCause());
         }
     }
 
-    private MqttLink(FiwareSettings settings, IotAgent agent) {
-        this.settings = settings;
+    private MqttLink(URI broker, String user, String password, IotAgent agent) {
+        this.broker = broker;
         this.agent = agent;
-        URI broker = settings.mqttBroker();
         Mqtt3ClientBuilder builder = Mqtt3Client.builder()
                 .identifier("furrow-iot-agent-" + UUID.randomUUID().toString().substring(0, 8))
                 .serverHost(broker.getHost())
@@ -95,10 +96,10 @@ public final class MqttLink implements IotAgent.Downlink, AutoCloseable {
                 .applicationScheduler(Schedulers.trampoline())
                 .applyExecutorConfig()
                 .addDisconnectedListener(this::disconnected);
-        if (settings.mqttUser() != null) {
+        if (user != null) {
             builder = builder.simpleAuth()
-                    .username(settings.mqttUser())
-                    .password(settings.mqttPassword().getBytes(StandardCharsets.UTF_8))
+                    .username(user)
+                    .password(password.getBytes(StandardCharsets.UTF_8))
                     .applySimpleAuth();
         }
         client = builder.buildAsync();
@@ -180,7 +181,7 @@ public final class MqttLink implements IotAgent.Downlink, AutoCloseable {
         if (reconnector.getAttempts() == 0) {
             LOG.warn(
                     "The IoT agent lost its MQTT connection to {} and reconnects: {}",
-                    settings.mqttBroker(),
+                    broker,
                     context.getCause().toString());
         }
         long millis = Math.min(FIRST_PAUSE_MS << Math.min(reconnector.getAttempts(), 10), MAX_PAUSE_MS);

@@ -6,8 +6,8 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
 import io.furrow.fiware.broker.EntityUpdate;
+import io.furrow.fiware.http.NgsiError;
 import io.furrow.model.event.FiwareScope;
 
 /**

@@ -9,14 +9,12 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.Reply;
 import io.furrow.model.event.FiwareScope;
 
-/**
- * {@code /iot/services}, also {@code /iot/groups}. Lists ignore {@code limit} and {@code offset}, as the agent does.
- */
+/** {@code /iot/services}. Lists ignore {@code limit} and {@code offset}, as the agent does. */
 final class ServiceGroupResource {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 
@@ -44,7 +42,7 @@ final class ServiceGroupResource {
 
     private Reply create(Call call) throws NgsiError {
         JsonNode json = IotAgentApi.json(call);
-        JsonNode list = json.has("groups") ? json.get("groups") : json.path("services");
+        JsonNode list = json.path("services");
         if (!list.isArray()) {
             throw AgentErrors.wrongSyntax();
         }

@@ -1,19 +1,30 @@
 package io.furrow.fiware.api;
 
 import java.util.ArrayList;
+import java.util.LinkedHashSet;
 import java.util.List;
+import java.util.Optional;
+import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.EntityUpdate;
 import io.furrow.fiware.broker.EntityUpdate.Action;
+import io.furrow.fiware.broker.Rendering;
+import io.furrow.fiware.broker.StoredEntity;
+import io.furrow.fiware.broker.SyntaxRules;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.Reply;
 import io.furrow.model.event.FiwareScope;
 
-/** {@code POST /v2/op/query} and {@code POST /v2/op/update}; updates the entities of a batch one after the other. */
+/**
+ * {@code POST /v2/op/query}, which finds entities by id and optional type, and {@code POST /v2/op/update}, which updates the
+ * entities of a batch one after the other.
+ */
 final class BatchResource {
     private final ContextBroker broker;
 
@@ -29,9 +40,38 @@ final class BatchResource {
         if (!call.method().equals("POST")) {
             throw NgsiError.badMethod();
         }
-        if (operation.equals("query")) {
-            return BatchQuery.reply(call, broker);
+        return operation.equals("query") ? query(call) : update(call);
+    }
+
+    private Reply query(Call call) throws NgsiError {
+        JsonNode body = call.json();
+        if (body.has("expression") || !body.has("entities")) {
+            throw NgsiError.unsupported("a query by anything but entities");
         }
+        Set<StoredEntity> found = new LinkedHashSet<>();
+        for (JsonNode named : body.get("entities")) {
+            if (!named.path("id").isTextual()) {
+                throw NgsiError.unsupported("a query of entities without an id");
+            }
+            String id = named.get("id").textValue();
+            Optional<String> type = Optional.ofNullable(named.path("type").textValue());
+            SyntaxRules.checkEntity(id, type);
+            found.addAll(broker.tenant(call.service()).find(call.paths(), id, type));
+        }
+        Rendering shown =
+                new Rendering(texts(body.path("attrs")), texts(body.path("metadata")), Rendering.Format.NORMALIZED);
+        ArrayNode entities = JsonNodeFactory.instance.arrayNode();
+        found.stream().skip(call.offset()).limit(call.limit()).map(shown::of).forEach(entities::add);
+        return Reply.ok(entities);
+    }
+
+    private static List<String> texts(JsonNode list) {
+        List<String> texts = new ArrayList<>();
+        list.forEach(text -> texts.add(text.asText()));
+        return texts;
+    }
+
+    private Reply update(Call call) throws NgsiError {
         JsonNode json = call.json();
         Action action = Action.of(json.path("actionType").asText());
         EntityReader reader = new EntityReader(call.option("keyValues"));
@@ -70,16 +110,15 @@ final class BatchResource {
         boolean known = !broker.tenant(scope.service())
                 .find(scope.servicePath(), update.id(), update.type())
                 .isEmpty();
-        boolean appends = action == Action.APPEND || action == Action.APPEND_STRICT;
-        if (!known && !appends) {
-            throw NgsiError.noEntity(update);
+        if (!known && action != Action.APPEND) {
+            throw NgsiError.noEntity(update.label());
         }
         if (action == Action.DELETE && update.attributes().isEmpty()) {
             broker.delete(scope, update.id(), update.type(), call.correlator());
         } else if (!known) {
-            broker.upsert(scope, update, EntityResource.options(call), call.correlator());
+            broker.upsert(scope, update, call.option("forcedUpdate"), call.correlator());
         } else {
-            broker.update(scope, update, action, EntityResource.options(call), call.correlator());
+            broker.update(scope, update, action, call.option("forcedUpdate"), call.correlator());
         }
     }
 }

@@ -1,29 +1,31 @@
 package io.furrow.fiware.api;
 
+import java.time.Instant;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Optional;
 import java.util.Set;
+import java.util.function.Function;
 import java.util.function.Predicate;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
-import io.furrow.fiware.broker.Attribute;
-import io.furrow.fiware.broker.PathFilter;
-import io.furrow.fiware.broker.QueryFilter;
+import io.furrow.fiware.broker.NgsiTime;
 import io.furrow.fiware.broker.Rendering;
 import io.furrow.fiware.broker.StoredEntity;
+import io.furrow.fiware.broker.SyntaxRules;
 import io.furrow.fiware.broker.Tenant;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.PathFilter;
+import io.furrow.fiware.http.Reply;
 
-/** {@code GET /v2/entities}: filter, order and page. */
-public record EntityQuery(
+/** {@code GET /v2/entities}: filter, order and page. The only {@code q} is a date of the entity, at least a given one. */
+record EntityQuery(
         Predicate<StoredEntity> filter, Comparator<StoredEntity> order, Page page, PathFilter paths, Rendering shown) {
-    private static final int DEFAULT_LIMIT = 20;
-    private static final int MAX_LIMIT = 1000;
     private static final Set<String> PARAMETERS = Set.of(
             "id",
             "idPattern",
@@ -36,6 +38,7 @@ public record EntityQuery(
             "offset",
             "orderBy",
             "options");
+    private static final Pattern SINCE = Pattern.compile("(dateCreated|dateModified)>=(.+)");
 
     private record Page(int offset, int limit) {}
 
@@ -45,7 +48,7 @@ public record EntityQuery(
                 throw NgsiError.unsupported("parameter '" + name + "' in a query of entities");
             }
         }
-        Page page = new Page(number(call, "offset", 0), limit(call));
+        Page page = new Page(call.offset(), call.limit());
         return new EntityQuery(filter(call), order(call.list("orderBy")), page, call.paths(), rendering(call));
     }
 
@@ -58,13 +61,10 @@ public record EntityQuery(
     }
 
     static Rendering rendering(Call call) {
-        Rendering.Format format = Rendering.Format.NORMALIZED;
-        for (Rendering.Format candidate : Rendering.Format.values()) {
-            if (!candidate.isBare() && call.option(candidate.label())) {
-                format = candidate;
-            }
-        }
-        return new Rendering(call.list("attrs"), Set.of(), call.list("metadata"), format);
+        return new Rendering(
+                call.list("attrs"),
+                call.list("metadata"),
+                call.option("keyValues") ? Rendering.Format.KEY_VALUES : Rendering.Format.NORMALIZED);
     }
 
     private static Predicate<StoredEntity> filter(Call call) throws NgsiError {
@@ -72,7 +72,7 @@ public record EntityQuery(
         Predicate<String> type = names(call, "type", "typePattern");
         Predicate<StoredEntity> both = entity -> type.test(entity.type()) && id.test(entity.id());
         return call.parameter("q").isPresent()
-                ? both.and(QueryFilter.parse(call.parameter("q").get()))
+                ? both.and(since(call.parameter("q").get()))
                 : both;
     }
 
@@ -83,13 +83,24 @@ public record EntityQuery(
             throw NgsiError.badRequest("Incompatible parameters: " + exact + ", " + pattern);
         }
         if (regex.isPresent()) {
-            return QueryFilter.pattern(regex.get());
+            return SyntaxRules.pattern(regex.get());
         }
         return names.isEmpty() ? any -> true : Set.copyOf(names)::contains;
     }
 
-    /** The order of creation, or by attributes; a leading {@code !} reverses it. */
-    private static Comparator<StoredEntity> order(List<String> fields) {
+    private static Predicate<StoredEntity> since(String q) throws NgsiError {
+        Matcher matcher = SINCE.matcher(q);
+        Optional<Instant> time = matcher.matches() ? NgsiTime.parse(matcher.group(2)) : Optional.empty();
+        if (time.isEmpty()) {
+            throw NgsiError.unsupported("q '" + q + "'");
+        }
+        Function<StoredEntity, Instant> date =
+                matcher.group(1).equals("dateCreated") ? StoredEntity::created : StoredEntity::modified;
+        return entity -> !date.apply(entity).isBefore(time.get());
+    }
+
+    /** The order of creation, or by names; a leading {@code !} reverses it. */
+    private static Comparator<StoredEntity> order(List<String> fields) throws NgsiError {
         Comparator<StoredEntity> order = (a, b) -> 0;
         for (String field : fields) {
             boolean descending = field.startsWith("!");
@@ -99,39 +110,12 @@ public record EntityQuery(
         return order;
     }
 
-    private static Comparator<StoredEntity> by(String field) {
+    private static Comparator<StoredEntity> by(String field) throws NgsiError {
         return switch (field) {
             case "id" -> Comparator.comparing(StoredEntity::id);
-            case "type" -> Comparator.comparing(StoredEntity::type);
             case "dateCreated" -> Comparator.comparing(StoredEntity::created);
             case "dateModified" -> Comparator.comparing(StoredEntity::modified);
-            default ->
-                (a, b) -> compare(a.attributes().get(field), b.attributes().get(field));
+            default -> throw NgsiError.unsupported("orderBy '" + field + "'");
         };
-    }
-
-    private static int compare(Attribute a, Attribute b) {
-        if (a == null || b == null) {
-            return Boolean.compare(a != null, b != null);
-        }
-        return a.value().isNumber() && b.value().isNumber()
-                ? a.value().decimalValue().compareTo(b.value().decimalValue())
-                : a.value().asText().compareTo(b.value().asText());
-    }
-
-    public static int limit(Call call) throws NgsiError {
-        int limit = number(call, "limit", DEFAULT_LIMIT);
-        if (limit > MAX_LIMIT) {
-            throw NgsiError.badRequest("Bad pagination limit: /" + limit + "/ [max: " + MAX_LIMIT + "]");
-        }
-        return limit;
-    }
-
-    public static int number(Call call, String name, int otherwise) throws NgsiError {
-        String text = call.parameter(name).orElse(Integer.toString(otherwise));
-        if (!text.matches("\\d{1,9}")) {
-            throw NgsiError.badRequest("Bad pagination " + name + ": /" + text + "/ [must be a decimal number]");
-        }
-        return Integer.parseInt(text);
     }
 }

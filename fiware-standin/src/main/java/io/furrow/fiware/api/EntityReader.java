@@ -1,32 +1,32 @@
 package io.furrow.fiware.api;
 
-import java.math.BigDecimal;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.broker.AttributeInput;
 import io.furrow.fiware.broker.EntityUpdate;
+import io.furrow.fiware.broker.SyntaxRules;
+import io.furrow.fiware.http.NgsiError;
 
 /** Reads entities and attributes of requests, normalized or {@code keyValues}; refuses what Orion refuses. */
-public final class EntityReader {
+final class EntityReader {
     private static final Set<String> ATTRIBUTE_FIELDS = Set.of("type", "value", "metadata");
     private static final Set<String> NOT_ATTRIBUTES = Set.of("id", "type");
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 
     private final boolean keyValues;
 
-    public EntityReader(boolean keyValues) {
+    EntityReader(boolean keyValues) {
         this.keyValues = keyValues;
     }
 
-    public EntityUpdate entity(JsonNode json) throws NgsiError {
+    EntityUpdate entity(JsonNode json) throws NgsiError {
         object(json);
         String id = text(json, "id")
                 .orElseThrow(() -> NgsiError.badRequest("entity id length: 0, min length supported: 1"));
@@ -56,7 +56,8 @@ public final class EntityReader {
     }
 
     AttributeInput attribute(JsonNode json) throws NgsiError {
-        AttributeInput attribute = keyValues ? AttributeInput.valueOnly(canonical(json)) : normalized(json);
+        AttributeInput attribute =
+                keyValues ? AttributeInput.valueOnly(AttributeInput.canonical(json)) : normalized(json);
         SyntaxRules.check(attribute);
         return attribute;
     }
@@ -94,27 +95,7 @@ public final class EntityReader {
 
     private static JsonNode value(JsonNode holder) {
         JsonNode value = holder.path("value");
-        return value.isMissingNode() ? NODES.nullNode() : canonical(value);
-    }
-
-    /** Numbers in the context broker's format: 18.0 and 18 are the same value, written 18. */
-    public static JsonNode canonical(JsonNode value) {
-        if (value.isBigDecimal()) {
-            BigDecimal number = value.decimalValue().stripTrailingZeros();
-            return number.scale() > 0 || number.precision() - number.scale() > 18
-                    ? NODES.numberNode(number)
-                    : NODES.numberNode(number.longValueExact());
-        }
-        if (value instanceof ObjectNode object) {
-            object.properties().forEach(member -> member.setValue(canonical(member.getValue())));
-        } else if (value instanceof ArrayNode array) {
-            for (int i = 0; i < array.size(); i++) {
-                array.set(i, canonical(array.get(i)));
-            }
-        } else if (value.isInt()) {
-            return NODES.numberNode(value.longValue());
-        }
-        return value;
+        return value.isMissingNode() ? NODES.nullNode() : AttributeInput.canonical(value);
     }
 
     private static void object(JsonNode json) throws NgsiError {

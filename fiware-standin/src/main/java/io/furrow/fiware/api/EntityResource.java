@@ -4,13 +4,13 @@ import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.EntityUpdate;
-import io.furrow.fiware.broker.EntityUpdate.Options;
 import io.furrow.fiware.broker.StoredEntity;
+import io.furrow.fiware.broker.SyntaxRules;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.Reply;
 
 /** {@code /v2/entities} and {@code /v2/entities/<id>}. */
 final class EntityResource {
@@ -44,7 +44,7 @@ final class EntityResource {
             boolean known = !broker.tenant(call.service())
                     .find(call.scope().servicePath(), entity.id(), entity.type())
                     .isEmpty();
-            broker.upsert(call.scope(), entity, options(call), call.correlator());
+            broker.upsert(call.scope(), entity, call.option("forcedUpdate"), call.correlator());
             return known ? Reply.noContent().with("Location", location) : Reply.created(location);
         }
         broker.create(call.scope(), entity, call.correlator());
@@ -61,9 +61,5 @@ final class EntityResource {
         Optional<String> type = call.parameter("type");
         SyntaxRules.checkEntity(id, type);
         return broker.get(call.service(), call.paths(), id, type);
-    }
-
-    static Options options(Call call) {
-        return new Options(call.option("forcedUpdate"), call.option("overrideMetadata"));
     }
 }

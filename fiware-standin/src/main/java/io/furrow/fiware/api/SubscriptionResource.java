@@ -9,14 +9,15 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.Call;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.Reply;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.Notifier;
-import io.furrow.fiware.broker.PathFilter;
 import io.furrow.fiware.broker.Subscription;
 import io.furrow.fiware.broker.SubscriptionDefinition;
+import io.furrow.fiware.broker.SubscriptionReader;
+import io.furrow.fiware.http.Call;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.PathFilter;
+import io.furrow.fiware.http.Reply;
 
 /** {@code /v2/subscriptions} and {@code /v2/subscriptions/<id>}. A new subscription causes no notification. */
 final class SubscriptionResource {
@@ -80,8 +81,8 @@ final class SubscriptionResource {
         List<Subscription> all = visible(call);
         ArrayNode page = JsonNodeFactory.instance.arrayNode();
         all.stream()
-                .skip(EntityQuery.number(call, "offset", 0))
-                .limit(EntityQuery.limit(call))
+                .skip(call.offset())
+                .limit(call.limit())
                 .map(subscription -> subscription.json(broker.now()))
                 .forEach(page::add);
         return Reply.page(call, page, all.size());

@@ -8,8 +8,7 @@ import java.util.Optional;
 import java.util.Set;
 import java.util.TreeMap;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.api.AttributeInput;
+import io.furrow.fiware.http.NgsiError;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -24,7 +23,7 @@ import io.furrow.model.event.FiwareScope;
  * @param actions by attribute named in the request: {@code append}, {@code update} or {@code delete}
  * @param changed attributes that are new, removed or of another type, value or metadata; all named by a forced update
  */
-public record Change(
+record Change(
         Kind kind,
         Optional<StoredEntity> before,
         StoredEntity after,
@@ -62,8 +61,7 @@ public record Change(
         return new Change(Kind.CREATE, Optional.empty(), entity, actions, actions.keySet());
     }
 
-    static Change merge(
-            StoredEntity before, Map<String, AttributeInput> inputs, EntityUpdate.Options options, Instant now)
+    static Change merge(StoredEntity before, Map<String, AttributeInput> inputs, boolean forced, Instant now)
             throws NgsiError {
         Map<String, Attribute> attributes = sorted(before);
         Map<String, String> actions = new LinkedHashMap<>();
@@ -73,9 +71,9 @@ public record Change(
             Attribute old = attributes.get(name);
             Attribute merged = old == null
                     ? input.getValue().created(now)
-                    : input.getValue().merged(old, options.overrideMetadata(), now);
+                    : input.getValue().merged(old, now);
             actions.put(name, old == null ? "append" : "update");
-            if (old == null || options.forced() || !merged.sameAs(old)) {
+            if (old == null || forced || !merged.sameAs(old)) {
                 changed.add(name);
                 attributes.put(name, merged);
             }

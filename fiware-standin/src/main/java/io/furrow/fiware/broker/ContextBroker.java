@@ -15,22 +15,18 @@ import java.util.concurrent.atomic.AtomicLong;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-import io.furrow.fiware.Correlator;
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.agent.Registration;
-import io.furrow.fiware.api.AttributeInput;
-import io.furrow.fiware.api.SyntaxRules;
 import io.furrow.fiware.broker.EntityUpdate.Action;
-import io.furrow.fiware.broker.EntityUpdate.Options;
+import io.furrow.fiware.http.Correlator;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.PathFilter;
 import io.furrow.model.event.FiwareScope;
 
 /** Stores the entities of all tenants and notifies matching subscriptions of changes. */
 public final class ContextBroker {
-    /** Receives updates of command attributes instead of the entity: the provider of Orion's registrations. */
+    /** Receives updates of command attributes instead of the entity, as the provider of a registration at Orion does. */
     public interface Commands {
-        Optional<Registration> registration(FiwareScope scope, String entityId, Optional<String> type);
-
-        List<Registration> registrations(String service, PathFilter paths);
+        /** The names of the commands of an entity. */
+        Set<String> of(FiwareScope scope, String entityId, Optional<String> type);
 
         void issue(FiwareScope scope, String entityId, Map<String, JsonNode> commands) throws NgsiError;
     }
@@ -81,14 +77,14 @@ public final class ContextBroker {
     }
 
     /** Appends to the entity, or creates it. */
-    public void upsert(FiwareScope scope, EntityUpdate request, Options options, Correlator correlator)
+    public void upsert(FiwareScope scope, EntityUpdate request, boolean forced, Correlator correlator)
             throws NgsiError {
         Tenant tenant = tenant(scope.service());
         synchronized (tenant) {
             if (tenant.find(scope.servicePath(), request.id(), request.type()).isEmpty()) {
                 create(scope, request, correlator);
             } else {
-                update(scope, request, Action.APPEND, options, correlator);
+                update(scope, request, Action.APPEND, forced, correlator);
             }
         }
     }
@@ -97,9 +93,10 @@ public final class ContextBroker {
      * Changes an existing entity. Refused attributes are reported after the others are changed. A device has an entity,
      * which accepts commands, after its first measure.
      *
+     * @param forced notify also without changes
      * @throws NgsiError 404, 409 or 422, as Orion
      */
-    public void update(FiwareScope scope, EntityUpdate request, Action action, Options options, Correlator correlator)
+    public void update(FiwareScope scope, EntityUpdate request, Action action, boolean forced, Correlator correlator)
             throws NgsiError {
         SyntaxRules.checkNames(request);
         Tenant tenant = tenant(scope.service());
@@ -117,12 +114,10 @@ public final class ContextBroker {
             Set<String> refused = refused(before, own.keySet(), action);
             own.keySet().removeAll(refused);
             if (!own.isEmpty() || refused.isEmpty()) {
-                commit(tenant, change(before, own, action, options), correlator);
+                commit(tenant, change(before, own, action, forced), correlator);
             }
             if (!refused.isEmpty()) {
-                NgsiError refusal = action == Action.APPEND_STRICT
-                        ? NgsiError.attributesExist(request, refused)
-                        : NgsiError.noAttributes(request, refused);
+                NgsiError refusal = NgsiError.noAttributes(request.label(), refused);
                 throw own.isEmpty() ? refusal : NgsiError.partial(refusal.getMessage());
             }
         }
@@ -137,26 +132,9 @@ public final class ContextBroker {
         }
     }
 
-    /**
-     * Returns an entity for a query by id, with the commands of its device; a list contains stored attributes only.
-     *
-     * @throws NgsiError 404 or 409
-     */
+    /** @throws NgsiError 404 or 409 */
     public StoredEntity get(String service, PathFilter paths, String id, Optional<String> type) throws NgsiError {
-        List<StoredEntity> stored = tenant(service).find(paths, id, type);
-        Optional<Registration> registration = stored.isEmpty()
-                ? commands.registrations(service, paths).stream()
-                        .filter(any -> any.covers(id, type))
-                        .findFirst()
-                : commands.registration(
-                        single(stored).scope(), id, Optional.of(single(stored).type()));
-        return registration.isEmpty()
-                ? single(stored)
-                : registration.get().addTo(stored.stream().findFirst());
-    }
-
-    public List<Registration> registrations(String service, PathFilter paths) {
-        return commands.registrations(service, paths);
+        return single(tenant(service).find(paths, id, type));
     }
 
     static StoredEntity single(List<StoredEntity> found) throws NgsiError {
@@ -170,10 +148,7 @@ public final class ContextBroker {
             FiwareScope scope, EntityUpdate request, Action action, Map<String, AttributeInput> own) {
         Map<String, JsonNode> issued = new LinkedHashMap<>();
         if (action != Action.DELETE) {
-            Set<String> names = commands.registration(scope, request.id(), request.type())
-                    .map(Registration::commands)
-                    .orElse(Set.of());
-            for (String name : names) {
+            for (String name : commands.of(scope, request.id(), request.type())) {
                 AttributeInput command = own.remove(name);
                 if (command != null) {
                     issued.put(name, command.value());
@@ -183,10 +158,10 @@ public final class ContextBroker {
         return issued;
     }
 
-    private Change change(StoredEntity before, Map<String, AttributeInput> inputs, Action action, Options options)
+    private Change change(StoredEntity before, Map<String, AttributeInput> inputs, Action action, boolean forced)
             throws NgsiError {
         return switch (action) {
-            case APPEND, APPEND_STRICT, UPDATE -> Change.merge(before, inputs, options, now());
+            case APPEND, UPDATE -> Change.merge(before, inputs, forced, now());
             case REPLACE -> Change.replace(before, inputs, now());
             case DELETE -> Change.without(before, inputs.keySet(), now());
         };
@@ -196,7 +171,6 @@ public final class ContextBroker {
         Set<String> refused = new TreeSet<>(names);
         switch (action) {
             case UPDATE, DELETE -> refused.removeAll(before.attributes().keySet());
-            case APPEND_STRICT -> refused.retainAll(before.attributes().keySet());
             case APPEND, REPLACE -> refused.clear();
         }
         return refused;

@@ -3,8 +3,7 @@ package io.furrow.fiware.broker;
 import java.util.Map;
 import java.util.Optional;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.api.AttributeInput;
+import io.furrow.fiware.http.NgsiError;
 
 /**
  * A requested update of an entity.
@@ -24,7 +23,6 @@ public record EntityUpdate(String id, Optional<String> type, Map<String, Attribu
     /** The action of an update on its attributes. */
     public enum Action {
         APPEND,
-        APPEND_STRICT,
         UPDATE,
         REPLACE,
         DELETE;
@@ -32,7 +30,7 @@ public record EntityUpdate(String id, Optional<String> type, Map<String, Attribu
         public static Action of(String text) throws NgsiError {
             return switch (text) {
                 case "append", "APPEND" -> APPEND;
-                case "appendStrict", "APPEND_STRICT" -> APPEND_STRICT;
+                case "appendStrict", "APPEND_STRICT" -> throw NgsiError.unsupported("actionType 'appendStrict'");
                 case "update", "UPDATE" -> UPDATE;
                 case "replace", "REPLACE" -> REPLACE;
                 case "delete", "DELETE" -> DELETE;
@@ -41,15 +39,5 @@ public record EntityUpdate(String id, Optional<String> type, Map<String, Attribu
                             + " delete, replace, update"); // spelled as Orion does
             };
         }
-    }
-
-    /**
-     * Options of an update.
-     *
-     * @param forced notify also without changes ({@code options=forcedUpdate})
-     * @param overrideMetadata remove metadata that the request does not name ({@code options=overrideMetadata})
-     */
-    public record Options(boolean forced, boolean overrideMetadata) {
-        public static final Options NONE = new Options(false, false);
     }
 }

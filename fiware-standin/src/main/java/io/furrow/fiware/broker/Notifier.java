@@ -21,8 +21,7 @@ import org.eclipse.jetty.http.HttpMethod;
 import org.eclipse.jetty.util.component.LifeCycle;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
-import io.furrow.fiware.Correlator;
-import io.furrow.fiware.FiwareSettings.Connections;
+import io.furrow.fiware.http.Correlator;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -50,7 +49,8 @@ public final class Notifier implements AutoCloseable {
     private final LongAdder failed = new LongAdder();
     private final LongAdder dropped = new LongAdder();
 
-    public Notifier(Clock clock, Connections connections) {
+    /** @param persistent whether a connection is used for several notifications */
+    public Notifier(Clock clock, boolean persistent) {
         this.clock = clock;
         threads.setName("furrow-notifier");
         threads.setDaemon(true);
@@ -59,7 +59,7 @@ public final class Notifier implements AutoCloseable {
         client.setIdleTimeout(IDLE_TIMEOUT_MS);
         client.setMaxConnectionsPerDestination(CONNECTIONS_PER_RECEIVER);
         client.setFollowRedirects(false);
-        if (connections == Connections.TRANSIENT) {
+        if (!persistent) {
             client.getTransport().setConnectionPoolFactory(Notifier::usedOnce);
         }
         client.setUserAgentField(new HttpField(HttpHeader.USER_AGENT, "furrow-fiware-stand-in/0.1"));

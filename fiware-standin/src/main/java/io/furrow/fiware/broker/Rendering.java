@@ -11,7 +11,6 @@ import java.util.Set;
 import java.util.TreeSet;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
@@ -21,10 +20,9 @@ import io.furrow.model.ngsi.Entity;
  * Renders entities for queries and notifications.
  *
  * @param attrs empty for all own attributes; else these in this order, built-ins among them, {@code *} for the own ones
- * @param except own attributes to omit
  * @param metadata empty for all own metadata; else these, built-ins among them, {@code *} for the own ones
  */
-public record Rendering(List<String> attrs, Set<String> except, List<String> metadata, Format format) {
+public record Rendering(List<String> attrs, List<String> metadata, Format format) {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
     private static final String ALL = "*";
 
@@ -33,7 +31,6 @@ public record Rendering(List<String> attrs, Set<String> except, List<String> met
         NORMALIZED("normalized"),
         KEY_VALUES("keyValues"),
         VALUES("values"),
-        UNIQUE("unique"),
         SIMPLIFIED_NORMALIZED("simplifiedNormalized"),
         SIMPLIFIED_KEY_VALUES("simplifiedKeyValues");
 
@@ -76,10 +73,8 @@ public record Rendering(List<String> attrs, Set<String> except, List<String> met
                 written.put(name, attribute(name, entity.attributes().get(name), change));
             }
         }
-        if (format == Format.VALUES || format == Format.UNIQUE) {
-            ArrayNode values = NODES.arrayNode();
-            (format == Format.VALUES ? written.values() : new LinkedHashSet<>(written.values())).forEach(values::add);
-            return values;
+        if (format == Format.VALUES) {
+            return NODES.arrayNode().addAll(written.values());
         }
         ObjectNode json = NODES.objectNode().put("id", entity.id()).put("type", entity.type());
         written.forEach(json::set);
@@ -88,7 +83,6 @@ public record Rendering(List<String> attrs, Set<String> except, List<String> met
 
     private Set<String> selected(List<String> own) {
         Set<String> all = new LinkedHashSet<>(own);
-        all.removeAll(except);
         if (attrs.isEmpty()) {
             return all;
         }

@@ -9,8 +9,8 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.api.SubscriptionReader;
+import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.PathFilter;
 
 /** A subscription and the state of its notifications. Guarded by its own monitor. */
 public final class Subscription {

@@ -24,7 +24,7 @@ public record SubscriptionDefinition(
     }
 
     /** Selects entities by id and type. */
-    public record Selector(Predicate<String> id, Predicate<String> type) {
+    record Selector(Predicate<String> id, Predicate<String> type) {
         boolean matches(StoredEntity entity) {
             return type.test(entity.type()) && id.test(entity.id());
         }
@@ -33,23 +33,12 @@ public record SubscriptionDefinition(
     /**
      * Selects changes.
      *
-     * @param attributes one of these must have changed; empty for any
-     * @param filter matched against the entity after the change
+     * @param entities any of them
      */
-    public record Subject(
-            List<Selector> entities, Set<String> attributes, Optional<QueryFilter> filter, Set<Change.Kind> kinds) {
+    record Subject(List<Selector> entities, Set<Change.Kind> kinds) {
         boolean covers(Change change) {
             StoredEntity entity = change.after();
-            return kinds.contains(change.kind())
-                    && entities.stream().anyMatch(selector -> selector.matches(entity))
-                    && (attributes.isEmpty() || touches(change))
-                    && filter.map(passes -> passes.test(entity)).orElse(true);
-        }
-
-        private boolean touches(Change change) {
-            Set<String> named =
-                    change.kind() == Change.Kind.UPDATE ? change.actions().keySet() : change.changed();
-            return named.stream().anyMatch(attributes::contains);
+            return kinds.contains(change.kind()) && entities.stream().anyMatch(selector -> selector.matches(entity));
         }
     }
 
@@ -59,7 +48,7 @@ public record SubscriptionDefinition(
      * @param headers additional or replaced headers; an empty value removes one
      * @param timeout after which a missing answer is a failure
      */
-    public record Target(URI url, Map<String, String> headers, Duration timeout) {}
+    record Target(URI url, Map<String, String> headers, Duration timeout) {}
 
     /**
      * Limits of notification.
@@ -67,5 +56,5 @@ public record SubscriptionDefinition(
      * @param throttling minimum time between two notifications; those in between are not sent
      * @param maxFails consecutive failures after which the subscription is deactivated
      */
-    public record Limits(boolean active, Optional<Instant> expires, Duration throttling, Optional<Integer> maxFails) {}
+    record Limits(boolean active, Optional<Instant> expires, Duration throttling, Optional<Integer> maxFails) {}
 }

@@ -9,6 +9,8 @@ import java.util.Optional;
 import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.concurrent.atomic.AtomicLong;
 
+import io.furrow.fiware.http.PathFilter;
+
 /**
  * The entities and subscriptions of a tenant. Entities are guarded by the tenant's monitor, held until notifications
  * are queued, which keeps them in the order of the changes.

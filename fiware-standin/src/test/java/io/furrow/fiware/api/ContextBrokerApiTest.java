@@ -12,7 +12,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.fiware.Client;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
-import io.furrow.fiware.LoopbackServer;
+import io.furrow.fiware.http.LoopbackServer;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -39,26 +39,18 @@ class ContextBrokerApiTest {
             value = {
                 "GET    | /v2/entities/none                  | -                        | 404 | NotFound | The requested entity has not been found. Check type and id",
                 "GET    | /v2/entities/P1?type=Other         | -                        | 404 | NotFound | The requested entity has not been found. Check type and id",
-                "GET    | /v2/entities/P1/attrs/none         | -                        | 404 | NotFound | The entity does not have such an attribute",
-                "GET    | /v2/entities/P1/attrs/none/value   | -                        | 404 | NotFound | The entity does not have such an attribute",
                 "DELETE | /v2/entities/none                  | -                        | 404 | NotFound | The requested entity has not been found. Check type and id",
                 "DELETE | /v2/entities/P1/attrs/none         | -                        | 404 | NotFound | The entity does not have such an attribute",
                 "PATCH  | /v2/entities/none/attrs            | {'a':{'value':1}}        | 404 | NotFound | The requested entity has not been found. Check type and id",
                 "PATCH  | /v2/entities/P1/attrs              | {'a':{'value':1}}        | 422 | Unprocessable | do not exist: P1 - [ a ]",
                 "PATCH  | /v2/entities/P1/attrs?type=Probe   | {'b':{'value':1},'a':{'value':1}} | 422 | Unprocessable | do not exist: P1/Probe - [ a, b ]",
-                "PUT    | /v2/entities/P1/attrs/none         | {'value':1}              | 404 | NotFound | The entity does not have such an attribute",
                 "POST   | /v2/entities                       | {'id':'F','a':{'value':'x=y'}} | 400 | BadRequest | Invalid characters in attribute value",
                 "POST   | /v2/entities?options=keyValues     | {'id':'F','a':{'deep':['(x)']}} | 400 | BadRequest | Invalid characters in attribute value",
                 "POST   | /v2/entities                       | {'id':'F','a':{'value':1,'metadata':{'m':{'value':'a;b'}}}} | 400 | BadRequest | Invalid characters in metadata value",
-                "PUT    | /v2/entities/P1/attrs/moisture/value | 'a;b'                  | 400 | BadRequest | Invalid characters in attribute value",
                 "POST   | /v2/op/update                      | {'actionType':'append','entities':[{'id':'ok'},{'id':'F','a':{'value':'x=y'}}]} | 400 | BadRequest | Invalid characters in attribute value",
                 "PATCH  | /v2/entities/P1/attrs              | -                        | 411 | ContentLengthRequired | Zero/No Content-Length in PUT/POST/PATCH request",
-                "GET    | /v2/types/None                     | -                        | 404 | NotFound | Entity type not found",
-                "GET    | /v2/registrations/x                | -                        | 404 | NotFound | The requested registration has not been found. Check id",
-                "POST   | /v2/registrations                  | {}                       | 400 | BadRequest | not supported by the stand-in: registrations by clients",
                 "POST   | /v2/entities/P1/attrs              | {'dateModified':{'value':1}} | 400 | BadRequest | the name 'dateModified' is reserved and cannot be that of an attribute",
                 "POST   | /v2/op/update?options=keyValues    | {'actionType':'append','entities':[{'id':'F','servicePath':'/a'}]} | 400 | BadRequest | the name 'servicePath' is reserved and cannot be that of an attribute",
-                "PUT    | /v2/entities/P1/attrs/type/value   | 1                        | 400 | BadRequest | the name 'type' is reserved and cannot be that of an attribute",
                 "PATCH  | /v2/entities/P1/attrs              | {'id':'x'}               | 400 | BadRequest | entity id specified in payload",
                 "PATCH  | /v2/entities/P1/attrs              | {'a':1}                  | 400 | BadRequest | attribute must be a JSON object, unless keyValues option is used",
                 "POST   | /v2/entities/P1/attrs              | {}                       | 400 | BadRequest | empty payload",
@@ -72,6 +64,12 @@ class ContextBrokerApiTest {
                 "GET    | /v2/entities?limit=1001            | -                        | 400 | BadRequest | Bad pagination limit: /1001/ [max: 1000]",
                 "GET    | /v2/entities?offset=x              | -                        | 400 | BadRequest | Bad pagination offset: /x/ [must be a decimal number]",
                 "GET    | /v2/entities?georel=near           | -                        | 400 | BadRequest | not supported by the stand-in: parameter 'georel' in a query of entities",
+                "GET    | /v2/entities?q=moisture%3E25       | -                        | 400 | BadRequest | not supported by the stand-in: q 'moisture>25'",
+                "GET    | /v2/entities?orderBy=moisture      | -                        | 400 | BadRequest | not supported by the stand-in: orderBy 'moisture'",
+                "GET    | /v2/entities?options=values        | -                        | 400 | BadRequest | not supported by the stand-in: option 'values'",
+                "POST   | /v2/op/query                       | {'expression':{'q':'a'}} | 400 | BadRequest | not supported by the stand-in: a query by anything but entities",
+                "POST   | /v2/op/query                       | {'entities':[{'idPattern':'.*'}]} | 400 | BadRequest | not supported by the stand-in: a query of entities without an id",
+                "POST   | /v2/op/update                      | {'actionType':'appendStrict','entities':[{'id':'P1'}]} | 400 | BadRequest | not supported by the stand-in: actionType 'appendStrict'",
                 "GET    | /v2/subscriptions/000000000000000000000000 | -                | 404 | NotFound | The requested subscription has not been found. Check id",
                 "POST   | /v2/op/update                      | {'actionType':'append','entities':[]} | 400 | BadRequest | empty entities vector",
                 "POST   | /v2/op/update                      | {'actionType':'update','entities':[{'id':'none','a':{'value':1}}]} | 404 | NotFound | do not exist: none - [entity itself]",
@@ -108,7 +106,9 @@ class ContextBrokerApiTest {
         assertThat(client.post(path + "?options=keyValues", "{\"job\": \"mow\"}")
                         .status())
                 .isEqualTo(204);
-        assertThat(client.send("PUT", path + "/name/value", "\"two\"").status()).isEqualTo(204);
+        assertThat(client.patch(path + "?options=keyValues", "{\"name\": \"two\"}")
+                        .status())
+                .isEqualTo(204);
         assertThat(client.delete(path + "/gone").status()).isEqualTo(204);
         assertThat(client.get("/v2/entities/urn:ngsi-ld:Robot:1").body()).isEqualTo("""
                 {"id":"urn:ngsi-ld:Robot:1","type":"Robot",\
@@ -133,16 +133,7 @@ class ContextBrokerApiTest {
         assertThat(answer.status()).isEqualTo(422);
         assertThat(answer.json().path("error").asText()).isEqualTo("PartialUpdate");
         assertThat(answer.json().path("description").asText()).contains("lost").doesNotContain("moisture");
-        assertThat(client.get("/v2/entities/P1/attrs/moisture/value").body()).isEqualTo("5");
-    }
-
-    @Test
-    void refusesAStrictAppendOfWhatIsThere() {
-        Client.Answer answer = client.post("/v2/entities/P1/attrs?options=append,keyValues", "{\"moisture\": 5}");
-
-        assertThat(answer.status()).isEqualTo(422);
-        assertThat(answer.json().path("error").asText()).isEqualTo("Unprocessable");
-        assertThat(client.get("/v2/entities/P1/attrs/moisture/value").body()).isEqualTo("20.5");
+        assertThat(client.value("P1", "moisture")).hasToString("5");
     }
 
     @Test
@@ -167,8 +158,9 @@ class ContextBrokerApiTest {
                 "/v2/entities?options=count&type=Pump,Probe&id=P2  | P2",
                 "/v2/entities?options=count&idPattern=%5EP.$       | P1 P2",
                 "/v2/entities?options=count&typePattern=be$        | P1 P2",
-                "/v2/entities?options=count&q=moisture%3E25        | P2",
-                "/v2/entities?options=count&orderBy=!moisture      | P2 P1",
+                "/v2/entities?options=count&q=dateModified%3E=2026-01-01T00:00:00%2B01:00 | P1 P2",
+                "/v2/entities?options=count&q=dateCreated%3E=9999-12-31                   | \"\"",
+                "/v2/entities?options=count&orderBy=!dateModified,!id                     | P2 P1",
             })
     void listsWhatAQueryAsksFor(String path, String ids) {
         Client.Answer answer = client.get(path);
@@ -176,6 +168,17 @@ class ContextBrokerApiTest {
         List<String> found = answer.json().findValuesAsText("id");
         assertThat(String.join(" ", found)).isEqualTo(ids);
         assertThat(answer.total()).isEqualTo(Integer.toString(found.size()));
+    }
+
+    @Test
+    void findsTheEntitiesThatABatchNames() {
+        Client.Answer found = client.post("/v2/op/query?limit=2", """
+                {"entities": [{"id": "P2", "type": "Probe"}, {"id": "P1", "type": "Pump"}, {"id": "P1"}],
+                 "attrs": ["moisture"], "metadata": ["none"]}""");
+
+        assertThat(found.body()).isEqualTo("""
+                [{"id":"P2","type":"Probe","moisture":{"type":"Number","value":30,"metadata":{}}},\
+                {"id":"P1","type":"Probe","moisture":{"type":"Number","value":20.5,"metadata":{}}}]""");
     }
 
     @Test
@@ -219,7 +222,7 @@ class ContextBrokerApiTest {
 
         assertThat(answer.status()).isEqualTo(422);
         assertThat(answer.json().path("error").asText()).isEqualTo("PartialUpdate");
-        assertThat(client.get("/v2/entities/P2/attrs/moisture/value").body()).isEqualTo("1");
+        assertThat(client.value("P2", "moisture")).hasToString("1");
     }
 
     @Test
@@ -229,22 +232,7 @@ class ContextBrokerApiTest {
         assertThat(client.post("/v2/entities", "{\"id\": \"F\", \"note\": " + text + "}")
                         .status())
                 .isEqualTo(201);
-        assertThat(client.get("/v2/entities/F/attrs/note/value").body()).isEqualTo("[\"<a href='x'>;(=)</a>\"]");
-    }
-
-    @Test
-    void listsTypesWithTheirAttributes() {
-        client.post("/v2/entities", "{\"id\": \"A\", \"type\": \"Anchor\", \"moisture\": {\"value\": \"wet\"}}");
-        client.patch("/v2/entities/P1/attrs", "{\"moisture\": {\"value\": \"dry\", \"type\": \"Text\"}}");
-
-        assertThat(client.get("/v2/types").body()).isEqualTo("""
-                [{"type":"Anchor","attrs":{"moisture":{"types":["Text"]}},"count":1},\
-                {"type":"Probe","attrs":{"moisture":{"types":["Number","Text"]}},"count":2}]""");
-        assertThat(client.get("/v2/types/Anchor").body()).isEqualTo("""
-                {"attrs":{"moisture":{"types":["Text"]}},"count":1}""");
-        Client.Answer page = client.get("/v2/types?options=values,count&limit=1&offset=1");
-        assertThat(page.body()).isEqualTo("[\"Probe\"]");
-        assertThat(page.total()).isEqualTo("2");
+        assertThat(client.value("F", "note")).hasToString("[\"<a href='x'>;(=)</a>\"]");
     }
 
     @Test

@@ -60,32 +60,6 @@ class SubscriptionTest {
     }
 
     @Test
-    void notifiesWhenAConditionAttributeChangesAndTheExpressionHolds() {
-        subscribe("\"condition\": {\"attrs\": [\"moisture\"], \"expression\": {\"q\": \"moisture>10\"}},", "");
-        client.post(
-                "/v2/entities?options=keyValues", "{\"id\": \"P\", \"type\": \"Probe\", \"moisture\": 1, \"t\": 1}");
-        client.patch("/v2/entities/P/attrs?options=keyValues", "{\"t\": 2}");
-        client.patch("/v2/entities/P/attrs?options=keyValues", "{\"moisture\": 2}");
-
-        client.patch("/v2/entities/P/attrs?options=keyValues", "{\"moisture\": 11}");
-
-        await().until(() -> !receiver.received().isEmpty());
-        assertThat(receiver.received()).hasSize(1);
-    }
-
-    @Test
-    void leavesOutTheAttributesThatAreExcepted() {
-        subscribe("", "\"exceptAttrs\": [\"image\"], \"attrsFormat\": \"keyValues\",");
-
-        client.post(
-                "/v2/entities?options=keyValues", "{\"id\": \"P\", \"type\": \"Probe\", \"image\": \"x\", \"t\": 1}");
-
-        await().until(() -> !receiver.received().isEmpty());
-        assertThat(receiver.received().get(0).json().path("data").get(0))
-                .hasToString("{\"id\":\"P\",\"type\":\"Probe\",\"t\":1}");
-    }
-
-    @Test
     void sendsTheHeadersOfACustomNotification() {
         create("""
                 {"subject": {"entities": [{"idPattern": ".*"}]}, "notification": {
@@ -230,7 +204,9 @@ class SubscriptionTest {
             strings = {
                 "notification with 'covered' | '' | 'covered': true,",
                 "notification with 'kafka'   | '' | 'kafka': {'url': 'x'},",
-                "condition.expression with 'georel' | 'condition': {'expression': {'georel': 'near'}}, | ''",
+                "notification with 'exceptAttrs' | '' | 'exceptAttrs': ['a'],",
+                "condition with 'attrs'      | 'condition': {'attrs': ['a']}, | ''",
+                "condition with 'expression' | 'condition': {'expression': {'q': 'a>1'}}, | ''",
                 "condition with 'notifyOnMetadataChange' false | 'condition': {'notifyOnMetadataChange': false}, | ''",
             })
     void refusesAnOptionOfOrionThatItDoesNotHave(String example) {

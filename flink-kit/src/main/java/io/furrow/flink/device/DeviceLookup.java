@@ -20,36 +20,24 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * What {@code service.devices} says of every device as of an event's time: the versions in the broadcast state of a
- * function, completed by what was on the topic when the function was opened. The function holds the state, because savepoints
- * know it by the function's own type.
- *
- * @param <H> the form in which the state holds the versions of a device
+ * function, completed by what was on the topic when the function was opened. The function holds the state.
  */
-public final class DeviceLookup<H> implements Serializable {
+public final class DeviceLookup implements Serializable {
     private static final long serialVersionUID = 1L;
 
     private final TopicSnapshot topic;
     private final long keptMillis;
-    private final StateCodec<H> form;
     private transient ChangesAtStart atStart;
     private transient boolean compared;
     private transient int changesUntilSweep;
-
-    /** How the state holds the versions of a device. */
-    public interface StateCodec<H> extends Serializable {
-        DeviceVersions read(H held);
-
-        H held(DeviceVersions versions);
-    }
 
     /**
      * @param topic what is read before the first event
      * @param kept how long versions that ended are kept for events that come late
      */
-    public DeviceLookup(TopicSnapshot topic, Duration kept, StateCodec<H> form) {
+    public DeviceLookup(TopicSnapshot topic, Duration kept) {
         this.topic = topic;
         this.keptMillis = kept.toMillis();
-        this.form = form;
     }
 
     /** Reads what is known of devices; to be called before the first event, also after each restart. */
@@ -66,7 +54,7 @@ public final class DeviceLookup<H> implements Serializable {
     }
 
     /** The version that held at an event time. What was read at the start may be newer than a restored state. */
-    public Optional<DeviceVersion> at(String identity, long time, ReadOnlyBroadcastState<String, H> state)
+    public Optional<DeviceVersion> at(String identity, long time, ReadOnlyBroadcastState<String, DeviceVersions> state)
             throws Exception {
         if (!compared) {
             forgetWhatIsRestored(state);
@@ -74,7 +62,8 @@ public final class DeviceLookup<H> implements Serializable {
         return current(identity, state).at(Epochs.original(time));
     }
 
-    private DeviceVersions current(String identity, ReadOnlyBroadcastState<String, H> state) throws Exception {
+    private DeviceVersions current(String identity, ReadOnlyBroadcastState<String, DeviceVersions> state)
+            throws Exception {
         DeviceVersions known = known(state.get(identity));
         for (DeviceChange change : atStart.of(identity)) {
             known = known.with(change);
@@ -83,10 +72,10 @@ public final class DeviceLookup<H> implements Serializable {
     }
 
     /** The stream of a restored job begins behind what its state holds: it will not pass that again. */
-    private void forgetWhatIsRestored(ReadOnlyBroadcastState<String, H> state) throws Exception {
+    private void forgetWhatIsRestored(ReadOnlyBroadcastState<String, DeviceVersions> state) throws Exception {
         Set<String> restored = new HashSet<>();
-        for (Map.Entry<String, H> each : state.immutableEntries()) {
-            if (current(each.getKey(), state).equals(form.read(each.getValue()))) {
+        for (Map.Entry<String, DeviceVersions> each : state.immutableEntries()) {
+            if (current(each.getKey(), state).equals(each.getValue())) {
                 restored.add(each.getKey());
             }
         }
@@ -100,24 +89,24 @@ public final class DeviceLookup<H> implements Serializable {
     }
 
     /** Takes a change into the state; forgets versions that ended longer ago than they are kept. */
-    public void note(DeviceChange change, BroadcastState<String, H> state) throws Exception {
-        state.put(change.key(), form.held(known(state.get(change.key())).with(change)));
+    public void note(DeviceChange change, BroadcastState<String, DeviceVersions> state) throws Exception {
+        state.put(change.key(), known(state.get(change.key())).with(change));
         atStart.passed(change);
         if (--changesUntilSweep <= 0) {
             changesUntilSweep = sweep(state, change.time() - keptMillis);
         }
     }
 
-    private DeviceVersions known(H held) {
-        return held == null ? DeviceVersions.EMPTY : form.read(held);
+    private static DeviceVersions known(DeviceVersions held) {
+        return held == null ? DeviceVersions.EMPTY : held;
     }
 
     /** As many changes as there are devices lie between two sweeps, so that their cost does not grow with the devices. */
-    private int sweep(BroadcastState<String, H> state, long before) throws Exception {
+    private int sweep(BroadcastState<String, DeviceVersions> state, long before) throws Exception {
         Map<String, DeviceVersions> changed = new HashMap<>();
         int left = 0;
-        for (Map.Entry<String, H> each : state.entries()) {
-            DeviceVersions known = form.read(each.getValue());
+        for (Map.Entry<String, DeviceVersions> each : state.entries()) {
+            DeviceVersions known = each.getValue();
             DeviceVersions kept = known.since(before);
             if (kept.isEmpty() || kept.versions().size() != known.versions().size()) {
                 changed.put(each.getKey(), kept);
@@ -128,7 +117,7 @@ public final class DeviceLookup<H> implements Serializable {
             if (each.getValue().isEmpty()) {
                 state.remove(each.getKey());
             } else {
-                state.put(each.getKey(), form.held(each.getValue()));
+                state.put(each.getKey(), each.getValue());
             }
         }
         return left;

@@ -56,8 +56,8 @@ public abstract class Format<T> extends TypeInfoFactory<T> implements Serializab
 
     /** The refusal of a version that the format does not know. */
     protected final IOException unknown(int version) {
-        return new IOException(type().getSimpleName() + " was written in version " + version + ", known are 1 to "
-                + version() + "; use the release that wrote it, or a newer one");
+        return new IOException(type().getSimpleName() + " was written in version " + version + ", this release writes "
+                + version() + "; use the release that wrote it, or start without the savepoint");
     }
 
     @Override

@@ -21,14 +21,12 @@ import org.apache.flink.runtime.state.KeyGroupRangeAssignment;
  * another, and what is in front of that watermark is not late. The end of event time is not kept, so that a job that was stopped
  * with {@code --drain} can continue.
  *
- * <p>State: the union list {@code event-time-reached-by-key-group} with ranges of key groups (first, last, time). Read is also
- * {@code event-time-reached}, one time for all key groups.
+ * <p>State: the union list {@code event-time-reached-by-key-group} with ranges of key groups (first, last, time).
  */
 public final class EventTimeReached {
     private static final long NOTHING_YET = Long.MIN_VALUE;
 
     private final ListState<Tuple3<Integer, Integer, Long>> byKeyGroup;
-    private final ListState<Long> ofAll;
     private final KeyGroupRange keyGroups;
     private final int maxParallelism;
     /** What earlier runs have reached, from the first key group on; null once this run has passed it all. */
@@ -42,7 +40,6 @@ public final class EventTimeReached {
                 maxParallelism, task.getNumberOfParallelSubtasks(), task.getIndexOfThisSubtask());
         byKeyGroup = states.getUnionListState(new ListStateDescriptor<>(
                 "event-time-reached-by-key-group", Types.TUPLE(Types.INT, Types.INT, Types.LONG)));
-        ofAll = states.getUnionListState(new ListStateDescriptor<>("event-time-reached", Types.LONG));
     }
 
     /** As of the checkpoint that the task is restored from, if it is. */
@@ -56,9 +53,6 @@ public final class EventTimeReached {
         before = new long[keyGroups.getNumberOfKeyGroups()];
         Arrays.fill(before, NOTHING_YET);
         int first = keyGroups.getStartKeyGroup();
-        for (long each : ofAll.get()) {
-            take(first, keyGroups.getEndKeyGroup(), each);
-        }
         for (Tuple3<Integer, Integer, Long> range : byKeyGroup.get()) {
             take(Math.max(first, range.f0), Math.min(keyGroups.getEndKeyGroup(), range.f1), range.f2);
         }
@@ -109,7 +103,6 @@ public final class EventTimeReached {
 
     /** Writes the state for a checkpoint. */
     public void snapshot() throws Exception {
-        ofAll.clear();
         List<Tuple3<Integer, Integer, Long>> ranges = new ArrayList<>();
         int first = keyGroups.getStartKeyGroup();
         for (int group = first; group <= keyGroups.getEndKeyGroup(); group++) {

@@ -23,7 +23,7 @@ class DeviceLookupTest {
     @Test
     void holdsNoSecondCopyOnceTheStreamHasPassedTheTopic() throws Exception {
         devices(0, 10);
-        DeviceLookup<DeviceVersions> book = book();
+        DeviceLookup book = book();
         assertThat(mission(book, 3)).isEqualTo("m1");
         assertThat(book.heldBesideState()).isEqualTo(10);
 
@@ -38,7 +38,7 @@ class DeviceLookupTest {
         devices(0, 10);
         pass(book(), 0, 10);
         topic.add(record(3, 2, 10)); // since the savepoint
-        DeviceLookup<DeviceVersions> restored = book();
+        DeviceLookup restored = book();
 
         assertThat(mission(restored, 4)).isEqualTo("m1");
         assertThat(mission(restored, 3)).isEqualTo("m2");
@@ -55,16 +55,16 @@ class DeviceLookupTest {
     void holdsNothingThatTheRestoredStreamIsBehind() throws Exception {
         devices(0, 10);
         topic.add(record(20, 1, 10));
-        DeviceLookup<DeviceVersions> restored = book(); // whose state has forgotten devices that ended long ago
+        DeviceLookup restored = book(); // whose state has forgotten devices that ended long ago
 
         pass(restored, 10, 11);
 
         assertThat(restored.heldBesideState()).isZero();
     }
 
-    private DeviceLookup<DeviceVersions> book() throws Exception {
+    private DeviceLookup book() throws Exception {
         List<TopicRecord> now = List.copyOf(topic);
-        DeviceLookup<DeviceVersions> book = new DeviceLookup<>(() -> now, Duration.ofDays(1), new AsTheyAre());
+        DeviceLookup book = new DeviceLookup(() -> now, Duration.ofDays(1));
         book.open();
         return book;
     }
@@ -76,13 +76,13 @@ class DeviceLookupTest {
     }
 
     /** The stream from an offset to another. */
-    private void pass(DeviceLookup<DeviceVersions> book, int from, int to) throws Exception {
+    private void pass(DeviceLookup book, int from, int to) throws Exception {
         for (TopicRecord record : topic.subList(from, to)) {
             book.note(RecognizeDevices.read(record), state);
         }
     }
 
-    private String mission(DeviceLookup<DeviceVersions> book, int device) throws Exception {
+    private String mission(DeviceLookup book, int device) throws Exception {
         return book.at("|/|r" + device, 500, state).orElseThrow().mission();
     }
 
@@ -90,20 +90,6 @@ class DeviceLookupTest {
         DeviceVersion version =
                 new DeviceVersion("r" + device, "", "/", "d", "m" + sequence, 100L * sequence, null, sequence, null);
         return new TopicRecord(Topics.DEVICES, 0, offset, 0, new byte[0], version.toBytes(), Map.of());
-    }
-
-    private static final class AsTheyAre implements DeviceLookup.StateCodec<DeviceVersions> {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        public DeviceVersions read(DeviceVersions held) {
-            return held;
-        }
-
-        @Override
-        public DeviceVersions held(DeviceVersions versions) {
-            return versions;
-        }
     }
 
     private static final class Held implements BroadcastState<String, DeviceVersions> {

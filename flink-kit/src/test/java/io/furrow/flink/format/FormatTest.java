@@ -74,8 +74,8 @@ class FormatTest {
     void refusesASavepointOfANewerRelease() {
         assertThatThrownBy(() -> savepointOf(3))
                 .isInstanceOf(IOException.class)
-                .hasMessage("Note was written in version 3, known are 1 to 2; use the release that wrote it, or a newer"
-                        + " one");
+                .hasMessage("Note was written in version 3, this release writes 2; use the release that wrote it, or"
+                        + " start without the savepoint");
     }
 
     @ParameterizedTest

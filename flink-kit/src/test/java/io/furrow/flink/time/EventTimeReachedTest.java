@@ -3,15 +3,10 @@ package io.furrow.flink.time;
 import java.util.ArrayList;
 import java.util.List;
 
-import org.apache.flink.api.common.state.ListState;
-import org.apache.flink.api.common.state.ListStateDescriptor;
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
 import org.apache.flink.runtime.state.KeyGroupRangeAssignment;
-import org.apache.flink.runtime.state.StateInitializationContext;
-import org.apache.flink.runtime.state.StateSnapshotContext;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
-import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
 import org.apache.flink.streaming.api.operators.OneInputStreamOperator;
 import org.apache.flink.streaming.util.AbstractStreamOperatorTestHarness;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
@@ -69,23 +64,6 @@ class EventTimeReachedTest {
         split.get(1).processElement(keyAt(1), 950);
         assertThat(split.get(0).extractOutputValues()).containsExactly(keyAt(0) + " late");
         assertThat(split.get(1).extractOutputValues()).containsExactly(keyAt(1));
-    }
-
-    @Test
-    void readsTheOneTimeOfAllSubtasksWhereThereIsNoOther() throws Exception {
-        var old = harness(new OneTimeOfAll(), 1, 0);
-        old.open();
-        old.processWatermark(1_000);
-
-        var again = restarted(List.of(old), 1).get(0);
-        again.processElement("a", 1_000);
-        again.processElement("b", 1_001);
-        assertThat(again.extractOutputValues()).containsExactly("a late", "b");
-
-        again.processWatermark(500);
-        var later = restarted(List.of(again), 1).get(0);
-        later.processElement("a", 1_000);
-        assertThat(later.extractOutputValues()).containsExactly("a late");
     }
 
     @Test
@@ -158,30 +136,6 @@ class EventTimeReachedTest {
         @Override
         public void processElement(String key, Context context, Collector<String> out) {
             out.collect(reached.hasPassed(context.timestamp(), key) ? key + " late" : key);
-        }
-    }
-
-    /** Keeps what jobs kept that knew one time for all subtasks. */
-    private static final class OneTimeOfAll extends KeyedProcessOperator<String, String, String> {
-        private static final long serialVersionUID = 1L;
-
-        private transient ListState<Long> progress;
-
-        OneTimeOfAll() {
-            super(new Judge());
-        }
-
-        @Override
-        public void initializeState(StateInitializationContext context) throws Exception {
-            super.initializeState(context);
-            progress = context.getOperatorStateStore()
-                    .getUnionListState(new ListStateDescriptor<>("event-time-reached", Types.LONG));
-        }
-
-        @Override
-        public void snapshotState(StateSnapshotContext context) throws Exception {
-            super.snapshotState(context);
-            progress.update(List.of(1_000L));
         }
     }
 }

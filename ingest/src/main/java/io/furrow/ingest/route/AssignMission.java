@@ -15,6 +15,7 @@ import org.apache.flink.util.Collector;
 
 import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.device.DeviceLookup;
+import io.furrow.flink.device.DeviceVersions;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.ByType;
 import io.furrow.flink.record.DeadCounters;
@@ -36,8 +37,8 @@ import io.furrow.model.ngsi.UnreadableException;
 public final class AssignMission
         extends KeyedBroadcastProcessFunction<String, ReportedEvent, DeviceChange, ReportedEvent> {
     /** The devices, by identity. */
-    public static final MapStateDescriptor<String, DeviceHistory> DEVICES =
-            new MapStateDescriptor<>("devices", Types.STRING, TypeInformation.of(DeviceHistory.class));
+    public static final MapStateDescriptor<String, DeviceVersions> DEVICES =
+            new MapStateDescriptor<>("devices", Types.STRING, TypeInformation.of(DeviceVersions.class));
 
     private static final ByType.Descriptor<KnownRoute> ROUTE =
             new ByType.Descriptor<>("route", KnownRoute.class, KnownRoute::type);
@@ -54,7 +55,7 @@ public final class AssignMission
      */
     public record Rule(Duration kept, String defaultDomain, String defaultMission) implements Serializable {}
 
-    private final DeviceLookup<DeviceHistory> devices;
+    private final DeviceLookup devices;
     private final Rule rule;
     private final NameBudget names;
     private transient ByType<KnownRoute> routes;
@@ -62,7 +63,7 @@ public final class AssignMission
 
     public AssignMission(TopicSnapshot devicesAtStart, Rule rule, NameBudget names) {
         this.names = names;
-        this.devices = new DeviceLookup<>(devicesAtStart, rule.kept(), new DeviceHistory.Form());
+        this.devices = new DeviceLookup(devicesAtStart, rule.kept());
         this.rule = rule;
     }
 

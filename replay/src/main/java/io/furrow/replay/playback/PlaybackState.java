@@ -1,5 +1,7 @@
 package io.furrow.replay.playback;
 
+import java.io.IOException;
+
 import io.furrow.mission.Cursor;
 import io.furrow.model.control.replay.ReplayStatus;
 
@@ -44,21 +46,42 @@ public record PlaybackState(
         long primes,
         long skipped,
         Cursor goal) {
-    /** What a playback is about. The order of constants is stored. */
+    /** What a playback is about. */
     public enum Phase {
         /** Learns what the recording spans. */
-        OPENING,
+        OPENING(0),
         /** Plays what is known before the point. */
-        PRIMING,
-        PLAYING,
+        PRIMING(1),
+        PLAYING(2),
         /** Waits until the next pass of a loop may begin. */
-        BETWEEN,
-        ENDED,
-        STOPPED,
-        FAILED;
+        BETWEEN(3),
+        ENDED(4),
+        STOPPED(5),
+        FAILED(6);
+
+        private final int code;
+
+        Phase(int code) {
+            this.code = code;
+        }
+
+        /** By which savepoints name it; never given to another phase. */
+        public int code() {
+            return code;
+        }
+
+        /** @throws IOException if no phase has the code */
+        public static Phase of(int code) throws IOException {
+            for (Phase phase : values()) {
+                if (phase.code == code) {
+                    return phase;
+                }
+            }
+            throw new IOException("no phase of a replay has the code " + code);
+        }
 
         public boolean isOver() {
-            return compareTo(ENDED) >= 0;
+            return this == ENDED || this == STOPPED || this == FAILED;
         }
 
         /** How a status calls it. */

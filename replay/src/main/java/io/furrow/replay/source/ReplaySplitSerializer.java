@@ -11,18 +11,16 @@ import io.furrow.mission.Cursor;
 import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
-/** Writes a {@link ReplaySplit}; one method reads each version that was ever written. */
+/** Writes a {@link ReplaySplit}. */
 final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySplit> {
-    /** Name, wanted record, members of {@link PlaybackState} in their order, phase by number. */
-    private static final int VERSION_1 = 1;
-    /** The same, then time and id of the goal. */
-    private static final int VERSION_2 = 2;
+    /** Name, desired record, members of {@link PlaybackState} in their order, the phase by its code. */
+    private static final int VERSION = 2;
 
     private static final int NOTHING = -1;
 
     @Override
     public int getVersion() {
-        return VERSION_2;
+        return VERSION;
     }
 
     @Override
@@ -37,7 +35,7 @@ final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySpl
         writeText(split.replay(), out);
         writeBytes(split.desired(), out);
         out.writeLong(state.sequence());
-        out.writeByte(state.phase().ordinal());
+        out.writeByte(state.phase().code());
         writeText(state.reason(), out);
         out.writeLong(state.epoch());
         out.writeLong(state.number());
@@ -62,23 +60,23 @@ final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySpl
 
     @Override
     public ReplaySplit deserialize(int version, byte[] bytes) throws IOException {
-        if (version != VERSION_1 && version != VERSION_2) {
-            throw new IOException("a replay's state of version " + version
-                    + " was written by a later release; start that release, or without the savepoint");
+        if (version != VERSION) {
+            throw new IOException("a replay's state of version " + version + " is unknown, known is " + VERSION
+                    + "; start the release that wrote it, or without the savepoint");
         }
         DataInputDeserializer in = new DataInputDeserializer(bytes);
-        ReplaySplit split = read(version, in);
+        ReplaySplit split = read(in);
         if (in.available() > 0) {
             throw new IOException(in.available() + " bytes follow the state of replay " + split.replay());
         }
         return split;
     }
 
-    private static ReplaySplit read(int version, DataInputDeserializer in) throws IOException {
+    private static ReplaySplit read(DataInputDeserializer in) throws IOException {
         String replay = readText(in);
         byte[] desired = readBytes(in);
         long sequence = in.readLong();
-        Phase phase = Phase.values()[in.readByte()];
+        Phase phase = Phase.of(in.readByte());
         String reason = readText(in);
         long epoch = in.readLong();
         long number = in.readLong();
@@ -107,7 +105,7 @@ final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySpl
                         in.readLong(),
                         in.readLong(),
                         in.readLong(),
-                        version == VERSION_1 ? null : goal(in)));
+                        goal(in)));
     }
 
     private static Cursor goal(DataInputDeserializer in) throws IOException {

@@ -10,13 +10,13 @@ import org.apache.flink.core.memory.DataOutputSerializer;
 
 /** Writes {@link UnassignedReplays}: version of the splits, their number, each behind its length. */
 final class UnassignedReplaysSerializer implements SimpleVersionedSerializer<UnassignedReplays> {
-    private static final int VERSION_1 = 1;
+    private static final int VERSION = 1;
 
     private final ReplaySplitSerializer each = new ReplaySplitSerializer();
 
     @Override
     public int getVersion() {
-        return VERSION_1;
+        return VERSION;
     }
 
     @Override
@@ -34,9 +34,9 @@ final class UnassignedReplaysSerializer implements SimpleVersionedSerializer<Una
 
     @Override
     public UnassignedReplays deserialize(int version, byte[] bytes) throws IOException {
-        if (version != VERSION_1) {
-            throw new IOException("replays without a reader, of version " + version
-                    + ", were written by a later release; start that release, or without the savepoint");
+        if (version != VERSION) {
+            throw new IOException("replays without a reader, of version " + version + ", are unknown, known is "
+                    + VERSION + "; start the release that wrote them, or without the savepoint");
         }
         DataInputDeserializer in = new DataInputDeserializer(bytes);
         int splitVersion = in.readInt();

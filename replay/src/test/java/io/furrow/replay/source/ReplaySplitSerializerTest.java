@@ -16,6 +16,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class ReplaySplitSerializerTest {
+    /** Behind name, record and sequence. */
+    private static final int PHASE_AT = 28;
+
     private final ReplaySplitSerializer serializer = new ReplaySplitSerializer();
 
     private static ReplaySplit split(PlaybackState.Phase phase, String reason, Long start) {
@@ -40,28 +43,42 @@ class ReplaySplitSerializerTest {
         }
     }
 
-    /** The bytes of the first version, as savepoints hold them. */
+    /** As savepoints hold them. */
     @Test
-    void readsTheFirstVersion() throws Exception {
+    void writesTheBytesOfItsVersion() throws Exception {
         byte[] stored = HexFormat.of()
                 .parseHex("0000000a6d2e3061316232633364" + "000000020102" + "0000000000000001" + "02" + "00000003776879"
                         + "0000000000000002" + "0000000000000003" + "0000000000000004" + "0000000000000005" + "01"
                         + "ffffffffffffffff" + "0000000000000006" + "0000000000000007" + "00000002c3b1"
                         + "0000000000000008" + "0000000000000009" + "000000000000000a" + "000000000000000b"
-                        + "000000000000000c" + "000000000000000d" + "000000000000000e");
+                        + "000000000000000c" + "000000000000000d" + "000000000000000e" + "000000000000000f"
+                        + "0000000167");
 
-        assertThat(serializer.deserialize(1, stored))
-                .usingRecursiveComparison()
-                .isEqualTo(split(PlaybackState.Phase.PLAYING, "why", -1L, null));
+        assertThat(serializer.serialize(split(PlaybackState.Phase.PLAYING, "why", -1L)))
+                .isEqualTo(stored);
+        stored[PHASE_AT] = 9;
+        assertThatThrownBy(() -> serializer.deserialize(2, stored))
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining("code 9");
+    }
+
+    @Test
+    void knowsPhasesByCodesThatStay() {
+        assertThat(PlaybackState.Phase.values())
+                .extracting(phase -> phase.code() + " " + phase)
+                .containsExactly(
+                        "0 OPENING", "1 PRIMING", "2 PLAYING", "3 BETWEEN", "4 ENDED", "5 STOPPED", "6 FAILED");
     }
 
     @Test
     void refusesOtherVersionsAndWhatFollows() throws Exception {
         byte[] bytes = serializer.serialize(split(PlaybackState.Phase.PLAYING, null, null));
 
-        assertThatThrownBy(() -> serializer.deserialize(3, bytes))
-                .isInstanceOf(IOException.class)
-                .hasMessageContaining("version 3");
+        for (int version : new int[] {1, 3}) {
+            assertThatThrownBy(() -> serializer.deserialize(version, bytes))
+                    .isInstanceOf(IOException.class)
+                    .hasMessageContaining("version " + version);
+        }
         assertThatThrownBy(() -> serializer.deserialize(2, Arrays.copyOf(bytes, bytes.length + 1)))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("1 bytes follow");

@@ -11,7 +11,7 @@ import io.furrow.flink.format.Format;
 /** How a {@link PairObservation} is written. */
 public final class PairObservationSerializer extends Format<PairObservation> {
     private static final long serialVersionUID = 1L;
-    /** Both fixes as parts, time, change. In version 1 fixes are without their version, which was 1. */
+    /** Both fixes as parts, time, change. */
     private static final int VERSION = 2;
 
     @Override
@@ -34,12 +34,12 @@ public final class PairObservationSerializer extends Format<PairObservation> {
 
     @Override
     public PairObservation read(int version, DataInputView in) throws IOException {
-        if (version < 1 || version > VERSION) {
+        if (version != VERSION) {
             throw unknown(version);
         }
         return new PairObservation(
-                PositionFixSerializer.INSTANCE.readPart(version, in),
-                PositionFixSerializer.INSTANCE.readPart(version, in),
+                PositionFixSerializer.INSTANCE.readPart(in),
+                PositionFixSerializer.INSTANCE.readPart(in),
                 in.readLong(),
                 in.readByte());
     }

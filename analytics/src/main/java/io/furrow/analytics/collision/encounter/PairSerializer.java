@@ -10,7 +10,6 @@ import io.furrow.flink.format.Text;
 
 /** How a {@link Pair} is written. */
 public final class PairSerializer extends Format<Pair> {
-    public static final PairSerializer INSTANCE = new PairSerializer();
 
     private static final long serialVersionUID = 1L;
     /** Topic, identities of the first and the second. */

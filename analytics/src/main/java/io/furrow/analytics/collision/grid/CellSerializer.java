@@ -2,19 +2,13 @@ package io.furrow.analytics.collision.grid;
 
 import java.io.IOException;
 import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
 
 import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
-import io.furrow.analytics.collision.encounter.Pair;
-import io.furrow.analytics.collision.encounter.PairSerializer;
 import io.furrow.analytics.collision.matching.CrowdReport;
 import io.furrow.analytics.collision.matching.Shortlist;
-import io.furrow.analytics.position.Device;
-import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.position.PositionFixSerializer;
 import io.furrow.flink.format.Format;
 import io.furrow.flink.format.Text;
@@ -27,20 +21,9 @@ public final class CellSerializer extends Format<Cell> {
      * something was notified of crowds, and when, whether one was there, and its witness as a part.
      */
     private static final int VERSION = 3;
-    /** The same with fixes without their version, which was 1. */
-    private static final int WITHOUT_VERSIONS = 2;
-    /**
-     * Number of members; of each whether it is at home, and the fix in its version 1; whether pairs were limited, and then the
-     * number of those that were followed, they in their version 1, how many were close, whether some were left out, and when
-     * that was emitted.
-     */
-    private static final int LIMITED_PAIRS = 1;
 
     private static final int RESIDENT = 1;
     private static final int SHORTLIST = 2;
-
-    private static final int FIX_VERSION = 1;
-    private static final int PAIR_VERSION = 1;
 
     @Override
     public Class<Cell> type() {
@@ -87,59 +70,20 @@ public final class CellSerializer extends Format<Cell> {
 
     @Override
     public Cell read(int version, DataInputView in) throws IOException {
-        return switch (version) {
-            case LIMITED_PAIRS -> readLimited(in);
-            case WITHOUT_VERSIONS -> read(in, fix -> PositionFixSerializer.INSTANCE.read(FIX_VERSION, fix));
-            case VERSION -> read(in, PositionFixSerializer.INSTANCE::readPart);
-            default -> throw unknown(version);
-        };
-    }
-
-    /** Reads a fix. */
-    private interface Fixes {
-        PositionFix read(DataInputView in) throws IOException;
-    }
-
-    private static Cell read(DataInputView in, Fixes fixes) throws IOException {
+        if (version != VERSION) {
+            throw unknown(version);
+        }
         Cell cell = Cell.empty();
         for (int left = in.readInt(); left > 0; left--) {
             int flags = in.readByte();
-            Member member = Member.of(fixes.read(in), (flags & RESIDENT) != 0);
+            Member member = Member.of(PositionFixSerializer.INSTANCE.readPart(in), (flags & RESIDENT) != 0);
             if ((flags & SHORTLIST) != 0) {
                 member.shortlist(readShortlist(in));
             }
             cell.put(member);
         }
         if (in.readBoolean()) {
-            cell.report(new CrowdReport(in.readLong(), in.readBoolean(), fixes.read(in)));
-        }
-        return cell;
-    }
-
-    /** The pairs that were followed stand on the shortlist of one of both, until it reports. */
-    private static Cell readLimited(DataInputView in) throws IOException {
-        List<Member> members = new ArrayList<>();
-        for (int left = in.readInt(); left > 0; left--) {
-            boolean resident = in.readBoolean();
-            members.add(Member.of(PositionFixSerializer.INSTANCE.read(FIX_VERSION, in), resident));
-        }
-        boolean limited = in.readBoolean();
-        Map<Device, List<String>> followed = new HashMap<>();
-        for (int left = limited ? in.readInt() : 0; left > 0; left--) {
-            Pair pair = PairSerializer.INSTANCE.read(PAIR_VERSION, in);
-            followed.computeIfAbsent(new Device(pair.topic(), pair.first()), none -> new ArrayList<>())
-                    .add(pair.second());
-        }
-        if (limited) {
-            in.readInt();
-            in.readBoolean();
-            in.readLong();
-        }
-        Cell cell = Cell.empty();
-        for (Member member : members) {
-            member.shortlist(
-                    limited ? new Shortlist(followed.getOrDefault(member.fix().device(), List.of())) : null);
-            cell.put(member);
+            cell.report(new CrowdReport(in.readLong(), in.readBoolean(), PositionFixSerializer.INSTANCE.readPart(in)));
         }
         return cell;
     }

@@ -11,7 +11,7 @@ import io.furrow.flink.format.Format;
 /** How a {@link CellUpdate} is written. */
 public final class CellUpdateSerializer extends Format<CellUpdate> {
     private static final long serialVersionUID = 1L;
-    /** Cell, time, code of the presence, fix as a part. In version 1 fixes are without their version, which was 1. */
+    /** Cell, time, code of the presence, fix as a part. */
     private static final int VERSION = 2;
 
     @Override
@@ -34,13 +34,10 @@ public final class CellUpdateSerializer extends Format<CellUpdate> {
 
     @Override
     public CellUpdate read(int version, DataInputView in) throws IOException {
-        if (version < 1 || version > VERSION) {
+        if (version != VERSION) {
             throw unknown(version);
         }
         return new CellUpdate(
-                in.readLong(),
-                in.readLong(),
-                Presence.of(in.readByte()),
-                PositionFixSerializer.INSTANCE.readPart(version, in));
+                in.readLong(), in.readLong(), Presence.of(in.readByte()), PositionFixSerializer.INSTANCE.readPart(in));
     }
 }

@@ -12,7 +12,7 @@ import io.furrow.flink.format.Format;
 /** How a {@link Track} is written. */
 public final class TrackSerializer extends Format<Track> {
     private static final long serialVersionUID = 1L;
-    /** The fix as a part, number of cells, cells. In version 1 fixes are without their version, which was 1. */
+    /** The fix as a part, number of cells, cells. */
     private static final int VERSION = 2;
 
     @Override
@@ -36,10 +36,10 @@ public final class TrackSerializer extends Format<Track> {
 
     @Override
     public Track read(int version, DataInputView in) throws IOException {
-        if (version < 1 || version > VERSION) {
+        if (version != VERSION) {
             throw unknown(version);
         }
-        PositionFix last = PositionFixSerializer.INSTANCE.readPart(version, in);
+        PositionFix last = PositionFixSerializer.INSTANCE.readPart(in);
         long[] cells = new long[in.readInt()];
         for (int i = 0; i < cells.length; i++) {
             cells[i] = in.readLong();

@@ -49,7 +49,7 @@ public final class AssignCarriers
 
     private static final Duration FOR_EVER = Duration.ofMillis(Epochs.SPAN);
 
-    private final DeviceLookup<DeviceVersions> devices;
+    private final DeviceLookup devices;
 
     AssignCarriers(TopicSnapshot devicesAtStart) {
         this(devicesAtStart, false);
@@ -57,7 +57,7 @@ public final class AssignCarriers
 
     /** @param isReplay whether positions come of any time before now, again and again */
     public AssignCarriers(TopicSnapshot devicesAtStart, boolean isReplay) {
-        devices = new DeviceLookup<>(devicesAtStart, isReplay ? FOR_EVER : KEPT, new AsTheyAre());
+        devices = new DeviceLookup(devicesAtStart, isReplay ? FOR_EVER : KEPT);
     }
 
     /** Reads what is known of devices before the first position comes, here and after each restart. */
@@ -88,19 +88,5 @@ public final class AssignCarriers
             return scope.identity(device.carriedBy());
         }
         return device.stationary() ? GROUND : null;
-    }
-
-    private static final class AsTheyAre implements DeviceLookup.StateCodec<DeviceVersions> {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        public DeviceVersions read(DeviceVersions held) {
-            return held;
-        }
-
-        @Override
-        public DeviceVersions held(DeviceVersions versions) {
-            return versions;
-        }
     }
 }

@@ -32,7 +32,6 @@ public final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldA
         Map<String, DeviceVote> latest = new HashMap<>();
         DeviceVote newest = null; // by the version of the field: whose domain counts
         for (DeviceVote vote : votes) {
-            latest.remove(vote.untyped());
             latest.put(vote.voter(), vote);
             newest = newest == null || vote.validFrom() > newest.validFrom() ? vote : newest;
         }
@@ -50,6 +49,6 @@ public final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldA
                 newest.windowStart(),
                 newest.windowEnd(),
                 average.naming(suspects.stream().map(DeviceVote::device).toList()),
-                suspects.stream().map(DeviceVote::typeOrNone).toList()));
+                suspects.stream().map(DeviceVote::type).toList()));
     }
 }

@@ -13,7 +13,7 @@ import io.furrow.analytics.temperature.InputScope;
  * @param value the median of its readings, in the attribute's unit
  * @param windowStart first instant of the window, epoch ms
  * @param windowEnd first instant after the window, epoch ms
- * @param type of the entity; null in state of before types were told apart, until the next reading
+ * @param type of the entity
  */
 public record DeviceVote(
         String field,
@@ -27,20 +27,11 @@ public record DeviceVote(
         String type) {
     /** By id, then by type. */
     static final Comparator<DeviceVote> NAMING =
-            Comparator.comparing(DeviceVote::device).thenComparing(DeviceVote::typeOrNone);
+            Comparator.comparing(DeviceVote::device).thenComparing(DeviceVote::type);
 
     /** Type and id; the length makes it unambiguous: no two devices of a field share it. */
     String voter() {
-        return type == null ? untyped() : type.length() + ":" + type + device;
-    }
-
-    /** The voter of a vote of the device of before types were told apart. */
-    String untyped() {
-        return ":" + device;
-    }
-
-    String typeOrNone() {
-        return type == null ? "" : type;
+        return type.length() + ":" + type + device;
     }
 
     /** The field among those of all topics and tenants: devices of two tenants are never averaged together. */

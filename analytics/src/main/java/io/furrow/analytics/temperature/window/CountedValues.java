@@ -7,7 +7,7 @@ import java.util.List;
 /**
  * What one device measured in one field and window.
  *
- * @param type of its entity; null in state of before types were told apart
+ * @param type of its entity
  * @param values in the attribute's unit, each once, in rising order
  * @param times how often each came
  */

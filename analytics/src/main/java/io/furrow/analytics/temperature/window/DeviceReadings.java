@@ -13,9 +13,9 @@ import io.furrow.analytics.temperature.InputScope;
  * @param validFrom of that version, epoch ms
  * @param device entity id
  * @param values of the first device in the attribute's unit, each once, in rising order
- * @param times how often each came; null in state of before it was counted: then values are in order of arrival, repeated
- * @param type of the first device; null in state of before types were told apart: it is that of the next reading
- * @param others devices of further types; null in such state
+ * @param times how often each came
+ * @param type of the first device; null before the first reading
+ * @param others devices of further types; null if there are none
  */
 public record DeviceReadings(
         String field,
@@ -35,11 +35,6 @@ public record DeviceReadings(
     }
 
     private CountedValues first() {
-        if (times != null) {
-            return new CountedValues(type, values, times);
-        }
-        CountedValues counted = CountedValues.none(type);
-        values.forEach(counted::add);
-        return counted;
+        return new CountedValues(type, values, times);
     }
 }

@@ -1,7 +1,5 @@
 package io.furrow.analytics.collision.grid;
 
-import java.io.IOException;
-import java.util.ArrayList;
 import java.util.List;
 
 import org.apache.flink.api.common.serialization.SerializerConfigImpl;
@@ -16,22 +14,18 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.debounce.SteadyState;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.OpenEncounter;
 import io.furrow.analytics.collision.encounter.Pair;
 import io.furrow.analytics.collision.encounter.PairObservation;
-import io.furrow.analytics.collision.encounter.PairSerializer;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.matching.CellOverflow;
 import io.furrow.analytics.collision.matching.CrowdReport;
-import io.furrow.analytics.collision.matching.Matching;
 import io.furrow.analytics.collision.matching.Shortlist;
 import io.furrow.analytics.collision.position.Fixes;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.analytics.position.PositionFixSerializer;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -97,66 +91,6 @@ class RecordTypesTest {
         assertThat(copy.members()).hasSize(3);
         assertThat(cell.members()).hasSize(2);
         assertThat(cell.report()).isNotNull();
-    }
-
-    @Test
-    void cellsOfAnOlderVersionKeepThePairsThatWereFollowed() throws Exception {
-        List<PositionFix> fixes = List.of(Fixes.east("a", 0, 500), Fixes.east("b", 1, 500), Fixes.east("c", 2, 500));
-        DataInputDeserializer in = new DataInputDeserializer(olderCell(fixes));
-
-        Cell cell = new CellSerializer().read(1, in);
-
-        assertThat(in.available()).isZero();
-        List<String> ended = new ArrayList<>();
-        Matching matching = new Matching(CollisionRules.DEFAULT);
-        for (PositionFix fix : fixes) {
-            CellUpdate gone = new CellUpdate(7, 600, Presence.GONE, fix);
-            cell.apply(
-                    List.of(gone),
-                    matching,
-                    seen -> ended.add(seen.pair().first() + seen.pair().second()));
-        }
-        assertThat(ended).containsExactly("farm|/|bfarm|/|c");
-        assertThat(cell.isEmpty()).isTrue();
-    }
-
-    @Test
-    void aCellOfAnOlderVersionIsReadWithWhatWaitsForIt() throws Exception {
-        byte[] older = olderCell(List.of(Fixes.east("a", 0, 500), Fixes.east("b", 1, 500), Fixes.east("c", 2, 500)));
-        DataOutputSerializer out = new DataOutputSerializer(256);
-        out.writeInt(0);
-        out.writeBoolean(true);
-        out.write(older);
-        PendingUpdatesSerializer format = new PendingUpdatesSerializer();
-
-        var pending = format.read(1, new DataInputDeserializer(out.getCopyOfBuffer()));
-
-        DataOutputSerializer now = new DataOutputSerializer(256);
-        format.write(pending, now);
-        DataInputDeserializer in = new DataInputDeserializer(now.getCopyOfBuffer());
-        assertThat(in.readInt()).isZero();
-        assertThat(in.readBoolean()).isTrue();
-        assertThat(new CellSerializer().readPart(in).members())
-                .containsExactlyInAnyOrderElementsOf(new CellSerializer()
-                        .read(1, new DataInputDeserializer(older))
-                        .members());
-    }
-
-    /** Version 1: three devices of which the second pair is followed. */
-    private static byte[] olderCell(List<PositionFix> fixes) throws IOException {
-        DataOutputSerializer out = new DataOutputSerializer(256);
-        out.writeInt(fixes.size());
-        for (PositionFix fix : fixes) {
-            out.writeBoolean(true);
-            PositionFixSerializer.INSTANCE.write(fix, out);
-        }
-        out.writeBoolean(true);
-        out.writeInt(1);
-        PairSerializer.INSTANCE.write(Pair.of(fixes.get(1), fixes.get(2)), out);
-        out.writeInt(3);
-        out.writeBoolean(true);
-        out.writeLong(500);
-        return out.getCopyOfBuffer();
     }
 
     private static Member inACrowd(PositionFix fix) {

@@ -63,7 +63,7 @@ class AssignCarriersTest {
                 .isFalse();
     }
 
-    /** Also what an older build knew of the device, without its type. */
+    /** Whether or not the identity names the type. */
     @Test
     void takesEntitiesOfOneIdForOneThing() {
         PositionFix tractor = Fixes.of("farm|/|Tractor|e-12", "e-12", "m", 0, 10, 1500);

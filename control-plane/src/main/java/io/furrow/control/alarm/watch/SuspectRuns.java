@@ -27,7 +27,7 @@ record SuspectRuns(String field, long windowEnd, Map<String, Integer> windows) {
         return new SuspectRuns(field, window.windowEnd(), now);
     }
 
-    /** A run that an older version counted is by id alone. */
+    /** A run of results that named no types is by id alone. */
     int of(FieldWindow.Suspect suspect) {
         return windows.getOrDefault(suspect.key(), windows.getOrDefault(suspect.id(), 0));
     }

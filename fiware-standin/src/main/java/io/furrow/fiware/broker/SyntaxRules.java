@@ -1,13 +1,14 @@
-package io.furrow.fiware.api;
+package io.furrow.fiware.broker;
 
 import java.util.Optional;
 import java.util.Set;
+import java.util.function.Predicate;
 import java.util.regex.Pattern;
+import java.util.regex.PatternSyntaxException;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.broker.EntityUpdate;
+import io.furrow.fiware.http.NgsiError;
 import io.furrow.model.ngsi.Entity;
 
 /**
@@ -39,6 +40,15 @@ public final class SyntaxRules {
         checkIdentifier(name, "attribute name");
         if (isReserved(name)) {
             throw NgsiError.badRequest("the name '" + name + "' is reserved and cannot be that of an attribute");
+        }
+    }
+
+    /** A regular expression, for a part of a text. */
+    public static Predicate<String> pattern(String regex) throws NgsiError {
+        try {
+            return Pattern.compile(regex).asPredicate();
+        } catch (PatternSyntaxException e) {
+            throw NgsiError.badRequest("invalid regular expression: " + regex);
         }
     }
 

@@ -1,8 +1,6 @@
-package io.furrow.fiware;
+package io.furrow.fiware.http;
 
 import java.util.Collection;
-
-import io.furrow.fiware.broker.EntityUpdate;
 
 /** A refused request: HTTP status and the texts of Orion's {@code {"error", "description"}}. */
 public final class NgsiError extends Exception {
@@ -49,17 +47,9 @@ public final class NgsiError extends Exception {
         return notFound("The requested subscription has not been found. Check id");
     }
 
-    public static NgsiError noType() {
-        return notFound("Entity type not found");
-    }
-
-    public static NgsiError noRegistration() {
-        return notFound("The requested registration has not been found. Check id");
-    }
-
     /** Of a batch. */
-    public static NgsiError noEntity(EntityUpdate request) {
-        return notFound("do not exist: " + request.label() + " - [entity itself]");
+    public static NgsiError noEntity(String label) {
+        return notFound("do not exist: " + label + " - [entity itself]");
     }
 
     private static NgsiError notFound(String description) {
@@ -86,17 +76,8 @@ public final class NgsiError extends Exception {
         return unprocessable("Already Exists");
     }
 
-    public static NgsiError noAttributes(EntityUpdate request, Collection<String> names) {
-        return unprocessable("do not exist: " + request.label() + listed(names));
-    }
-
-    public static NgsiError attributesExist(EntityUpdate request, Collection<String> names) {
-        return unprocessable(
-                "one or more of the attributes in the request already exist: " + request.label() + listed(names));
-    }
-
-    private static String listed(Collection<String> names) {
-        return " - [ " + String.join(", ", names) + " ]";
+    public static NgsiError noAttributes(String label, Collection<String> names) {
+        return unprocessable("do not exist: " + label + " - [ " + String.join(", ", names) + " ]");
     }
 
     private static NgsiError unprocessable(String description) {

@@ -1,6 +1,5 @@
-package io.furrow.fiware;
+package io.furrow.fiware.http;
 
-import java.util.Arrays;
 import java.util.List;
 import java.util.Optional;
 
@@ -8,7 +7,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.eclipse.jetty.http.HttpFields;
 import org.eclipse.jetty.util.Fields;
 
-import io.furrow.fiware.broker.PathFilter;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -23,6 +21,8 @@ public record Call(
         String method, List<String> path, Fields query, HttpFields headers, Correlator correlator, byte[] body) {
     public static final String SERVICE = "fiware-service";
     public static final String SERVICE_PATH = "fiware-servicepath";
+    private static final int DEFAULT_LIMIT = 20;
+    private static final int MAX_LIMIT = 1000;
 
     public Optional<String> parameter(String name) {
         return Optional.ofNullable(query.getValue(name)).filter(value -> !value.isEmpty());
@@ -35,6 +35,28 @@ public record Call(
 
     public boolean option(String name) {
         return list("options").contains(name);
+    }
+
+    /** How many elements of a list are skipped. */
+    public int offset() throws NgsiError {
+        return number("offset", 0);
+    }
+
+    /** How many elements of a list are answered at most. */
+    public int limit() throws NgsiError {
+        int limit = number("limit", DEFAULT_LIMIT);
+        if (limit > MAX_LIMIT) {
+            throw NgsiError.badRequest("Bad pagination limit: /" + limit + "/ [max: " + MAX_LIMIT + "]");
+        }
+        return limit;
+    }
+
+    private int number(String name, int otherwise) throws NgsiError {
+        String text = parameter(name).orElse(Integer.toString(otherwise));
+        if (!text.matches("\\d{1,9}")) {
+            throw NgsiError.badRequest("Bad pagination " + name + ": /" + text + "/ [must be a decimal number]");
+        }
+        return Integer.parseInt(text);
     }
 
     public boolean lacks(String header) {
@@ -72,7 +94,7 @@ public record Call(
     }
 
     public JsonNode json() throws NgsiError {
-        requireMediaType("application/json");
+        requireJson();
         try {
             return NgsiJson.read(body);
         } catch (UnreadableException e) {
@@ -80,10 +102,10 @@ public record Call(
         }
     }
 
-    public void requireMediaType(String... accepted) throws NgsiError {
+    public void requireJson() throws NgsiError {
         String type = headers.get("Content-Type");
         String bare = type == null ? "" : type.split(";")[0].trim();
-        if (!Arrays.asList(accepted).contains(bare)) {
+        if (!bare.equals("application/json")) {
             throw NgsiError.badMediaType(bare);
         }
     }

@@ -1,4 +1,4 @@
-package io.furrow.fiware;
+package io.furrow.fiware.http;
 
 import java.util.UUID;
 import java.util.concurrent.atomic.AtomicInteger;

@@ -1,16 +1,16 @@
-package io.furrow.fiware.api;
+package io.furrow.fiware.broker;
 
+import java.math.BigDecimal;
 import java.time.Instant;
 import java.util.Map;
 import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.broker.Attribute;
-import io.furrow.fiware.broker.NgsiTime;
+import io.furrow.fiware.http.NgsiError;
 
 /**
  * An attribute of a request.
@@ -23,7 +23,7 @@ public record AttributeInput(Optional<String> type, JsonNode value, Optional<Obj
         return new AttributeInput(Optional.of(type), value, Optional.empty());
     }
 
-    static AttributeInput valueOnly(JsonNode value) {
+    public static AttributeInput valueOnly(JsonNode value) {
         return new AttributeInput(Optional.empty(), value, Optional.empty());
     }
 
@@ -41,15 +41,10 @@ public record AttributeInput(Optional<String> type, JsonNode value, Optional<Obj
                 now);
     }
 
-    /** Merges with the stored attribute; metadata not in the request stay unless all are overridden. */
-    public Attribute merged(Attribute before, boolean overrideMetadata, Instant now) throws NgsiError {
-        ObjectNode merged = before.metadata();
-        if (overrideMetadata) {
-            merged = metadata.orElseGet(JsonNodeFactory.instance::objectNode);
-        } else if (metadata.isPresent()) {
-            merged = before.metadata().deepCopy();
-            merged.setAll(metadata.get());
-        }
+    /** Merges with the stored attribute; metadata not in the request stay. */
+    public Attribute merged(Attribute before, Instant now) throws NgsiError {
+        ObjectNode merged = before.metadata().deepCopy();
+        metadata.ifPresent(merged::setAll);
         return attribute(type.orElse(before.type()), merged, before.created(), now);
     }
 
@@ -93,5 +88,25 @@ public record AttributeInput(Optional<String> type, JsonNode value, Optional<Obj
             case OBJECT, ARRAY -> "StructuredValue";
             default -> "None";
         };
+    }
+
+    /** Numbers in the context broker's format: 18.0 and 18 are the same value, written 18. */
+    public static JsonNode canonical(JsonNode value) {
+        if (value.isBigDecimal()) {
+            BigDecimal number = value.decimalValue().stripTrailingZeros();
+            return number.scale() > 0 || number.precision() - number.scale() > 18
+                    ? JsonNodeFactory.instance.numberNode(number)
+                    : JsonNodeFactory.instance.numberNode(number.longValueExact());
+        }
+        if (value instanceof ObjectNode object) {
+            object.properties().forEach(member -> member.setValue(canonical(member.getValue())));
+        } else if (value instanceof ArrayNode array) {
+            for (int i = 0; i < array.size(); i++) {
+                array.set(i, canonical(array.get(i)));
+            }
+        } else if (value.isInt()) {
+            return JsonNodeFactory.instance.numberNode(value.longValue());
+        }
+        return value;
     }
 }

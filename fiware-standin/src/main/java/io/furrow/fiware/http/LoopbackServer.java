@@ -1,4 +1,4 @@
-package io.furrow.fiware;
+package io.furrow.fiware.http;
 
 import java.io.IOException;
 import java.io.InputStream;
@@ -53,7 +53,7 @@ public final class LoopbackServer implements AutoCloseable {
      *
      * @param allowed hosts and origins besides loopback
      */
-    static LoopbackServer start(String name, int port, AllowedNames allowed, Endpoint endpoint) {
+    public static LoopbackServer start(String name, int port, AllowedNames allowed, Endpoint endpoint) {
         LoopbackServer server = new LoopbackServer(name, port, allowed, endpoint);
         try {
             server.connector.open();
@@ -88,7 +88,7 @@ public final class LoopbackServer implements AutoCloseable {
                 new Answering(endpoint)));
     }
 
-    URI uri() {
+    public URI uri() {
         return URI.create("http://" + HOST + ":" + connector.getLocalPort());
     }
 

@@ -1,4 +1,4 @@
-package io.furrow.fiware.broker;
+package io.furrow.fiware.http;
 
 import java.util.List;
 
@@ -13,7 +13,7 @@ public record PathFilter(List<String> patterns) {
         return new PathFilter(List.of(header.split("\\s*,\\s*")));
     }
 
-    boolean isOnePath() {
+    public boolean isOnePath() {
         return patterns.size() == 1 && !patterns.get(0).endsWith("/#");
     }
 

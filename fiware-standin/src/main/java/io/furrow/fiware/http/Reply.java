@@ -1,4 +1,4 @@
-package io.furrow.fiware;
+package io.furrow.fiware.http;
 
 import java.nio.charset.StandardCharsets;
 import java.util.Map;

@@ -1,4 +1,4 @@
-package io.furrow.fiware.api;
+package io.furrow.fiware.broker;
 
 import java.net.URI;
 import java.net.URISyntaxException;
@@ -17,24 +17,19 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.NgsiError;
-import io.furrow.fiware.broker.Change;
-import io.furrow.fiware.broker.NgsiTime;
-import io.furrow.fiware.broker.QueryFilter;
-import io.furrow.fiware.broker.Rendering;
-import io.furrow.fiware.broker.SubscriptionDefinition;
 import io.furrow.fiware.broker.SubscriptionDefinition.Limits;
 import io.furrow.fiware.broker.SubscriptionDefinition.Selector;
 import io.furrow.fiware.broker.SubscriptionDefinition.Subject;
 import io.furrow.fiware.broker.SubscriptionDefinition.Target;
+import io.furrow.fiware.http.NgsiError;
 
 /**
  * Reads {@code POST /v2/subscriptions}. Refuses options of Orion that the stand-in lacks by name; ignores unknown ones,
  * as Orion does.
  */
 public final class SubscriptionReader {
-    private static final Set<String> CONDITION_UNSUPPORTED = Set.of("mq", "georel", "geometry", "coords");
-    private static final Set<String> NOTIFICATION_UNSUPPORTED = Set.of("mqtt", "mqttCustom", "kafka", "kafkaCustom");
+    private static final Set<String> NOTIFICATION_UNSUPPORTED =
+            Set.of("mqtt", "mqttCustom", "kafka", "kafkaCustom", "exceptAttrs");
     private static final Set<String> TARGET_UNSUPPORTED = Set.of("qs", "method", "payload", "json", "ngsi");
 
     private SubscriptionReader() {}
@@ -73,19 +68,19 @@ public final class SubscriptionReader {
         if (!condition.path("notifyOnMetadataChange").asBoolean(true)) {
             throw NgsiError.unsupported("condition with 'notifyOnMetadataChange' false");
         }
-        JsonNode expression = condition.path("expression");
-        refuse(CONDITION_UNSUPPORTED, expression, "condition.expression");
-        Optional<QueryFilter> filter = expression.has("q")
-                ? Optional.of(QueryFilter.parse(expression.get("q").asText()))
-                : Optional.empty();
-        return new Subject(selectors, Set.copyOf(texts(condition, "attrs")), filter, kinds(condition));
+        for (String unsupported : List.of("attrs", "expression")) {
+            if (!condition.path(unsupported).isEmpty()) {
+                throw NgsiError.unsupported("condition with '" + unsupported + "'");
+            }
+        }
+        return new Subject(selectors, kinds(condition));
     }
 
     private static Predicate<String> matcher(JsonNode entity, String exact, String pattern) throws NgsiError {
         if (entity.has(exact)) {
             return entity.get(exact).asText()::equals;
         }
-        return entity.has(pattern) ? QueryFilter.pattern(entity.get(pattern).asText()) : any -> true;
+        return entity.has(pattern) ? SyntaxRules.pattern(entity.get(pattern).asText()) : any -> true;
     }
 
     private static Set<Change.Kind> kinds(JsonNode condition) throws NgsiError {
@@ -137,14 +132,10 @@ public final class SubscriptionReader {
     }
 
     private static Rendering rendering(JsonNode json) throws NgsiError {
-        if (json.has("attrs") && json.has("exceptAttrs")) {
-            throw NgsiError.badRequest("http notification has both attrs and exceptAttrs");
-        }
         String name = json.path("attrsFormat").asText("normalized");
         for (Rendering.Format format : Rendering.Format.values()) {
-            if (format.label().equals(name) && format != Rendering.Format.UNIQUE) {
-                return new Rendering(
-                        texts(json, "attrs"), Set.copyOf(texts(json, "exceptAttrs")), texts(json, "metadata"), format);
+            if (format.label().equals(name)) {
+                return new Rendering(texts(json, "attrs"), texts(json, "metadata"), format);
             }
         }
         throw NgsiError.badRequest("invalid attrsFormat, accepted values: normalized, simplifiedNormalized, "
@@ -182,7 +173,7 @@ public final class SubscriptionReader {
                 .forEach(entity -> subject.withArray("entities")
                         .add(copy(entity, List.of("id", "idPattern", "type", "typePattern"))));
         JsonNode condition = json.at("/subject/condition");
-        ObjectNode conditionShown = copy(condition, List.of("attrs", "expression", "alterationTypes"));
+        ObjectNode conditionShown = copy(condition, List.of("attrs", "alterationTypes"));
         if (!conditionShown.has("attrs")) {
             conditionShown.putArray("attrs");
         }
@@ -192,9 +183,8 @@ public final class SubscriptionReader {
     }
 
     private static ObjectNode notification(JsonNode json) {
-        ObjectNode shown =
-                copy(json, List.of("http", "httpCustom", "attrs", "exceptAttrs", "metadata", "maxFailsLimit"));
-        if (!shown.has("attrs") && !shown.has("exceptAttrs")) {
+        ObjectNode shown = copy(json, List.of("http", "httpCustom", "attrs", "metadata", "maxFailsLimit"));
+        if (!shown.has("attrs")) {
             shown.putArray("attrs");
         }
         return shown.put("onlyChangedAttrs", json.path("onlyChangedAttrs").asBoolean(false))

@@ -1,0 +1,2 @@
+/** HTTP of both servers: requests, responses, and errors with the texts of Orion. */
+package io.furrow.fiware.http;
