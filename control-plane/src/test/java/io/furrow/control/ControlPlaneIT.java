@@ -39,10 +39,10 @@ import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.Requests;
-import io.furrow.model.control.mission.MissionPlan;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.MissionPlan;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayPlan;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

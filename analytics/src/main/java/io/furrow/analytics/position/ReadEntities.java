@@ -12,7 +12,7 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
 import io.furrow.flink.time.Epochs;
 import io.furrow.flink.time.ReplayKind;
-import io.furrow.model.ngsi.EntityReader;
+import io.furrow.model.position.EntityReader;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.result.ResultTypes;
 

@@ -13,7 +13,7 @@ import io.furrow.flink.time.Epochs;
 import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
-import io.furrow.model.ngsi.EntityReader;
+import io.furrow.model.position.EntityReader;
 import io.furrow.model.ngsi.Quantity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.Position;

@@ -20,7 +20,7 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
-import io.furrow.model.ngsi.EntityReader;
+import io.furrow.model.position.EntityReader;
 import io.furrow.model.ngsi.Quantity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.Position;

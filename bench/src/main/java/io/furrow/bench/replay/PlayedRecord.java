@@ -10,7 +10,7 @@ import org.apache.kafka.common.header.Header;
 
 import io.furrow.flink.record.TopicRecordFormat;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.replay.playback.Played;
 import io.furrow.replay.record.EventEncoder;

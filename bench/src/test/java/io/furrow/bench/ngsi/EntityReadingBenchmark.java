@@ -20,7 +20,7 @@ import org.openjdk.jmh.annotations.Warmup;
 import org.openjdk.jmh.infra.Blackhole;
 
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.EntityReader;
+import io.furrow.model.position.EntityReader;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.PositionReading;
 

@@ -14,7 +14,7 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;

@@ -29,7 +29,7 @@ import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.topic.Topics;

@@ -11,7 +11,7 @@ import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.record.Records;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.topic.Topics;
 
 /** The templates, version by version. A version never changes, and its number is never given again. */

@@ -7,8 +7,8 @@ import java.util.stream.LongStream;
 
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.mission.RecordedMission;
-import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.RecordedMission;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.topic.TopicName;
 
 /**

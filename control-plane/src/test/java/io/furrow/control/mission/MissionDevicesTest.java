@@ -13,9 +13,9 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.mission.DeviceGroup;
-import io.furrow.model.control.mission.MissionDevices;
-import io.furrow.model.control.mission.MissionPlan;
+import io.furrow.model.control.DeviceGroup;
+import io.furrow.model.control.MissionDevices;
+import io.furrow.model.control.MissionPlan;
 import io.furrow.model.topic.Topics;
 
 import static com.fasterxml.jackson.databind.node.JsonNodeFactory.instance;

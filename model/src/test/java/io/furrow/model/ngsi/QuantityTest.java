@@ -1,5 +1,7 @@
 package io.furrow.model.ngsi;
 
+import io.furrow.model.position.EntityReader;
+
 import java.nio.charset.StandardCharsets;
 import java.util.Set;
 

@@ -21,7 +21,7 @@ import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Skipped;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;

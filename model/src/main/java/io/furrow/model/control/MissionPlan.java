@@ -1,13 +1,10 @@
-package io.furrow.model.control.mission;
+package io.furrow.model.control;
 
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.RequestMembers;
 
 /** The devices that a mission is created from. */
 public sealed interface MissionPlan {

@@ -1,4 +1,4 @@
-package io.furrow.model.control.replay;
+package io.furrow.model.control;
 
 import java.util.Locale;
 import java.util.Objects;
@@ -7,8 +7,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.Limits;
-import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;

@@ -1,4 +1,5 @@
-package io.furrow.model.device;
+package io.furrow.model.control;
+
 
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -9,8 +10,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.RequestMembers;
 
 /**
  * An attribute of a device's entity, and the member of its MQTT messages that the IoT Agent makes it from. What a device sends follows
@@ -64,20 +63,21 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
      * What a device sends: first what is measured, then what all devices may send. A real device whose place is known does not send
      * it, and a simulated one of a known type sends what its type says.
      *
-     * @param device with its settings, {@code attributes} checked
+     * @param named the member {@code attributes} of its settings, checked
+     * @param placed whether its place is known
      */
-    public static List<MeasuredAttribute> of(DesiredDevice device) {
+    public static List<MeasuredAttribute> of(String type, boolean simulated, JsonNode named, boolean placed) {
         Map<String, MeasuredAttribute> byName = new LinkedHashMap<>();
-        List<MeasuredAttribute> known = BY_TYPE.getOrDefault(device.type(), List.of());
+        List<MeasuredAttribute> known = BY_TYPE.getOrDefault(type, List.of());
         known.forEach(each -> byName.put(each.name(), each));
         COMMON.forEach(each -> byName.put(each.name(), each));
-        if (known.isEmpty() || !device.simulated()) {
-            device.settings().path("attributes").forEach(each -> {
+        if (known.isEmpty() || !simulated) {
+            named.forEach(each -> {
                 MeasuredAttribute own = parse(each);
                 byName.put(own.name(), own);
             });
         }
-        if (device.place() != null) {
+        if (placed) {
             byName.remove(LATITUDE);
             byName.remove(LONGITUDE);
         }

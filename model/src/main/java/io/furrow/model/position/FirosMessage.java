@@ -1,4 +1,7 @@
-package io.furrow.model.ngsi;
+package io.furrow.model.position;
+
+import io.furrow.model.ngsi.AttributeValue;
+import io.furrow.model.ngsi.StrictTokens;
 
 import java.io.IOException;
 import java.util.Arrays;
@@ -6,8 +9,6 @@ import java.util.Arrays;
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 
-import io.furrow.model.position.PositionReading;
-import io.furrow.model.position.PositionRules;
 
 /** Reads the position out of FIROS' text, JSON whose quotes are written {@code %27}, without a tree. */
 final class FirosMessage {

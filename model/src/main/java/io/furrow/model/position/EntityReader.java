@@ -1,4 +1,4 @@
-package io.furrow.model.ngsi;
+package io.furrow.model.position;
 
 import java.io.IOException;
 import java.time.Instant;
@@ -10,9 +10,11 @@ import java.util.Set;
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 
-import io.furrow.model.position.LocationValue;
-import io.furrow.model.position.PositionReading;
-import io.furrow.model.position.PositionRules;
+import io.furrow.model.ngsi.AttributeValue;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.Quantity;
+import io.furrow.model.ngsi.StrictTokens;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.Utf8;
 import io.furrow.model.time.Instants;
 

@@ -1,12 +1,9 @@
-package io.furrow.model.control.mission;
+package io.furrow.model.control;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.RequestMembers;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 

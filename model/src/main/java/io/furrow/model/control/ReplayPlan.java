@@ -1,4 +1,4 @@
-package io.furrow.model.control.replay;
+package io.furrow.model.control;
 
 import java.time.Duration;
 import java.time.Instant;
@@ -9,9 +9,6 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.RequestMembers;
-import io.furrow.model.control.mission.DeviceGroup;
 
 /**
  * What a replay plays, as it was asked for at its start.

@@ -1,4 +1,4 @@
-package io.furrow.model.control.replay;
+package io.furrow.model.control;
 
 import java.nio.charset.StandardCharsets;
 import java.util.List;
@@ -7,7 +7,6 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.ngsi.UnreadableException;
 
 import static org.assertj.core.api.Assertions.assertThat;

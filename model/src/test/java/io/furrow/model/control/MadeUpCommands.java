@@ -1,4 +1,4 @@
-package io.furrow.model.control.replay;
+package io.furrow.model.control;
 
 import java.time.Duration;
 import java.time.Instant;
@@ -10,14 +10,6 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.DomainCommand;
-import io.furrow.model.control.DomainDetails;
-import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.mission.DeviceGroup;
-import io.furrow.model.control.mission.MissionDevices;
-import io.furrow.model.control.mission.MissionPlan;
-import io.furrow.model.control.mission.MissionTemplate;
 
 /** Commands of every kind, with and without what they may leave out. */
 public final class MadeUpCommands {

@@ -1,4 +1,4 @@
-package io.furrow.model.control.mission;
+package io.furrow.model.control;
 
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -11,10 +11,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.Limits;
-import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.RequestMembers;
 
 /**
  * The devices of a mission or of a template, group by group. Names are unique, what carries is there, nothing carries itself.

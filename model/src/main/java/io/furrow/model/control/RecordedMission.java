@@ -1,10 +1,8 @@
-package io.furrow.model.control.mission;
+package io.furrow.model.control;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.RequestMembers;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;

@@ -1,11 +1,9 @@
-package io.furrow.model.control.mission;
+package io.furrow.model.control;
 
 import java.nio.charset.StandardCharsets;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;

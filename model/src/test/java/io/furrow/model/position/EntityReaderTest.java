@@ -1,4 +1,4 @@
-package io.furrow.model.ngsi;
+package io.furrow.model.position;
 
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
@@ -15,7 +15,15 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
-import io.furrow.model.position.PositionReading;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.JsonTestSuiteTest;
+import io.furrow.model.ngsi.MadeUpEntities;
+import io.furrow.model.ngsi.Mutations;
+import io.furrow.model.ngsi.Notification;
+import io.furrow.model.ngsi.Quantity;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.RecordedNotification;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.time.Instants;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -1,4 +1,4 @@
-package io.furrow.model.control.mission;
+package io.furrow.model.control;
 
 import java.time.Duration;
 import java.time.Instant;
@@ -11,9 +11,6 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.RequestMembers;
-import io.furrow.model.device.MeasuredAttribute;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**

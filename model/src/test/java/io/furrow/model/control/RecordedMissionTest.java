@@ -1,4 +1,4 @@
-package io.furrow.model.control.mission;
+package io.furrow.model.control;
 
 import java.nio.charset.StandardCharsets;
 
