@@ -11,7 +11,7 @@ import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.device.RecognizeDevices;
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.kafka.KafkaOutput;
-import io.furrow.flink.record.DeduplicateById;
+import io.furrow.flink.time.DeduplicateById;
 import io.furrow.flink.time.AheadLimit;
 import io.furrow.flink.time.KeyedLatenessOperator;
 import io.furrow.flink.time.KeyedTimelessBroadcastOperator;

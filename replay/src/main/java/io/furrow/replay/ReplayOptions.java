@@ -19,7 +19,7 @@ import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
 
 import io.furrow.flink.job.JobOptions;
-import io.furrow.flink.job.TopicOptions;
+import io.furrow.flink.kafka.TopicOptions;
 import io.furrow.flink.job.WithoutEventTime;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.mongo.MongoAccess;

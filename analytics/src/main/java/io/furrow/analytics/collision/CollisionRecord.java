@@ -8,7 +8,7 @@ import io.furrow.analytics.collision.motion.Approach;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.record.ResultRecord;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.result.CollisionResult;

@@ -9,7 +9,7 @@ import org.apache.flink.util.Collector;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;

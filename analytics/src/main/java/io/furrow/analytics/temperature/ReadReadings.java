@@ -10,10 +10,10 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.util.Collector;
 
 import io.furrow.analytics.position.ReadEntities;
-import io.furrow.flink.kafka.LargeRecords;
+import io.furrow.flink.record.LargeRecords;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;

@@ -16,7 +16,7 @@ import io.furrow.analytics.temperature.suspect.DeviceVote;
 import io.furrow.analytics.temperature.suspect.VoteStage;
 import io.furrow.analytics.temperature.window.FieldAverage;
 import io.furrow.flink.record.DeadLetters;
-import io.furrow.flink.record.DeduplicateById;
+import io.furrow.flink.time.DeduplicateById;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
 import io.furrow.flink.time.KeyedLatenessOperator;

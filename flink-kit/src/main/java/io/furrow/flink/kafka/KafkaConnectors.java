@@ -23,8 +23,7 @@ import io.furrow.flink.job.StartPosition;
 import io.furrow.flink.job.TransactionTimeout;
 import io.furrow.flink.record.Receipt;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.record.TopicRecordFormat;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.time.ReceiptBoundWatermarks;
 import io.furrow.flink.time.ReplayWatermarks;
 

@@ -1,5 +1,7 @@
 package io.furrow.flink.job;
 
+import io.furrow.flink.kafka.TopicOptions;
+
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;

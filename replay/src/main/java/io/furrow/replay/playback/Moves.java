@@ -1,6 +1,6 @@
 package io.furrow.replay.playback;
 
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Span;
 import io.furrow.model.control.DesiredReplay;

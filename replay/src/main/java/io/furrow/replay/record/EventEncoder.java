@@ -16,7 +16,7 @@ import org.apache.kafka.common.header.internals.RecordHeader;
 
 import io.furrow.flink.record.HeaderTexts;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Skipped;

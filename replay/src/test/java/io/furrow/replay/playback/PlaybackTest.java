@@ -5,7 +5,7 @@ import java.util.Optional;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Span;

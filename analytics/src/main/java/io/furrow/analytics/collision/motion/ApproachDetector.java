@@ -5,7 +5,7 @@ import java.util.function.Consumer;
 import io.furrow.analytics.collision.motion.space.Cubes;
 import io.furrow.analytics.collision.motion.space.Place;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 
 /**
  * Finds out whether two legs come within the threshold, for one cube.

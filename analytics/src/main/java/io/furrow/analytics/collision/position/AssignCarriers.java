@@ -17,7 +17,7 @@ import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.device.DeviceLookup;
 import io.furrow.flink.device.DeviceVersions;
 import io.furrow.flink.kafka.TopicSnapshot;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.FiwareScope;
 

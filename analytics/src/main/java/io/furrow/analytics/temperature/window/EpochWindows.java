@@ -12,7 +12,7 @@ import org.apache.flink.streaming.api.windowing.triggers.EventTimeTrigger;
 import org.apache.flink.streaming.api.windowing.triggers.Trigger;
 import org.apache.flink.streaming.api.windowing.windows.TimeWindow;
 
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 
 /**
  * Windows of event time that begin at whole multiples of the slide since 1970 of the original time, in each epoch of a replay: a

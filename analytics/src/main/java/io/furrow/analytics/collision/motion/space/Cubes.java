@@ -5,7 +5,7 @@ import java.util.Arrays;
 
 import io.furrow.analytics.collision.motion.Leg;
 import io.furrow.analytics.collision.motion.MotionRules;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 
 /**
  * Space cut into cubes. A leg belongs to every cube that the threshold's surroundings of it may touch; what two legs have to do

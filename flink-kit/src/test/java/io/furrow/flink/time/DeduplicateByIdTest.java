@@ -1,4 +1,4 @@
-package io.furrow.flink.record;
+package io.furrow.flink.time;
 
 import java.time.Duration;
 import java.util.Map;
@@ -16,7 +16,6 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.time.KeyedLatenessOperator;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -1,6 +1,5 @@
-package io.furrow.flink.time;
+package io.furrow.flink.record;
 
-import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;

@@ -1,8 +1,7 @@
-package io.furrow.flink.kafka;
+package io.furrow.flink.record;
 
 import java.util.Arrays;
 
-import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.Original;
 
 /**

@@ -1,4 +1,4 @@
-package io.furrow.flink.time;
+package io.furrow.flink.record;
 
 import java.util.Map;
 
@@ -6,7 +6,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.UnreadableException;
 

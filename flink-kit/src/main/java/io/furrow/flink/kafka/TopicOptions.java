@@ -1,4 +1,4 @@
-package io.furrow.flink.job;
+package io.furrow.flink.kafka;
 
 import java.io.Serializable;
 import java.time.Duration;
@@ -11,7 +11,7 @@ import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.common.config.TopicConfig;
 import picocli.CommandLine.Option;
 
-import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.job.CountConverter;
 import io.furrow.model.topic.Topics;
 
 /** How topics are made that a job writes to and that are not there; those that exist stay as they are. */

@@ -1,4 +1,4 @@
-package io.furrow.flink.record;
+package io.furrow.flink.time;
 
 import java.io.Serializable;
 import java.time.Duration;
@@ -16,8 +16,6 @@ import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
 import io.furrow.flink.job.PerMission;
-import io.furrow.flink.time.EventTimeReached;
-import io.furrow.flink.time.JudgesLateness;
 
 /**
  * Deduplicates events by id within a time after the first one; keyed by entity, so that their order is preserved.
