@@ -1,9 +1,8 @@
-package io.furrow.mission.mongo;
+package io.furrow.mission;
 
 import java.util.ArrayDeque;
 import java.util.Deque;
 
-import io.furrow.mission.Cursor;
 
 /** Finds the wanted event before the last wanted ones of those that are added in their order. Holds one cursor for each of these. */
 public final class CursorsBack {
