@@ -12,8 +12,6 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.ingest.image.store.ImageStore;
-import io.furrow.ingest.image.store.StoredImage;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;

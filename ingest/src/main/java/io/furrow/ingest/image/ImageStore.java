@@ -1,10 +1,7 @@
-package io.furrow.ingest.image.store;
+package io.furrow.ingest.image;
 
 import java.io.IOException;
 
-import io.furrow.ingest.image.Image;
-import io.furrow.ingest.image.ImageName;
-import io.furrow.ingest.image.ImageSettings;
 
 /** Where images go. */
 public interface ImageStore {

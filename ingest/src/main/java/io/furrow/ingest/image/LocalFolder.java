@@ -1,4 +1,4 @@
-package io.furrow.ingest.image.store;
+package io.furrow.ingest.image;
 
 import java.io.IOException;
 import java.nio.channels.FileChannel;

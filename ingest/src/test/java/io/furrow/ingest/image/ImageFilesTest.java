@@ -1,4 +1,4 @@
-package io.furrow.ingest.image.store;
+package io.furrow.ingest.image;
 
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
@@ -16,12 +16,6 @@ import org.apache.flink.core.fs.LimitedConnectionsFileSystem;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.ingest.image.Image;
-import io.furrow.ingest.image.ImageName;
-import io.furrow.ingest.image.ImageSettings;
-import io.furrow.ingest.image.Pictures;
-import io.furrow.ingest.image.RecordingFiles;
-import io.furrow.ingest.image.Storing;
 import io.furrow.model.event.FiwareScope;
 
 import static org.assertj.core.api.Assertions.assertThat;

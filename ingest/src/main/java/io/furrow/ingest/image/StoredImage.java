@@ -1,9 +1,8 @@
-package io.furrow.ingest.image.store;
+package io.furrow.ingest.image;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.ingest.image.Image;
 
 /** What an event carries instead of its image: where it is, and what it was. */
 public record StoredImage(String url, String sha256, int bytes, String contentType) {

@@ -1,4 +1,4 @@
-package io.furrow.ingest.image.store;
+package io.furrow.ingest.image;
 
 import java.io.File;
 import java.io.FileNotFoundException;
@@ -14,9 +14,6 @@ import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.FileSystem.WriteMode;
 import org.apache.flink.core.fs.Path;
 
-import io.furrow.ingest.image.Image;
-import io.furrow.ingest.image.ImageName;
-import io.furrow.ingest.image.Sha256;
 
 /**
  * Images as files on a Flink file system. A file appears whole or not at all: it is written under another name and renamed,

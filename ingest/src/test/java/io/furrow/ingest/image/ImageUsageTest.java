@@ -1,4 +1,4 @@
-package io.furrow.ingest.image.store;
+package io.furrow.ingest.image;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -7,9 +7,6 @@ import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.ingest.image.ImageFormat;
-import io.furrow.ingest.image.ImageName;
-import io.furrow.ingest.image.Pictures;
 import io.furrow.model.event.FiwareScope;
 
 import static org.assertj.core.api.Assertions.assertThat;

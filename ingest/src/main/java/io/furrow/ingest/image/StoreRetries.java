@@ -1,10 +1,8 @@
-package io.furrow.ingest.image.store;
+package io.furrow.ingest.image;
 
 import java.io.IOException;
 import java.time.Duration;
 
-import io.furrow.ingest.image.ImageMover;
-import io.furrow.ingest.image.Moved;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.time.Backoff;
 
