@@ -6,6 +6,7 @@ import org.apache.flink.streaming.api.datastream.DataStreamUtils;
 import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.clock.LaggingPosition;
 import io.furrow.analytics.collision.debounce.DebounceEncounters;
 import io.furrow.analytics.collision.encounter.Encounter;

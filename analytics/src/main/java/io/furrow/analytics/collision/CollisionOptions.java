@@ -4,6 +4,7 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.clock.ClockSettings;
 import io.furrow.analytics.collision.motion.MotionOptions;
 import io.furrow.analytics.collision.motion.MotionRules;

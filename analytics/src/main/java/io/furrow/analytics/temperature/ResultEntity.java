@@ -4,8 +4,6 @@ import java.io.Serializable;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-import io.furrow.analytics.temperature.window.FieldAverage;
-import io.furrow.analytics.temperature.window.RobustMean;
 import io.furrow.flink.record.ResultRecord;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.record.Epochs;

@@ -3,7 +3,7 @@ package io.furrow.analytics.collision.debounce;
 import java.io.Serializable;
 import java.util.function.Consumer;
 
-import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
 

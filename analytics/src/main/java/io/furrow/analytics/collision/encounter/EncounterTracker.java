@@ -4,7 +4,7 @@ import java.io.Serializable;
 import java.util.List;
 import java.util.function.Consumer;
 
-import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.grid.Geodesy;
 
 /**

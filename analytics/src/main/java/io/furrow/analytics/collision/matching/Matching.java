@@ -5,9 +5,7 @@ import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Set;
 
-import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.grid.Member;
-import io.furrow.analytics.collision.grid.Proximity;
+import io.furrow.analytics.collision.rules.CollisionRules;
 
 /**
  * Which pairs of a grid cell are followed: all that are close, but for those of crowds. A device that has more than

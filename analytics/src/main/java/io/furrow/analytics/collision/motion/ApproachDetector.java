@@ -2,8 +2,6 @@ package io.furrow.analytics.collision.motion;
 
 import java.util.function.Consumer;
 
-import io.furrow.analytics.collision.motion.space.Cubes;
-import io.furrow.analytics.collision.motion.space.Place;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.record.Epochs;
 

@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision.motion;
 
-import io.furrow.analytics.collision.motion.space.Place;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.record.Epochs;
 

@@ -9,8 +9,6 @@ import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.collision.motion.space.Cubes;
-import io.furrow.analytics.collision.motion.space.Neighbourhood;
 import io.furrow.analytics.eventtime.Inbox;
 import io.furrow.analytics.eventtime.OneTimer;
 

@@ -16,7 +16,7 @@ import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.debounce.DebounceEncounters;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.TrackDevices;

@@ -4,7 +4,8 @@ import java.util.Random;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.analytics.collision.position.Fixes;
+import io.furrow.analytics.collision.matching.Member;
+import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;

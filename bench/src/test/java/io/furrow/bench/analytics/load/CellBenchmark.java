@@ -19,8 +19,8 @@ import org.openjdk.jmh.annotations.State;
 import org.openjdk.jmh.annotations.Warmup;
 import org.openjdk.jmh.infra.Blackhole;
 
-import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.grid.Cell;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.matching.Cell;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Track;
 import io.furrow.analytics.collision.grid.Tracker;

@@ -1,0 +1,184 @@
+package io.furrow.analytics.collision.matching;
+
+import java.io.IOException;
+import java.util.ArrayList;
+import java.util.List;
+
+import org.apache.flink.api.common.serialization.SerializerConfigImpl;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.api.common.typeutils.TypeSerializer;
+import org.apache.flink.api.java.typeutils.runtime.PojoSerializer;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.configuration.PipelineOptions;
+import org.apache.flink.core.memory.DataInputDeserializer;
+import org.apache.flink.core.memory.DataOutputSerializer;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.MethodSource;
+
+import io.furrow.analytics.collision.grid.CellUpdate;
+import io.furrow.analytics.collision.grid.Presence;
+import io.furrow.analytics.collision.grid.Track;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.debounce.SteadyState;
+import io.furrow.analytics.collision.encounter.Encounter;
+import io.furrow.analytics.collision.encounter.OpenEncounter;
+import io.furrow.analytics.collision.encounter.Pair;
+import io.furrow.analytics.collision.encounter.PairObservation;
+import io.furrow.analytics.collision.encounter.PairSerializer;
+import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.Fixes;
+import io.furrow.analytics.position.Device;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.analytics.position.PositionFixSerializer;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class RecordTypesTest {
+    private static final PositionFix FIX = Fixes.carriedBy("b", Fixes.at("a", 40.5, -3.25, 1000));
+
+    private static final Pair PAIR = new Pair("t", "farm|/|a", "farm|/|b");
+
+    static Object[] records() {
+        return new Object[] {
+            PAIR,
+            new Device("t", "farm|/|a"),
+            FIX,
+            new PositionFix("t", "farm|/|T|somebody", "else", "", "é", "", -90, 180, 1.5, 270, Long.MIN_VALUE),
+            new PositionFix("t", "farm|/|" + "x".repeat(300), "x".repeat(300), "", "", "", 0, 1, 0, 0, 0),
+            new CellUpdate(-7, 1000, Presence.HALO, FIX),
+            new PairObservation(FIX, FIX, 1000, -1),
+            new OpenEncounter(500, 1.5, 1000, FIX, FIX)
+        };
+    }
+
+    @ParameterizedTest
+    @MethodSource("records")
+    void goThroughTheirFormats(Object written) throws Exception {
+        assertThat(copied(written)).isEqualTo(written);
+        assertThat(serializer(written)).isNotInstanceOf(PojoSerializer.class);
+    }
+
+    static Object[] plainRecords() {
+        return new Object[] {
+            new Encounter(Phase.ENDED, FIX, FIX, 4.5, 1.5, 500, 1000),
+            new SteadyState(new Encounter(Phase.STARTED, FIX, FIX, 4.5, 1.5, 500, 1000), true, 900),
+            new CellOverflow(FIX, -7, 40, -3, 9, 4, 1, 2, 1000)
+        };
+    }
+
+    @ParameterizedTest
+    @MethodSource("plainRecords")
+    void goThroughFlinksOwnSerializer(Object written) throws Exception {
+        assertThat(copied(written)).isEqualTo(written);
+        assertThat(serializer(written)).isInstanceOf(PojoSerializer.class);
+    }
+
+    @Test
+    void tracksGoThroughTheirFormat() throws Exception {
+        Track track = copied(new Track(FIX, new long[] {3, -4}));
+        assertThat(track.last()).isEqualTo(FIX);
+        assertThat(track.cells()).containsExactly(3, -4);
+    }
+
+    @Test
+    void cellsGoThroughTheirFormatAndAreCopiedBeforeTheyChange() throws Exception {
+        Cell cell = Cell.empty();
+        cell.put(Member.of(FIX, true));
+        cell.put(inACrowd(Fixes.east("c", 3, 500)));
+        cell.report(new CrowdReport(1000, true, FIX));
+        assertThat(copied(cell).report()).isEqualTo(cell.report());
+        assertThat(copied(cell).isCrowded()).isTrue();
+        assertThat(copied(cell).members()).containsExactlyInAnyOrderElementsOf(cell.members());
+        Cell copy = serializer(cell).copy(cell);
+        copy.put(Member.of(Fixes.east("d", 3, 500), false));
+        copy.report(null);
+        assertThat(copy.members()).hasSize(3);
+        assertThat(cell.members()).hasSize(2);
+        assertThat(cell.report()).isNotNull();
+    }
+
+    @Test
+    void cellsOfAnOlderVersionKeepThePairsThatWereFollowed() throws Exception {
+        List<PositionFix> fixes = List.of(Fixes.east("a", 0, 500), Fixes.east("b", 1, 500), Fixes.east("c", 2, 500));
+        DataInputDeserializer in = new DataInputDeserializer(olderCell(fixes));
+
+        Cell cell = new CellSerializer().read(1, in);
+
+        assertThat(in.available()).isZero();
+        List<String> ended = new ArrayList<>();
+        Matching matching = new Matching(CollisionRules.DEFAULT);
+        for (PositionFix fix : fixes) {
+            CellUpdate gone = new CellUpdate(7, 600, Presence.GONE, fix);
+            cell.apply(
+                    List.of(gone),
+                    matching,
+                    seen -> ended.add(seen.pair().first() + seen.pair().second()));
+        }
+        assertThat(ended).containsExactly("farm|/|bfarm|/|c");
+        assertThat(cell.isEmpty()).isTrue();
+    }
+
+    @Test
+    void aCellOfAnOlderVersionIsReadWithWhatWaitsForIt() throws Exception {
+        byte[] older = olderCell(List.of(Fixes.east("a", 0, 500), Fixes.east("b", 1, 500), Fixes.east("c", 2, 500)));
+        DataOutputSerializer out = new DataOutputSerializer(256);
+        out.writeInt(0);
+        out.writeBoolean(true);
+        out.write(older);
+        PendingUpdatesSerializer format = new PendingUpdatesSerializer();
+
+        var pending = format.read(1, new DataInputDeserializer(out.getCopyOfBuffer()));
+
+        DataOutputSerializer now = new DataOutputSerializer(256);
+        format.write(pending, now);
+        DataInputDeserializer in = new DataInputDeserializer(now.getCopyOfBuffer());
+        assertThat(in.readInt()).isZero();
+        assertThat(in.readBoolean()).isTrue();
+        assertThat(new CellSerializer().readPart(in).members())
+                .containsExactlyInAnyOrderElementsOf(new CellSerializer()
+                        .read(1, new DataInputDeserializer(older))
+                        .members());
+    }
+
+    /** Version 1: three devices of which the second pair is followed. */
+    private static byte[] olderCell(List<PositionFix> fixes) throws IOException {
+        DataOutputSerializer out = new DataOutputSerializer(256);
+        out.writeInt(fixes.size());
+        for (PositionFix fix : fixes) {
+            out.writeBoolean(true);
+            PositionFixSerializer.INSTANCE.write(fix, out);
+        }
+        out.writeBoolean(true);
+        out.writeInt(1);
+        PairSerializer.INSTANCE.write(Pair.of(fixes.get(1), fixes.get(2)), out);
+        out.writeInt(3);
+        out.writeBoolean(true);
+        out.writeLong(500);
+        return out.getCopyOfBuffer();
+    }
+
+    private static Member inACrowd(PositionFix fix) {
+        Member member = Member.of(fix, false);
+        member.shortlist(new Shortlist(List.of("farm|/|a", "farm|/|é")));
+        return member;
+    }
+
+    private static <T> T copied(T written) throws Exception {
+        TypeSerializer<T> serializer = serializer(written);
+        DataOutputSerializer out = new DataOutputSerializer(256);
+        serializer.serialize(written, out);
+        DataInputDeserializer in = new DataInputDeserializer(out.getCopyOfBuffer());
+        T read = serializer.deserialize(in);
+        assertThat(in.available()).isZero();
+        return read;
+    }
+
+    private static <T> TypeSerializer<T> serializer(T written) {
+        // Refuses every type that would fall to Kryo.
+        Configuration strict = new Configuration().set(PipelineOptions.GENERIC_TYPES, false);
+        @SuppressWarnings("unchecked")
+        Class<T> type = (Class<T>) written.getClass();
+        return TypeInformation.of(type).createSerializer(new SerializerConfigImpl(strict));
+    }
+}
