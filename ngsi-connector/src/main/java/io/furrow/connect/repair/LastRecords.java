@@ -9,7 +9,6 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
 
-import io.furrow.connect.repair.entity.EntityRecord;
 
 /**
  * Tracks the last record of each entity on the topic, and whether it may be older than a previous state of the topic or

@@ -11,11 +11,6 @@ import java.util.TreeSet;
 import java.util.function.Predicate;
 
 import io.furrow.connect.broker.BrokerException;
-import io.furrow.connect.repair.entity.BrokerEntities;
-import io.furrow.connect.repair.entity.EntityState;
-import io.furrow.connect.repair.entity.Identities;
-import io.furrow.connect.repair.entity.KeysetReader;
-import io.furrow.connect.repair.entity.KnownEntities;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.FiwareScope;

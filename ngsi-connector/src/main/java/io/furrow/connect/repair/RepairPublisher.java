@@ -12,8 +12,6 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.LogText;
 import io.furrow.connect.repair.LiveEvents.Appended;
-import io.furrow.connect.repair.entity.EntityRecord;
-import io.furrow.connect.repair.entity.KnownEntities;
 import io.furrow.model.text.FailureText;
 
 /** Emits findings in small batches and waits until they are durable, which leaves room for concurrent notifications. */

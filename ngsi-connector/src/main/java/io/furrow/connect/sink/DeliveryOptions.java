@@ -7,6 +7,8 @@ import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Range;
 import org.apache.kafka.common.config.ConfigException;
 
+import io.furrow.connect.sink.api.Batches;
+import io.furrow.connect.sink.api.Isolation;
 import io.furrow.connect.OptionGroup;
 import io.furrow.connect.sink.api.BrokerBackoff;
 

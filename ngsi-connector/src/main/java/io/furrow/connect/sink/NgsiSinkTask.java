@@ -17,6 +17,7 @@ import org.apache.kafka.connect.sink.SinkTask;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.connect.sink.api.Change;
 import io.furrow.connect.PluginVersion;
 import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.ledger.LedgerBean;

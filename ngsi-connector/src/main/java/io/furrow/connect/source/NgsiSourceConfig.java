@@ -8,6 +8,7 @@ import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigException;
 
+import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.source.journal.AcknowledgedRecords;
@@ -195,8 +196,8 @@ public class NgsiSourceConfig extends AbstractConfig {
         return topics;
     }
 
-    RecordOptions records() {
-        return records;
+    SourceRecords records() {
+        return new SourceRecords(records.keys(), records.values());
     }
 
     EntityOptions entities() {

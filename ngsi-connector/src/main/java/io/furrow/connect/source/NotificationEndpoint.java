@@ -15,6 +15,7 @@ import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.util.ssl.SslContextFactory;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
+import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.ledger.PrometheusPage;
 import io.furrow.connect.source.http.AdmissionQueue;

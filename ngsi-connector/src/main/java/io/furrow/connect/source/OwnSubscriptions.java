@@ -20,7 +20,7 @@ import io.furrow.connect.repair.LiveEvents;
 import io.furrow.connect.repair.ReconcileLoop;
 import io.furrow.connect.repair.ReconcileLoop.Assignment;
 import io.furrow.connect.repair.SubscriptionReconciler;
-import io.furrow.connect.repair.entity.EntityRecord;
+import io.furrow.connect.repair.EntityRecord;
 import io.furrow.connect.source.journal.JournalRecordLog;
 import io.furrow.connect.source.journal.RecordLog;
 import io.furrow.connect.source.journal.TrackedRecordLog;

@@ -6,6 +6,8 @@ import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 
+import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.LogText;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.MissedChange;

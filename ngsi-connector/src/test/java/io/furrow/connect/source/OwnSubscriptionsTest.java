@@ -16,6 +16,7 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.journal.Journal;
 import io.furrow.connect.journal.JournalReader;
 import io.furrow.connect.ledger.Ledger;

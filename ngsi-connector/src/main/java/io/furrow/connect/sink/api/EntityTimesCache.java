@@ -6,8 +6,6 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.function.LongSupplier;
 
-import io.furrow.connect.sink.Change;
-import io.furrow.connect.sink.EntityKey;
 
 /**
  * Caches the times of the entities written or read last, up to {@code maxAttributes} attributes in total. Entries

@@ -20,8 +20,8 @@ import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.source.NgsiSourceConfig;
-import io.furrow.connect.source.NotificationTranslator;
-import io.furrow.connect.source.OutgoingRecord;
+import io.furrow.connect.source.notification.NotificationTranslator;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.journal.RecordLog;
 
 /**

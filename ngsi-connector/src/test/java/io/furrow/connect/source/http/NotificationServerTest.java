@@ -11,7 +11,7 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.source.NotificationEndpoint;
-import io.furrow.connect.source.OutgoingRecord;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.ReceptionRig;
 
 import static org.assertj.core.api.Assertions.assertThat;

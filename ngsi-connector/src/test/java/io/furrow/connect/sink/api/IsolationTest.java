@@ -1,0 +1,204 @@
+package io.furrow.connect.sink.api;
+
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.stream.IntStream;
+
+import org.apache.kafka.common.record.TimestampType;
+import org.apache.kafka.connect.errors.RetriableException;
+import org.apache.kafka.connect.sink.SinkRecord;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.connect.sink.FakeContextBroker;
+import io.furrow.connect.sink.FakeSinkContext;
+import io.furrow.connect.sink.NgsiSinkTask;
+import io.furrow.connect.sink.FakeContextBroker.Reply;
+import io.furrow.model.ngsi.Entity;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+/** One entity that makes the context broker answer 500 stops no other, and a context broker that is broken refuses none. */
+class IsolationTest {
+    private final FakeContextBroker broker = new FakeContextBroker();
+    private final FakeSinkContext context = new FakeSinkContext(true);
+    private final Map<String, String> options = new HashMap<>(Map.of(
+            "context.broker.url",
+            broker.url().toString(),
+            "delete.on.null",
+            "true",
+            "retry.isolate.after",
+            "3",
+            "retry.refuse.after",
+            "6"));
+    private NgsiSinkTask task;
+
+    @AfterEach
+    void stop() {
+        task.stop();
+        broker.close();
+    }
+
+    @Test
+    void setsTheOneEntityOfAHundredAsideAndWritesTheOthers() {
+        start();
+        poison("\"e77\"", 500);
+        List<SinkRecord> records = records(0, 100);
+
+        putAgainAndAgain(records, 2);
+        task.put(records);
+
+        assertThat(broker.entities).hasSize(99).doesNotContainKey("e77");
+        assertThat(context.reported).singleElement().satisfies(reported -> {
+            assertThat(reported.record().key()).isEqualTo("e77");
+            assertThat(reported.cause()).hasMessageContaining("500 out of order");
+        });
+    }
+
+    @Test
+    void knowsAnEntityAgainThatDrewA500() {
+        start();
+        poison("\"e7\"", 500);
+        List<SinkRecord> first = records(0, 10);
+        putAgainAndAgain(first, 2);
+        task.put(first);
+
+        task.put(records(0, 20));
+
+        assertThat(broker.entities).hasSize(19);
+        assertThat(context.reported)
+                .extracting(reported -> reported.record().key())
+                .containsExactly("e7", "e7");
+    }
+
+    @Test
+    void triesTheRecordsOfThatEntityOneByOne() {
+        start();
+        poison("\"bad\"", 500);
+        List<SinkRecord> records = List.of(record("a", "bad", 1), record("a", "x", 2));
+
+        putAgainAndAgain(records, 2);
+        task.put(records);
+
+        assertThat(broker.value("a", "x").intValue()).isEqualTo(2);
+        assertThat(context.reported)
+                .singleElement()
+                .satisfies(reported -> assertThat(reported.record().timestamp()).isEqualTo(1));
+    }
+
+    @Test
+    void refusesNothingWhileTheContextBrokerAnswersEverythingSo() {
+        options.put("retry.refuse.after", "0");
+        start();
+        poison("", 500);
+        List<SinkRecord> records = records(0, 10);
+
+        putAgainAndAgain(records, 20);
+        broker.behaviour = update -> Reply.WRITTEN;
+        task.put(records);
+
+        assertThat(broker.entities).hasSize(10);
+        assertThat(context.reported).isEmpty();
+    }
+
+    @Test
+    void takesADeletionOfWhatIsAbsentForNoProofThatTheContextBrokerWorks() {
+        options.put("retry.refuse.after", "0");
+        start();
+        poison("append", 500);
+        List<SinkRecord> records = records(0, 3);
+        records.add(deletion("gone", 9));
+
+        putAgainAndAgain(records, 10);
+    }
+
+    @Test
+    void refusesAnEntityThatIsAloneAfterSoManyTries() {
+        start();
+        poison("", 500);
+        List<SinkRecord> records = records(0, 1);
+
+        putAgainAndAgain(records, 5);
+        task.put(records);
+
+        assertThat(context.reported).hasSize(1);
+    }
+
+    @Test
+    void takesNothingApartForAContextBrokerThatIsOverloaded() {
+        start();
+        poison("\"e7\"", 503);
+
+        putAgainAndAgain(records(0, 10), 10);
+
+        assertThat(broker.requests)
+                .allSatisfy(request -> assertThat(request.size()).isEqualTo(10));
+        assertThat(context.reported).isEmpty();
+    }
+
+    @Test
+    void neverTakesApartWhenToldSo() {
+        options.put("retry.isolate.after", "0");
+        start();
+        poison("\"e7\"", 500);
+
+        putAgainAndAgain(records(0, 10), 10);
+
+        assertThat(context.reported).isEmpty();
+    }
+
+    @Test
+    void setsADeletionAsideThatDrawsA500() {
+        start();
+        task.put(records(0, 10));
+        poison("e7", 500);
+        List<SinkRecord> deletions =
+                IntStream.range(0, 10).mapToObj(i -> deletion("e" + i, i)).toList();
+
+        putAgainAndAgain(deletions, 2);
+        task.put(deletions);
+
+        assertThat(broker.entities).containsOnlyKeys("e7");
+        assertThat(context.reported)
+                .singleElement()
+                .satisfies(reported -> assertThat(reported.record().key()).isEqualTo("e7"));
+    }
+
+    private void start() {
+        task = new NgsiSinkTask();
+        task.initialize(context);
+        task.start(options);
+    }
+
+    private void poison(String what, int status) {
+        broker.behaviour = update ->
+                (update.path() + update.body()).contains(what) ? new Reply(status, "out of order") : Reply.WRITTEN;
+    }
+
+    private void putAgainAndAgain(List<SinkRecord> records, int times) {
+        for (int i = 0; i < times; i++) {
+            assertThatThrownBy(() -> task.put(records)).as("try %d", i).isInstanceOf(RetriableException.class);
+        }
+        assertThat(context.reported).isEmpty();
+    }
+
+    private static List<SinkRecord> records(int from, int to) {
+        List<SinkRecord> records = new ArrayList<>();
+        for (int i = from; i < to; i++) {
+            records.add(record("e" + i, "x", i));
+        }
+        return records;
+    }
+
+    private static SinkRecord deletion(String id, long offset) {
+        return new SinkRecord("t", 0, null, id, null, null, offset, 1_000L, TimestampType.CREATE_TIME);
+    }
+
+    private static SinkRecord record(String id, String attribute, long time) {
+        byte[] entity = Entity.builder(id, "T").integer(attribute, time).build().toBytes();
+        return new SinkRecord("t", 0, null, id, null, entity, time, time, TimestampType.CREATE_TIME);
+    }
+}
