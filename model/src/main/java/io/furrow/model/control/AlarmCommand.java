@@ -6,7 +6,6 @@ import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-
 /** What the topic {@code service.alarmmanager} asks for. */
 public sealed interface AlarmCommand extends Command {
     /** What is muted: one alarm, or all of a kind, those to come too. */

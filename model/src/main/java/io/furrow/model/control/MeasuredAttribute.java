@@ -1,6 +1,5 @@
 package io.furrow.model.control;
 
-
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
@@ -9,7 +8,6 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-
 
 /**
  * An attribute of a device's entity, and the member of its MQTT messages that the IoT Agent makes it from. What a device sends follows

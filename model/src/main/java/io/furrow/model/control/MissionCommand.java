@@ -5,7 +5,6 @@ import java.time.Instant;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-
 /** What the topic {@code service.missionmanager} asks for. */
 public sealed interface MissionCommand extends Command {
     record Create(String mission, String domain, MissionPlan plan) implements MissionCommand {

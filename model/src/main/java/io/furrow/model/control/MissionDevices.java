@@ -11,7 +11,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-
 /**
  * The devices of a mission or of a template, group by group. Names are unique, what carries is there, nothing carries itself.
  *

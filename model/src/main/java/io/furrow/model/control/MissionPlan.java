@@ -5,7 +5,6 @@ import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-
 /** The devices that a mission is created from. */
 public sealed interface MissionPlan {
     /** @param version 0 for the newest at the time of the request */

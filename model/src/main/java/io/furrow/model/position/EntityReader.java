@@ -10,10 +10,8 @@ import java.util.Set;
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 
-import io.furrow.model.ngsi.AttributeValue;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Quantity;
-import io.furrow.model.ngsi.StrictTokens;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.Utf8;
 import io.furrow.model.time.Instants;

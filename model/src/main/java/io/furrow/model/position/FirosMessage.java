@@ -1,14 +1,10 @@
 package io.furrow.model.position;
 
-import io.furrow.model.ngsi.AttributeValue;
-import io.furrow.model.ngsi.StrictTokens;
-
 import java.io.IOException;
 import java.util.Arrays;
 
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
-
 
 /** Reads the position out of FIROS' text, JSON whose quotes are written {@code %27}, without a tree. */
 final class FirosMessage {

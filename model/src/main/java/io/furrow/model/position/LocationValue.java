@@ -5,9 +5,6 @@ import java.io.IOException;
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 
-import io.furrow.model.ngsi.AttributeValue;
-import io.furrow.model.ngsi.StrictTokens;
-
 /** The value of {@code location}: a geo:point's text, or an object that may be a GeoJSON Point. */
 public final class LocationValue extends AttributeValue {
     private boolean typeIsPoint;

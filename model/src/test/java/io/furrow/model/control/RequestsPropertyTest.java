@@ -6,7 +6,6 @@ import java.util.function.Function;
 
 import org.junit.jupiter.api.Test;
 
-
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RequestsPropertyTest {

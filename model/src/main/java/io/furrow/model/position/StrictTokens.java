@@ -1,4 +1,4 @@
-package io.furrow.model.ngsi;
+package io.furrow.model.position;
 
 import java.io.IOException;
 
@@ -6,6 +6,8 @@ import com.fasterxml.jackson.core.JsonFactory;
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 import com.fasterxml.jackson.core.StreamReadFeature;
+
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * The tokens of one JSON document after the other, as strict as {@link NgsiJson}. A method that answers {@code false} has met
@@ -47,7 +49,7 @@ public final class StrictTokens {
         return token;
     }
 
-    /** Skips the value that the parser stands at, and answers whether it certainly keeps to {@link EntityLimits}. */
+    /** Skips the value that the parser stands at, and answers whether it certainly keeps to {@code EntityLimits}. */
     public boolean skipWithinLimits() throws IOException {
         int depth = 0;
         for (JsonToken token = parser.currentToken(); token != null; token = next()) {

@@ -1,8 +1,10 @@
-package io.furrow.model.ngsi;
+package io.furrow.model.position;
 
 import java.util.Arrays;
 import java.util.HashSet;
 import java.util.Set;
+
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * The names seen so far in the objects of a document that are open, so that a name that comes twice shows. Kept from document

@@ -1,9 +1,11 @@
-package io.furrow.model.ngsi;
+package io.furrow.model.position;
 
 import java.io.IOException;
 
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
+
+import io.furrow.model.ngsi.Numbers;
 
 /** The value of one wanted attribute as far as it is a text or a number; overwritten by each entity. */
 public class AttributeValue {
