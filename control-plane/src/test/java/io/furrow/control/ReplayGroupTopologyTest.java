@@ -14,10 +14,10 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.control.CommandResult;
-import io.furrow.model.control.RecordedMission;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.DesiredReplay.Clock;
 import io.furrow.model.control.DesiredReplay.Range;
+import io.furrow.model.control.RecordedMission;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 

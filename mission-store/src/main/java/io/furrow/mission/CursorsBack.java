@@ -3,7 +3,6 @@ package io.furrow.mission;
 import java.util.ArrayDeque;
 import java.util.Deque;
 
-
 /** Finds the wanted event before the last wanted ones of those that are added in their order. Holds one cursor for each of these. */
 public final class CursorsBack {
     /** More events than anybody steps back, at 100 bytes each. */

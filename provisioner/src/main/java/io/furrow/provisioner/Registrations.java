@@ -7,10 +7,10 @@ import java.util.function.Supplier;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.model.control.MeasuredAttribute;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.control.MeasuredAttribute;
 import io.furrow.model.event.FiwareScope;
 
 /**

@@ -20,8 +20,8 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.mission.StoredEvent;
 import io.furrow.mission.file.ArchiveLine;
-import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;

@@ -6,7 +6,6 @@ import org.apache.flink.streaming.api.datastream.DataStreamUtils;
 import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
-import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.clock.LaggingPosition;
 import io.furrow.analytics.collision.debounce.DebounceEncounters;
 import io.furrow.analytics.collision.encounter.Encounter;
@@ -17,6 +16,7 @@ import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.TrackDevices;
 import io.furrow.analytics.collision.matching.CellOverflow;
 import io.furrow.analytics.collision.matching.MatchPairs;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 

@@ -4,10 +4,10 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
-import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.clock.ClockSettings;
 import io.furrow.analytics.collision.motion.MotionOptions;
 import io.furrow.analytics.collision.motion.MotionRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.model.topic.Topics;
 

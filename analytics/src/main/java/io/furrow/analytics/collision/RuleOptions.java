@@ -7,13 +7,13 @@ import java.util.Map;
 
 import picocli.CommandLine.Option;
 
+import io.furrow.analytics.collision.rules.CellRules;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.rules.DebounceRules;
-import io.furrow.analytics.collision.rules.CellRules;
 import io.furrow.analytics.collision.rules.ExclusionZones;
+import io.furrow.analytics.collision.rules.PositionRules;
 import io.furrow.analytics.collision.rules.Thresholds;
 import io.furrow.analytics.collision.rules.ZoneFile;
-import io.furrow.analytics.collision.rules.PositionRules;
 
 /** The options of {@link CollisionRules}. An accessor refuses, with its argument's name, what no job could start with. */
 final class RuleOptions {

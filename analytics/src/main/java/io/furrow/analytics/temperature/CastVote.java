@@ -4,7 +4,6 @@ import org.apache.flink.streaming.api.functions.windowing.WindowFunction;
 import org.apache.flink.streaming.api.windowing.windows.TimeWindow;
 import org.apache.flink.util.Collector;
 
-
 /**
  * Gives a device its one vote in a field's window: a device that reports often counts no more than one that reports rarely.
  *

@@ -5,7 +5,6 @@ import java.util.List;
 
 import org.apache.flink.api.common.functions.AggregateFunction;
 
-
 /**
  * Collects the values of the devices of an id in a window, and nothing else of its records. A state backend on disk reads and
  * writes all of that with every reading; values are counted, because a sensor that reports each second of a day has

@@ -3,7 +3,6 @@ package io.furrow.analytics.temperature;
 import java.util.List;
 import java.util.stream.Stream;
 
-
 /**
  * What the devices of one id measured in one field and window so far; the state of a window that is still open. Nearly always there is
  * one: those of further types are in a list.

@@ -2,7 +2,6 @@ package io.furrow.analytics.temperature;
 
 import java.util.Comparator;
 
-
 /**
  * The one value that a device has in a field's window.
  *

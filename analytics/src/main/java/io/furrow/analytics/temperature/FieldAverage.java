@@ -2,7 +2,6 @@ package io.furrow.analytics.temperature;
 
 import java.util.List;
 
-
 /**
  * The average of a field in one window.
  *

@@ -5,7 +5,6 @@ import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
 
-
 /**
  * The mean of what devices say, without those that cannot be right by the {@link SuspectRule}.
  *

@@ -12,13 +12,13 @@ import java.util.TreeMap;
 import java.util.TreeSet;
 import java.util.stream.Collectors;
 
-import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Pair;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.grid.Geodesy;
 import io.furrow.analytics.collision.grid.Grid;
 import io.furrow.analytics.collision.matching.CellOverflow;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
 /** The definition of this package as code: every pair at every instant, nothing clever. */

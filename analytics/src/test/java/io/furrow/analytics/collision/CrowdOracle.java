@@ -10,9 +10,9 @@ import java.util.Set;
 import java.util.TreeMap;
 import java.util.function.BiPredicate;
 
-import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.grid.Geodesy;
 import io.furrow.analytics.collision.grid.Grid;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
 /** What crowds leave out, as a definition: the shortlists of all devices of all cells, made from scratch at each report. */

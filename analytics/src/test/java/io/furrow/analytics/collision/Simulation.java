@@ -7,7 +7,6 @@ import java.util.Map;
 import java.util.Random;
 import java.util.function.Function;
 
-import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.debounce.EncounterDebouncer;
 import io.furrow.analytics.collision.debounce.SteadyState;
 import io.furrow.analytics.collision.encounter.Encounter;
@@ -15,14 +14,15 @@ import io.furrow.analytics.collision.encounter.EncounterTracker;
 import io.furrow.analytics.collision.encounter.OpenEncounter;
 import io.furrow.analytics.collision.encounter.Pair;
 import io.furrow.analytics.collision.encounter.PairObservation;
-import io.furrow.analytics.collision.matching.Cell;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Grid;
 import io.furrow.analytics.collision.grid.Track;
 import io.furrow.analytics.collision.grid.Tracker;
+import io.furrow.analytics.collision.matching.Cell;
 import io.furrow.analytics.collision.matching.CellOverflow;
 import io.furrow.analytics.collision.matching.Matching;
 import io.furrow.analytics.collision.matching.ReportCrowds;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
 /** All stages without Flink: watermarks at random instants, and within each all keys in random order. */

@@ -15,8 +15,8 @@ import com.mongodb.client.MongoClients;
 import org.apache.kafka.clients.producer.KafkaProducer;
 
 import io.furrow.bench.analytics.Figures;
-import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.topic.Topics;
 

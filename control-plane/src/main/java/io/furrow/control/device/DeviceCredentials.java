@@ -12,9 +12,9 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.nayuki.qrcodegen.QrCode;
 
+import io.furrow.model.control.MeasuredAttribute;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.control.MeasuredAttribute;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**

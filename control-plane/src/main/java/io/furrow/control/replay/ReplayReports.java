@@ -4,10 +4,10 @@ import java.util.ArrayList;
 import java.util.List;
 
 import io.furrow.control.manager.record.Records;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;
 

@@ -7,10 +7,10 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.MissionPlan;
 import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.device.DesiredDevice;

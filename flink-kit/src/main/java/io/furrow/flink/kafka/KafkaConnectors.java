@@ -21,9 +21,9 @@ import io.furrow.flink.job.InputTopics;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.StartPosition;
 import io.furrow.flink.job.TransactionTimeout;
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.Receipt;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.record.Epochs;
 import io.furrow.flink.time.ReceiptBoundWatermarks;
 import io.furrow.flink.time.ReplayWatermarks;
 

@@ -1,14 +1,13 @@
 package io.furrow.flink.kafka;
 
-import io.furrow.flink.record.HeaderTexts;
-import io.furrow.flink.record.TopicRecord;
-
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.connector.kafka.source.reader.deserializer.KafkaRecordDeserializationSchema;
 import org.apache.flink.util.Collector;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.ProducerRecord;
 
+import io.furrow.flink.record.HeaderTexts;
+import io.furrow.flink.record.TopicRecord;
 
 /** Between Kafka's records and {@link TopicRecord}; no byte of key or value is looked at. */
 public final class TopicRecordFormat

@@ -40,7 +40,7 @@ public final class Epochs {
     }
 
     /** The last instant of an epoch. */
-    static long end(long epoch) {
+    public static long end(long epoch) {
         return (epoch + 1) * SPAN - 1;
     }
 

@@ -14,7 +14,6 @@ import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.FileSystem.WriteMode;
 import org.apache.flink.core.fs.Path;
 
-
 /**
  * Images as files on a Flink file system. A file appears whole or not at all: it is written under another name and renamed,
  * on object stores put at once. What was written once is not written again; what is there under a name and is another image

@@ -2,7 +2,6 @@ package io.furrow.ingest.image;
 
 import java.io.IOException;
 
-
 /** Where images go. */
 public interface ImageStore {
     /**

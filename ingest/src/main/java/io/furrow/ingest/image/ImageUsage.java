@@ -11,7 +11,6 @@ import org.apache.flink.core.fs.FileStatus;
 import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.Path;
 
-
 /**
  * The images of one domain and mission, of all tenants, that a folder holds at this moment.
  *

@@ -3,7 +3,6 @@ package io.furrow.ingest.image;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-
 /** What an event carries instead of its image: where it is, and what it was. */
 public record StoredImage(String url, String sha256, int bytes, String contentType) {
     static StoredImage of(String url, Image image) {

@@ -3,7 +3,6 @@ package io.furrow.connect.repair;
 import java.time.Instant;
 import java.util.Optional;
 
-
 /**
  * The properties of a record that {@link LastRecords} tracks.
  *

@@ -9,7 +9,6 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
 
-
 /**
  * Tracks the last record of each entity on the topic, and whether it may be older than a previous state of the topic or
  * the context broker: then the entity is stale and has to be read again. Uses a bounded part of the heap: the entity

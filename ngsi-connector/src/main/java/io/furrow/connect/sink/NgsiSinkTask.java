@@ -17,12 +17,12 @@ import org.apache.kafka.connect.sink.SinkTask;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.connect.sink.api.Change;
 import io.furrow.connect.PluginVersion;
 import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.ledger.LedgerBean;
 import io.furrow.connect.sink.api.BrokerAwayException;
 import io.furrow.connect.sink.api.BrokerBackoff;
+import io.furrow.connect.sink.api.Change;
 import io.furrow.connect.sink.api.ContextWriter;
 import io.furrow.connect.sink.api.ContextWriter.Fates;
 import io.furrow.connect.sink.api.ContextWriter.RefusedChange;

@@ -8,11 +8,11 @@ import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigException;
 
-import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.source.journal.AcknowledgedRecords;
 import io.furrow.connect.source.journal.TaskJournals;
+import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.option.AccessOptions;
 import io.furrow.connect.source.option.AcknowledgingOptions;
 import io.furrow.connect.source.option.EntityOptions;

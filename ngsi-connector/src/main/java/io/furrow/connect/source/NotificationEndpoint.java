@@ -15,7 +15,6 @@ import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.util.ssl.SslContextFactory;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
-import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.ledger.PrometheusPage;
 import io.furrow.connect.source.http.AdmissionQueue;
@@ -30,6 +29,7 @@ import io.furrow.connect.source.http.RequestAuthenticator;
 import io.furrow.connect.source.http.RequestHandler;
 import io.furrow.connect.source.http.TlsEngines;
 import io.furrow.connect.source.journal.RecordLog;
+import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.option.ListeningOptions;
 import io.furrow.connect.source.option.TlsOptions;
 import io.furrow.http.jetty.AccessHandler;

@@ -10,8 +10,8 @@ import org.apache.kafka.connect.errors.ConnectException;
 import org.apache.kafka.connect.header.ConnectHeaders;
 import org.apache.kafka.connect.source.SourceRecord;
 
-import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.journal.JournalRecord;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.journal.TaskJournals;
 import io.furrow.connect.source.option.KeyMode;
 import io.furrow.connect.source.option.ValueMode;

@@ -1,4 +1,4 @@
-package io.furrow.connect.sink.api;
+package io.furrow.connect.sink;
 
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -12,9 +12,6 @@ import org.apache.kafka.connect.sink.SinkRecord;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.connect.sink.FakeContextBroker;
-import io.furrow.connect.sink.FakeSinkContext;
-import io.furrow.connect.sink.NgsiSinkTask;
 import io.furrow.connect.sink.FakeContextBroker.Reply;
 import io.furrow.model.ngsi.Entity;
 

@@ -18,9 +18,9 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.notification.NotificationTranslator;
-import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.source.notification.ReceivedNotification;
 
 import static org.assertj.core.api.Assertions.assertThat;

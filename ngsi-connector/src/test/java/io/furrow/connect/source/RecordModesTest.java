@@ -15,8 +15,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.journal.JournalRecord;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.source.journal.TaskJournals;
 import io.furrow.model.event.DeadLetter;

@@ -8,13 +8,13 @@ import java.util.Map;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.broker.AnswerHeaders;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.repair.MissedChange;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.repair.BrokerEntities;
 import io.furrow.connect.repair.EntityState;
+import io.furrow.connect.repair.MissedChange;
 import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.subscription.Content;
 import io.furrow.connect.subscription.Subject;

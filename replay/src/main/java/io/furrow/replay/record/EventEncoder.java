@@ -14,9 +14,9 @@ import java.util.Set;
 import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.header.internals.RecordHeader;
 
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.HeaderTexts;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.record.Epochs;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Skipped;

@@ -5,8 +5,8 @@ import java.util.List;
 import java.util.Random;
 
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.control.ReplayStatus.State;
 

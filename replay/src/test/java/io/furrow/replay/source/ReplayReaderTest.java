@@ -16,8 +16,8 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
-import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;

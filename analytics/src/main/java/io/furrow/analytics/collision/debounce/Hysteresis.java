@@ -2,9 +2,9 @@ package io.furrow.analytics.collision.debounce;
 
 import java.io.Serializable;
 
-import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.rules.Thresholds;
 
 /**

@@ -7,8 +7,8 @@ import java.util.function.Consumer;
 
 import org.apache.flink.api.common.typeinfo.TypeInfo;
 
-import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.encounter.PairObservation;
+import io.furrow.analytics.collision.grid.CellUpdate;
 
 /**
  * The devices of one grid cell; changed in place. Which pairs are followed follows from where the members are and from the

@@ -2,7 +2,6 @@ package io.furrow.analytics.collision.motion;
 
 import java.util.Optional;
 
-
 /**
  * How near two straight motions come to each other during a time.
  *

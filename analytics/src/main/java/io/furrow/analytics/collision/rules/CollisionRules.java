@@ -4,7 +4,6 @@ import java.io.Serializable;
 import java.time.Duration;
 import java.util.TreeMap;
 
-
 /**
  * What counts as an encounter, and how it is reported.
  *

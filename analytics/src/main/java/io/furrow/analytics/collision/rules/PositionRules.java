@@ -3,7 +3,6 @@ package io.furrow.analytics.collision.rules;
 import java.io.Serializable;
 import java.time.Duration;
 
-
 /**
  * Which positions count.
  *

@@ -7,7 +7,6 @@ import org.apache.flink.api.common.state.ListStateDescriptor;
 import org.apache.flink.api.common.state.OperatorStateStore;
 import org.apache.flink.api.common.typeinfo.Types;
 
-
 /**
  * Compares the rules of a stage with those by which its state was made.
  *

@@ -4,7 +4,6 @@ import java.io.Serializable;
 import java.util.Map;
 import java.util.TreeMap;
 
-
 /**
  * Up to which distance two devices are close. A pair of types may have a threshold of its own; else the greater of both
  * types' counts, where a type that is not named has the common one.

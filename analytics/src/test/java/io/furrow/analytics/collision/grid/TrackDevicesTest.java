@@ -11,8 +11,8 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.clock.LaggingPosition;
-import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.encounter.Stage;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 

@@ -10,15 +10,15 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.EnumSource;
 
-import io.furrow.analytics.collision.grid.CellUpdate;
-import io.furrow.analytics.collision.grid.CellUpdateSerializer;
-import io.furrow.analytics.collision.grid.Presence;
-import io.furrow.analytics.collision.grid.Track;
-import io.furrow.analytics.collision.grid.TrackSerializer;
 import io.furrow.analytics.collision.encounter.PairObservation;
 import io.furrow.analytics.collision.encounter.PairObservationSerializer;
 import io.furrow.analytics.collision.encounter.PendingObservationsSerializer;
+import io.furrow.analytics.collision.grid.CellUpdate;
+import io.furrow.analytics.collision.grid.CellUpdateSerializer;
 import io.furrow.analytics.collision.grid.PendingFixesSerializer;
+import io.furrow.analytics.collision.grid.Presence;
+import io.furrow.analytics.collision.grid.Track;
+import io.furrow.analytics.collision.grid.TrackSerializer;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.format.Format;
 

@@ -7,15 +7,35 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import io.furrow.analytics.collision.Fixes;
+import io.furrow.analytics.collision.Worlds;
 import io.furrow.analytics.collision.grid.Geodesy;
 import io.furrow.analytics.collision.rules.CollisionRules;
-import io.furrow.analytics.collision.Worlds;
-import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
 
 class ProximityTest {
+    @Test
+    void isSymmetricToTheLastBitAndAgreesWithTheAngleBetweenVectors() {
+        Random random = new Random(7);
+        for (int i = 0; i < 2000; i++) {
+            PositionFix a = Fixes.at("a", random.nextDouble(-90, 90), random.nextDouble(-180, 180), 0);
+            PositionFix b = Fixes.at("b", random.nextDouble(-90, 90), random.nextDouble(-180, 180), 0);
+            assertThat(Geodesy.distance(a, b)).isEqualTo(Geodesy.distance(b, a));
+            assertThat(Geodesy.distance(a, b)).isCloseTo(angle(a, b) * Geodesy.EARTH_RADIUS_METERS, within(0.1));
+        }
+    }
+
+    private static double angle(PositionFix a, PositionFix b) {
+        Member u = Member.of(a, true);
+        Member v = Member.of(b, true);
+        double chord = Math.sqrt(
+                Geodesy.square(u.x() - v.x()) + Geodesy.square(u.y() - v.y()) + Geodesy.square(u.z() - v.z()));
+        return 2 * Math.asin(Math.min(1, chord / 2));
+    }
+
     @ParameterizedTest
     @ValueSource(doubles = {0.1, 0.5, 5, 1000, 100_000})
     void countsTheBoundaryAndNothingBeyondIt(double about) {

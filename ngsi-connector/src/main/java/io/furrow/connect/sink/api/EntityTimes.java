@@ -4,7 +4,6 @@ import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 
-
 /**
  * Stores the event time of every attribute of an entity, per type if several entities share the id, and of its last
  * deletion. Uses arrays, because a hundred thousand entities are cached.

@@ -6,7 +6,6 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.function.LongSupplier;
 
-
 /**
  * Caches the times of the entities written or read last, up to {@code maxAttributes} attributes in total. Entries
  * expire {@code maxAge} after the last reading, because other tasks may have written meanwhile.

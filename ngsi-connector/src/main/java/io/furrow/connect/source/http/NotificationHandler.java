@@ -18,11 +18,11 @@ import org.eclipse.jetty.util.Callback;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.connect.source.notification.ReceivedNotification;
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.source.notification.NotificationTranslator;
-import io.furrow.connect.source.notification.Translation;
 import io.furrow.connect.source.journal.RecordLog;
+import io.furrow.connect.source.notification.NotificationTranslator;
+import io.furrow.connect.source.notification.ReceivedNotification;
+import io.furrow.connect.source.notification.Translation;
 import io.furrow.connect.source.option.OverloadOptions;
 
 /**

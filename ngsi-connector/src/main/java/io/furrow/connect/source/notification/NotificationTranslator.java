@@ -8,8 +8,8 @@ import java.util.concurrent.atomic.LongAdder;
 import java.util.function.Consumer;
 import java.util.regex.Pattern;
 
-import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.repair.EntityVersion;
 import io.furrow.connect.source.notification.Translation.Refusal;
 import io.furrow.connect.source.option.JournalOptions;
@@ -33,7 +33,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * becomes one dead letter with the original bytes. No record is larger than {@link Settings#maxRecordBytes}.
  */
 public final class NotificationTranslator {
-    static final String STAGE = "ngsi-source";
+    public static final String STAGE = "ngsi-source";
 
     private static final int MAX_MESSAGE_LENGTH = 500;
     private static final int HEADERS_AT_MOST = 32 * 1024;
@@ -73,7 +73,7 @@ public final class NotificationTranslator {
     }
 
     /** @param arrived receives the subscription of each notification that names one */
-    NotificationTranslator(Settings settings, Ledger ledger, Consumer<String> arrived) {
+    public NotificationTranslator(Settings settings, Ledger ledger, Consumer<String> arrived) {
         this.settings = settings;
         this.rules = settings.rules();
         this.ledger = ledger;

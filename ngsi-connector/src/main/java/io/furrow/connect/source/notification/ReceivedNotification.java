@@ -23,7 +23,7 @@ public record ReceivedNotification(
     }
 
     /** NGSI-v2 names its tenant in {@code Fiware-Service}, NGSI-LD in {@code NGSILD-Tenant}. */
-    static FiwareScope scope(UnaryOperator<String> header) {
+    public static FiwareScope scope(UnaryOperator<String> header) {
         String service = header.apply("Fiware-Service");
         return FiwareScope.of(
                 service == null ? header.apply("NGSILD-Tenant") : service, header.apply("Fiware-Servicepath"));

@@ -9,8 +9,8 @@ import java.util.regex.Pattern;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
