@@ -49,7 +49,7 @@ public record DesiredReplay(
      * @param to epoch ms, after the last event
      */
     public record Range(long from, long to) {
-        public static Range read(RequestMembers members) throws RefusedException {
+        static Range read(RequestMembers members) throws RefusedException {
             long from = members.time("from").toEpochMilli();
             long to = members.time("to").toEpochMilli();
             if (from >= to) {
@@ -58,7 +58,7 @@ public record DesiredReplay(
             return new Range(from, to);
         }
 
-        public void describe(ObjectNode json) {
+        void describe(ObjectNode json) {
             json.put("from", from).put("to", to);
         }
     }

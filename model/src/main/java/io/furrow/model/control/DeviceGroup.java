@@ -43,7 +43,7 @@ public record DeviceGroup(
     public static final int MAX = 10_000;
 
     /** What the context broker takes as an entity id, some signs shorter. */
-    public static final Pattern ENTITY_ID = Pattern.compile("[!-~&&[^&?/#<>\"'=;()|%]]{1,200}");
+    static final Pattern ENTITY_ID = Pattern.compile("[!-~&&[^&?/#<>\"'=;()|%]]{1,200}");
 
     private static final String AT = "at";
     private static final Pattern TYPE = Pattern.compile("[A-Za-z][A-Za-z0-9]{0,63}");
@@ -189,13 +189,13 @@ public record DeviceGroup(
     }
 
     /** Puts a member that is not null. */
-    public static void put(ObjectNode json, String member, String value) {
+    static void put(ObjectNode json, String member, String value) {
         if (value != null) {
             json.put(member, value);
         }
     }
 
-    public static void put(ObjectNode json, String member, Instant time) {
+    static void put(ObjectNode json, String member, Instant time) {
         put(json, member, time == null ? null : time.toString());
     }
 }

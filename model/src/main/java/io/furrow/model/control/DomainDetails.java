@@ -41,7 +41,7 @@ public record DomainDetails(String name, String description, ObjectNode area, Li
     }
 
     /** Puts what is said. */
-    public void describe(ObjectNode json) {
+    void describe(ObjectNode json) {
         DeviceGroup.put(json, "name", name);
         DeviceGroup.put(json, "description", description);
         if (area != null) {

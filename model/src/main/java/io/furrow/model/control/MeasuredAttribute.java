@@ -21,7 +21,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  */
 public record MeasuredAttribute(String objectId, String name, String type, String unit) {
     /** Attributes that a group may name. */
-    public static final int MAX = 100;
+    static final int MAX = 100;
 
     private static final String FLOAT = "Float";
     private static final String LATITUDE = "Latitude";
@@ -101,7 +101,7 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
     }
 
     /** Checks the member {@code attributes} of a group. */
-    public static void check(RequestMembers group) throws RefusedException {
+    static void check(RequestMembers group) throws RefusedException {
         JsonNode list = group.arrayOrNull("attributes", MAX);
         for (JsonNode each : list == null ? List.<JsonNode>of() : list) {
             MeasuredAttribute attribute = parse(each);

@@ -58,7 +58,7 @@ public record MissionDevices(List<DeviceGroup> groups) {
     }
 
     /** The same of a request that adds to a list: whether names and carriers fit shows with the rest of the list. */
-    public static MissionDevices readPart(RequestMembers members) throws RefusedException {
+    static MissionDevices readPart(RequestMembers members) throws RefusedException {
         ArrayNode array = members.arrayOrNull("devices", DeviceGroup.MAX);
         List<DeviceGroup> groups = new ArrayList<>();
         long count = 0;
@@ -127,7 +127,7 @@ public record MissionDevices(List<DeviceGroup> groups) {
     }
 
     /** The same of a request, whose areas must be valid; a list that was stored may be older than that rule. */
-    public MissionDevices withValidAreas() throws RefusedException {
+    MissionDevices withValidAreas() throws RefusedException {
         for (int group = 0; group < groups.size(); group++) {
             JsonNode area = groups.get(group).settings().path("area");
             if (area.isObject()) {

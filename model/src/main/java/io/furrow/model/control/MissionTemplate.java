@@ -52,7 +52,7 @@ public record MissionTemplate(String name, int version, String description, Miss
     }
 
     /** Puts all of it. */
-    public void describe(ObjectNode json) {
+    void describe(ObjectNode json) {
         json.put("template", name);
         if (version > 0) {
             json.put("version", version);

@@ -123,7 +123,7 @@ public sealed interface ReplayCommand extends Command {
      * @param group null for a replay
      */
     record Target(String replay, String group) {
-        public static Target of(String replay) {
+        static Target of(String replay) {
             return new Target(replay, null);
         }
 

@@ -77,7 +77,7 @@ public record ReplayPlan(
         analytics = List.copyOf(analytics);
     }
 
-    public static ReplayPlan read(RequestMembers members) throws RefusedException {
+    static ReplayPlan read(RequestMembers members) throws RefusedException {
         Instant from = members.timeOrNull("from");
         Instant to = members.timeOrNull("to");
         if (from != null && to != null && !from.isBefore(to)) {
@@ -118,7 +118,7 @@ public record ReplayPlan(
         return time == null ? null : Long.valueOf(time.toEpochMilli());
     }
 
-    public void describe(ObjectNode json) {
+    void describe(ObjectNode json) {
         if (source != null) {
             ObjectNode where = json.putObject("source");
             DeviceGroup.put(where, "topic", source.topic);

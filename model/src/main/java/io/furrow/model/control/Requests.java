@@ -128,7 +128,7 @@ public final class Requests {
         return JsonNodeFactory.instance.objectNode();
     }
 
-    public static RefusedException unknown(String verb, String known) {
+    static RefusedException unknown(String verb, String known) {
         return verb == null
                 ? new RefusedException(
                         ErrorCode.MISSING_MEMBER, "the request needs a member 'command': one of " + known)

@@ -8,7 +8,7 @@ import com.fasterxml.jackson.core.JsonToken;
 import io.furrow.model.ngsi.Numbers;
 
 /** The value of one wanted attribute as far as it is a text or a number; overwritten by each entity. */
-public class AttributeValue {
+class AttributeValue {
     private enum Kind {
         /** No such attribute, or its value is null. */
         ABSENT,
@@ -113,7 +113,7 @@ public class AttributeValue {
     }
 
     /** The finite number at which the parser stands, or that its text names; NaN for everything else. */
-    public static double numberOrNaN(JsonParser parser) throws IOException {
+    static double numberOrNaN(JsonParser parser) throws IOException {
         JsonToken token = parser.currentToken();
         if (token.isNumeric()) {
             double number = number(parser);
@@ -122,12 +122,12 @@ public class AttributeValue {
         return token == JsonToken.VALUE_STRING ? Numbers.finite(parser.getText()) : Double.NaN;
     }
 
-    public boolean isPresent() {
+    boolean isPresent() {
         return kind != Kind.ABSENT;
     }
 
     /** The text as it is; null for everything else. */
-    public String textOrNull() {
+    String textOrNull() {
         return kind == Kind.TEXT ? text : null;
     }
 

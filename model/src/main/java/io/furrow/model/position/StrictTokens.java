@@ -13,7 +13,7 @@ import io.furrow.model.ngsi.NgsiJson;
  * The tokens of one JSON document after the other, as strict as {@link NgsiJson}. A method that answers {@code false} has met
  * something that is wrong or rare; the reader of trees finds out which.
  */
-public final class StrictTokens {
+final class StrictTokens {
     /** Names that come twice are found by {@link OpenNames}, which makes no set for each object. */
     private static final JsonFactory FACTORY = NgsiJson.mapper()
             .getFactory()
@@ -36,7 +36,7 @@ public final class StrictTokens {
     }
 
     /** The next token; null at the end of the document and where a name comes twice. */
-    public JsonToken next() throws IOException {
+    JsonToken next() throws IOException {
         JsonToken token = parser.nextToken();
         if (token == JsonToken.FIELD_NAME) {
             return names.add(parser.currentName()) ? token : null;
@@ -50,7 +50,7 @@ public final class StrictTokens {
     }
 
     /** Skips the value that the parser stands at, and answers whether it certainly keeps to {@code EntityLimits}. */
-    public boolean skipWithinLimits() throws IOException {
+    boolean skipWithinLimits() throws IOException {
         int depth = 0;
         for (JsonToken token = parser.currentToken(); token != null; token = next()) {
             depth += token.isStructStart() ? 1 : token.isStructEnd() ? -1 : 0;
@@ -81,7 +81,7 @@ public final class StrictTokens {
     }
 
     /** Whether the text holds no surrogate, neither half of a pair nor a pair, which is rare. */
-    public boolean isPlainText() throws IOException {
+    boolean isPlainText() throws IOException {
         if (plain) {
             return true;
         }
@@ -96,7 +96,7 @@ public final class StrictTokens {
     }
 
     /** Whether the text that the parser stands at is this one; makes no text to find out. */
-    public boolean isText(String expected) throws IOException {
+    boolean isText(String expected) throws IOException {
         if (parser.getTextLength() != expected.length()) {
             return false;
         }
