@@ -29,7 +29,7 @@ import io.furrow.flink.time.ReplayWatermarks;
 
 /** The Kafka sources and sinks of a job, with the settings that every job of Furrow has. */
 public final class KafkaConnectors {
-    public static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
+    static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
     /** A backlog is at the drift within as long, and waits for the next look. */
     private static final Duration ALIGNMENT_INTERVAL = Duration.ofMillis(100);
 

@@ -67,7 +67,7 @@ public final class TopicOptions {
         }
 
         /** The topic to be asked for; it takes records as large as the job may write. */
-        public NewTopic topic(String name) {
+        NewTopic topic(String name) {
             Map<String, String> configs = new HashMap<>();
             configs.put(TopicConfig.MAX_MESSAGE_BYTES_CONFIG, Integer.toString(KafkaConnectors.MAX_REQUEST_BYTES));
             if (compacted.contains(name)) {

@@ -45,7 +45,7 @@ public final class Epochs {
     }
 
     /** Whether the epoch of an event time is over at a watermark. */
-    public static boolean isOver(long time, long watermark) {
+    static boolean isOver(long time, long watermark) {
         return watermark >= end(of(time));
     }
 

@@ -9,9 +9,9 @@ import io.furrow.model.event.Original;
  * a value above {@value #LARGE} bytes, a quarter of what a topic of Kafka's default settings takes.
  */
 public final class LargeRecords {
-    public static final int LARGE = 256 * 1024;
+    static final int LARGE = 256 * 1024;
     /** Bytes of the value that stay, to be looked at. */
-    public static final int BEGINNING = 4 * 1024;
+    static final int BEGINNING = 4 * 1024;
 
     private LargeRecords() {}
 
@@ -21,7 +21,7 @@ public final class LargeRecords {
     }
 
     /** The record itself, or, where it is large, the beginning of its value, with the headers of its {@link Original}. */
-    public static TopicRecord beginning(TopicRecord record) {
+    static TopicRecord beginning(TopicRecord record) {
         return isLarge(record) ? reduced(record, Arrays.copyOf(record.value(), BEGINNING)) : record;
     }
 
