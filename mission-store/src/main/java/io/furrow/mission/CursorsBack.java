@@ -14,7 +14,7 @@ public final class CursorsBack {
     private Cursor last;
 
     /** @param first the answer where fewer events are requested */
-    public CursorsBack(Cursor first, long count) {
+    CursorsBack(Cursor first, long count) {
         this.first = first;
         this.count = count;
         this.last = first;
@@ -28,7 +28,7 @@ public final class CursorsBack {
     }
 
     /** The next event. */
-    public void add(Cursor event, boolean desired) {
+    void add(Cursor event, boolean desired) {
         if (desired) {
             if (beforeDesired.size() == count) {
                 beforeDesired.remove();
@@ -38,7 +38,7 @@ public final class CursorsBack {
         }
     }
 
-    public Cursor oldest() {
+    Cursor oldest() {
         return beforeDesired.size() == count ? beforeDesired.element() : first;
     }
 }
