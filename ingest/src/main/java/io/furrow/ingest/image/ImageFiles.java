@@ -20,9 +20,9 @@ import org.apache.flink.core.fs.Path;
  * is left alone, the newcomer gets a name with its hash. On the local file system an image is on the disk, and so is its name,
  * before the call returns: a checkpoint after it may take it for done.
  */
-public final class ImageFiles implements ImageStore {
+final class ImageFiles implements ImageStore {
     /** Files under way, to be deleted when they are left behind by a process that died. */
-    public static final String UNFINISHED = ".unfinished-";
+    static final String UNFINISHED = ".unfinished-";
 
     /** Stores where a rename is a copy and a put shows nothing before it is whole. */
     private static final Set<String> OBJECT_STORES = Set.of("s3", "s3a", "s3n", "s3p", "gs", "oss", "wasb", "wasbs");
@@ -41,7 +41,7 @@ public final class ImageFiles implements ImageStore {
     }
 
     /** @throws IOException if there is no file system for this kind of URI */
-    public static ImageFiles in(String root) throws IOException {
+    static ImageFiles in(String root) throws IOException {
         return new ImageFiles(root, path(root).getFileSystem());
     }
 

@@ -3,7 +3,7 @@ package io.furrow.ingest.image;
 import java.io.IOException;
 
 /** Where images go. */
-public interface ImageStore {
+interface ImageStore {
     /**
      * Says where an image is, after it was written where that is this instance's part.
      *

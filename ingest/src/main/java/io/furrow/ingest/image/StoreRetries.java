@@ -9,7 +9,7 @@ import io.furrow.model.time.Backoff;
 /**
  * Retries to store images, with backoff, until a timeout: a store that is unavailable for a moment costs no restart.
  */
-public final class StoreRetries {
+final class StoreRetries {
     private static final Duration MIN_BACKOFF = Duration.ofMillis(100);
     private static final Duration MAX_BACKOFF = Duration.ofSeconds(5);
 
@@ -17,14 +17,14 @@ public final class StoreRetries {
     private final Duration timeout;
     private final Runnable onRetry;
 
-    public StoreRetries(ImageMover mover, Duration timeout, Runnable onRetry) {
+    StoreRetries(ImageMover mover, Duration timeout, Runnable onRetry) {
         this.mover = mover;
         this.timeout = timeout;
         this.onRetry = onRetry;
     }
 
     /** @throws IOException what the last attempt said */
-    public Moved move(ReportedEvent event) throws IOException, InterruptedException {
+    Moved move(ReportedEvent event) throws IOException, InterruptedException {
         long end = System.nanoTime() + timeout.toNanos();
         Backoff backoff = new Backoff(MIN_BACKOFF, MAX_BACKOFF);
         while (true) {

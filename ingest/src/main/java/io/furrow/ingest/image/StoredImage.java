@@ -4,13 +4,13 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /** What an event carries instead of its image: where it is, and what it was. */
-public record StoredImage(String url, String sha256, int bytes, String contentType) {
+record StoredImage(String url, String sha256, int bytes, String contentType) {
     static StoredImage of(String url, Image image) {
         return new StoredImage(
                 url, image.sha256(), image.bytes().length, image.format().contentType());
     }
 
-    public ObjectNode json() {
+    ObjectNode json() {
         return JsonNodeFactory.instance
                 .objectNode()
                 .put("url", url)
