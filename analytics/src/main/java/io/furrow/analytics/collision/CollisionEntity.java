@@ -45,7 +45,7 @@ public final class CollisionEntity {
     }
 
     /** The record's key: both entity ids, the lesser first. */
-    public static String key(Encounter encounter) {
+    static String key(Encounter encounter) {
         return key(encounter.first(), encounter.second());
     }
 

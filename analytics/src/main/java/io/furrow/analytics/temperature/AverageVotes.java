@@ -15,7 +15,7 @@ import org.apache.flink.util.Collector;
  * lateness. Late: a vote cast again replaces the device's earlier one, and the result is made again. Emits: one result per
  * field and window in which a device voted, when the watermark passes the end of the window.
  */
-public final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldAverage, String, TimeWindow> {
+final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldAverage, String, TimeWindow> {
     private static final long serialVersionUID = 1L;
 
     private final double suspectFloor;

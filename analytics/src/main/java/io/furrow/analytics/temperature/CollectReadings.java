@@ -10,7 +10,7 @@ import org.apache.flink.api.common.functions.AggregateFunction;
  * writes all of that with every reading; values are counted, because a sensor that reports each second of a day has
  * few different ones.
  */
-public final class CollectReadings implements AggregateFunction<FieldReading, DeviceReadings, DeviceReadings> {
+final class CollectReadings implements AggregateFunction<FieldReading, DeviceReadings, DeviceReadings> {
     private static final long serialVersionUID = 1L;
 
     @Override

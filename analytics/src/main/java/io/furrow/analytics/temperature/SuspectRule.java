@@ -15,9 +15,9 @@ package io.furrow.analytics.temperature;
  * for the k nearest of n − 1 being closer together than all of them: by k/(n − 1) where they are spread evenly. {@code
  * SuspectSimulationTest} measures how often sound and defective devices are named.
  */
-public final class SuspectRule {
+final class SuspectRule {
     /** Of two devices that disagree nobody knows which one is right. */
-    public static final int MIN = 3;
+    static final int MIN = 3;
 
     private static final double SAMPLES_BEYOND = 22;
     /** Two votes say little about their spread: Student's t is 12.7 for one degree of freedom where a normal quantile is 2.9. */
@@ -31,7 +31,7 @@ public final class SuspectRule {
      * @param outward each vote less the median of all, the nearest first
      * @param floor by how much two sound devices in one place differ: the standard deviation of the difference, at least
      */
-    public static int sound(double[] outward, double floor) {
+    static int sound(double[] outward, double floor) {
         int devices = outward.length;
         double mean = 0;
         double squares = 0; // of the differences from the mean, by B. Welford (1962)

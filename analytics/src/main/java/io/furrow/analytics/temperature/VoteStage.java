@@ -9,15 +9,14 @@ import org.apache.flink.util.OutputTag;
 import io.furrow.flink.record.TopicRecord;
 
 /** The windows: first each device has its vote in each field, then the votes of a field are averaged. */
-public final class VoteStage {
-    public static final OutputTag<FieldReading> LATE = new OutputTag<>("late-readings") {
+final class VoteStage {
+    static final OutputTag<FieldReading> LATE = new OutputTag<>("late-readings") {
         private static final long serialVersionUID = 1L;
     };
 
     private VoteStage() {}
 
-    public static SingleOutputStreamOperator<DeviceVote> cast(
-            DataStream<FieldReading> readings, TemperatureOptions options) {
+    static SingleOutputStreamOperator<DeviceVote> cast(DataStream<FieldReading> readings, TemperatureOptions options) {
         KeyedStream<FieldReading, String> byVoter = readings.keyBy(FieldReading::voter);
         return byVoter.transform(
                         "Cast one vote per device",
@@ -31,8 +30,7 @@ public final class VoteStage {
     }
 
     /** A vote is stamped with the last instant of its window: windows of one slide keep those of each window together. */
-    public static SingleOutputStreamOperator<FieldAverage> average(
-            DataStream<DeviceVote> votes, TemperatureOptions options) {
+    static SingleOutputStreamOperator<FieldAverage> average(DataStream<DeviceVote> votes, TemperatureOptions options) {
         return votes.keyBy(DeviceVote::fieldIdentity)
                 .window(EpochWindows.of(options.slide(), options.slide()))
                 .allowedLateness(options.allowedLateness())
@@ -41,8 +39,7 @@ public final class VoteStage {
                 .name("Average the votes of each field");
     }
 
-    public static DataStream<TopicRecord> late(
-            SingleOutputStreamOperator<DeviceVote> votes, TemperatureOptions options) {
+    static DataStream<TopicRecord> late(SingleOutputStreamOperator<DeviceVote> votes, TemperatureOptions options) {
         return votes.getSideOutput(LATE)
                 .map(new NameLateWindow(options.lateOutput(), options.window(), options.slide()))
                 .uid("name-late-window")

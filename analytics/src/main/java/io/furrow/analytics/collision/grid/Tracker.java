@@ -42,7 +42,7 @@ public final class Tracker implements Serializable {
     }
 
     /** The first instant at which the track's position counts no more. */
-    public long expiry(Track track) {
+    long expiry(Track track) {
         return track.last().time() + timeToLive;
     }
 

@@ -33,35 +33,35 @@ public final class Cell {
         return members.size() == 0 && report == null;
     }
 
-    public boolean isCrowded() {
+    boolean isCrowded() {
         return crowded > 0;
     }
 
-    public CrowdReport report() {
+    CrowdReport report() {
         return report;
     }
 
-    public void report(CrowdReport now) {
+    void report(CrowdReport now) {
         report = now;
     }
 
     /** How many devices are in the cell, halo copies included. */
-    public int devices() {
+    int devices() {
         return members.size();
     }
 
-    public Collection<Member> members() {
+    Collection<Member> members() {
         return members.all();
     }
 
     /** Only before the first updates are applied. */
-    public void put(Member member) {
+    void put(Member member) {
         crowded += member.shortlist() == null ? 0 : 1;
         members.add(member);
     }
 
     /** Adds all others to {@code near} that are near a member, at home or not. */
-    public void near(Member member, Proximity proximity, List<Member> near) {
+    void near(Member member, Proximity proximity, List<Member> near) {
         prepare(proximity);
         members.near(member, proximity, near);
     }
@@ -82,7 +82,7 @@ public final class Cell {
     }
 
     /** Applies the updates of one instant. */
-    public void applyAtOnce(List<CellUpdate> updates, Matching matching, Consumer<PairObservation> out) {
+    void applyAtOnce(List<CellUpdate> updates, Matching matching, Consumer<PairObservation> out) {
         prepare(matching.proximity());
         putIn(takeOut(updates, matching), matching, updates.get(0).time(), out);
     }

@@ -10,7 +10,7 @@ import java.util.List;
  * @param after the device from then on; null if it is not
  * @param partners with whom it had an encounter, less those whose own change comes earlier
  */
-public record Change(int number, Member before, Member after, List<Member> partners) {
+record Change(int number, Member before, Member after, List<Member> partners) {
     /** Whether a pair with another member is seen by the change of that one, which comes earlier. */
     boolean comesAfterThatOf(Member other) {
         return other.change() != null && other.change().number < number;

@@ -49,11 +49,11 @@ public final class Member {
     }
 
     /** Where it is. */
-    public PositionFix fix() {
+    PositionFix fix() {
         return fix;
     }
 
-    public boolean resident() {
+    boolean resident() {
         return resident;
     }
 
@@ -72,22 +72,22 @@ public final class Member {
         return z;
     }
 
-    public Shortlist shortlist() {
+    Shortlist shortlist() {
         return shortlist;
     }
 
     /** Only before the instant at which it comes is over. */
-    public void shortlist(Shortlist now) {
+    void shortlist(Shortlist now) {
         shortlist = now;
         listed = now == null ? 0 : now.bits();
     }
 
     /** Whether it has a shortlist and the other is on it. */
-    public boolean lists(Member other) {
+    boolean lists(Member other) {
         return (listed & other.bit) != 0 && shortlist.has(other.fix);
     }
 
-    public Change change() {
+    Change change() {
         return change;
     }
 

@@ -52,7 +52,7 @@ public final class Proximity implements Serializable {
     }
 
     /** Whether two devices are close, wherever they are at home. */
-    public boolean near(Member a, Member b) {
+    boolean near(Member a, Member b) {
         double squaredChord = squaredChord(a, b);
         return squaredChord <= greatest.surelyApart
                 && within(limit(a.fix().type(), b.fix().type()), squaredChord, a, b)
@@ -62,7 +62,7 @@ public final class Proximity implements Serializable {
     }
 
     /** Of two close devices the square of their distance, as a share of that of their threshold. */
-    public double nearness(Member a, Member b) {
+    double nearness(Member a, Member b) {
         return squaredChord(a, b) / limit(a.fix().type(), b.fix().type()).surelyApart;
     }
 

@@ -10,7 +10,7 @@ import io.furrow.flink.record.Epochs;
  * with each other is reported in one cube only, that of the place where the one is when they are closest. Both know that cube,
  * because the other is within the threshold then. Two cubes may share an id, which does no harm: they are one then.
  */
-public final class Cubes implements Serializable {
+final class Cubes implements Serializable {
     private static final long serialVersionUID = 1L;
 
     /** A millimeter: a million times the rounding of a place in space. */
@@ -19,17 +19,17 @@ public final class Cubes implements Serializable {
     private final double edge;
     private final double reach;
 
-    public Cubes(MotionRules rules) {
+    Cubes(MotionRules rules) {
         edge = rules.cubeMeters();
         reach = rules.common().thresholds().greatest() + GUARD;
     }
 
-    public long cube(String topic, Place place) {
+    long cube(String topic, Place place) {
         return id(topic.hashCode(), index(place.x()), index(place.y()), index(place.z()));
     }
 
     /** Ids, ascending, each once. */
-    public long[] touched(Leg leg) {
+    long[] touched(Leg leg) {
         double length = leg.velocity().length() * (leg.until() - leg.from());
         int pieces = Math.max(1, (int) Math.ceil(length / edge));
         long from = Epochs.original(leg.from());

@@ -24,7 +24,7 @@ import io.furrow.analytics.eventtime.OneTimer;
  *
  * <p><b>Emits</b>: findings about legs ahead; those about legs behind to {@link #CONTACTS}.
  */
-public final class MatchLegs extends KeyedProcessFunction<Long, LegUpdate, Finding> {
+final class MatchLegs extends KeyedProcessFunction<Long, LegUpdate, Finding> {
     static final OutputTag<Finding> CONTACTS = new OutputTag<>("contacts") {
         private static final long serialVersionUID = 1L;
     };

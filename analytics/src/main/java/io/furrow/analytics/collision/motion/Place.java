@@ -9,10 +9,10 @@ import io.furrow.analytics.position.PositionFix;
  * @param y meters towards 0° N 90° E
  * @param z meters towards the north pole
  */
-public record Place(double x, double y, double z) {
-    public static final double EARTH_RADIUS_METERS = 6_371_000;
+record Place(double x, double y, double z) {
+    static final double EARTH_RADIUS_METERS = 6_371_000;
 
-    public static Place of(PositionFix fix) {
+    static Place of(PositionFix fix) {
         double phi = Math.toRadians(fix.latitude());
         double lambda = Math.toRadians(fix.longitude());
         double cosine = EARTH_RADIUS_METERS * StrictMath.cos(phi);
@@ -23,7 +23,7 @@ public record Place(double x, double y, double z) {
     }
 
     /** The direction of length 1 in which someone looks who stands there and turns so many degrees from north to east. */
-    public static Place heading(PositionFix fix, double degrees) {
+    static Place heading(PositionFix fix, double degrees) {
         double phi = Math.toRadians(fix.latitude());
         double lambda = Math.toRadians(fix.longitude());
         double north = StrictMath.cos(Math.toRadians(degrees));
@@ -35,44 +35,44 @@ public record Place(double x, double y, double z) {
                 StrictMath.cos(phi) * north);
     }
 
-    public Place plus(Place other) {
+    Place plus(Place other) {
         return new Place(x + other.x, y + other.y, z + other.z);
     }
 
-    public Place minus(Place other) {
+    Place minus(Place other) {
         return new Place(x - other.x, y - other.y, z - other.z);
     }
 
-    public Place times(double factor) {
+    Place times(double factor) {
         return new Place(factor * x, factor * y, factor * z);
     }
 
-    public double dot(Place other) {
+    double dot(Place other) {
         return x * other.x + y * other.y + z * other.z;
     }
 
-    public double length() {
+    double length() {
         return Math.sqrt(dot(this));
     }
 
     /** Meters along the ground between two places on it. */
-    public double distance(Place other) {
+    double distance(Place other) {
         double chord = minus(other).length();
         return 2 * EARTH_RADIUS_METERS * StrictMath.asin(Math.min(1, chord / (2 * EARTH_RADIUS_METERS)));
     }
 
     /** Without the part that leads away from the ground at that place. */
-    public Place alongTheGroundAt(Place ground) {
+    Place alongTheGroundAt(Place ground) {
         return minus(ground.times(dot(ground) / ground.dot(ground)));
     }
 
     /** Degrees. */
-    public double latitude() {
+    double latitude() {
         return Math.toDegrees(StrictMath.asin(Math.max(-1, Math.min(1, z / length()))));
     }
 
     /** Degrees, −180 to 180. */
-    public double longitude() {
+    double longitude() {
         return Math.toDegrees(StrictMath.atan2(y, x));
     }
 }

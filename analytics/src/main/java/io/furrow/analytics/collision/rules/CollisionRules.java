@@ -76,7 +76,7 @@ public record CollisionRules(
     }
 
     /** Equal for rules by which the same pairs are close, in this and in another JVM. */
-    public String digest() {
+    String digest() {
         return "%s %s %s %s %s %08x"
                 .formatted(
                         thresholds.meters(),

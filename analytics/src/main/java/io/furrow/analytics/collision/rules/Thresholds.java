@@ -50,7 +50,7 @@ public record Thresholds(double meters, Map<String, Double> ofTypes) implements 
     }
 
     /** Each as many times as great. */
-    public Thresholds times(double factor) {
+    Thresholds times(double factor) {
         Map<String, Double> wider = new TreeMap<>(ofTypes);
         wider.replaceAll((types, threshold) -> threshold * factor);
         return new Thresholds(meters * factor, wider);
