@@ -87,12 +87,12 @@ public final class BrokerEntities {
     }
 
     /** The entities created at or after a time, oldest first; of the attributes only the built-in ones. */
-    public Page createdFrom(Instant from, int offset, int limit) throws BrokerException, InterruptedException {
+    Page createdFrom(Instant from, int offset, int limit) throws BrokerException, InterruptedException {
         return page(new Range(CREATED, from, offset, limit), builtIns(CREATED));
     }
 
     /** The current entities of an id, in the order of their times; empty if it was deleted. */
-    public List<EntityState> ofId(FiwareScope place, String id) throws BrokerException, InterruptedException {
+    List<EntityState> ofId(FiwareScope place, String id) throws BrokerException, InterruptedException {
         try {
             JsonNode answer = ask(place, EntityRequests.ofId(id, told), TREE_TO_BODY * maxBytes);
             List<EntityState> states = states(answer, MODIFIED, Instant.EPOCH);
@@ -109,7 +109,7 @@ public final class BrokerEntities {
     }
 
     /** The same, without their attributes. */
-    public List<EntityState> stubsOfId(FiwareScope place, String id) throws BrokerException, InterruptedException {
+    List<EntityState> stubsOfId(FiwareScope place, String id) throws BrokerException, InterruptedException {
         return stubsOfId(place, id, CREATED);
     }
 
@@ -119,7 +119,7 @@ public final class BrokerEntities {
     }
 
     /** Whether an entity belongs to the subscription. */
-    public boolean covers(EntityState state) {
+    boolean covers(EntityState state) {
         return subject.covers(state.entity().id(), state.entity().type());
     }
 

@@ -20,7 +20,7 @@ public record EntityState(Entity entity, FiwareScope scope, Instant time, Option
     }
 
     /** Tenant, service path, type and id. */
-    public String identity() {
+    String identity() {
         return scope.identity(entity.type(), entity.id());
     }
 

@@ -3,21 +3,21 @@ package io.furrow.connect.repair;
 import io.furrow.model.event.FiwareScope;
 
 /** The inverse of {@link FiwareScope#identity(String, String)}. */
-public final class Identities {
+final class Identities {
     private static final int PARTS = 4;
     private static final int TYPE = 2;
 
     private Identities() {}
 
-    public static FiwareScope scope(String identity) {
+    static FiwareScope scope(String identity) {
         return FiwareScope.ofIdentity(identity);
     }
 
-    public static String type(String identity) {
+    static String type(String identity) {
         return identity.split("\\|", PARTS)[TYPE].replace("%7C", "|").replace("%25", "%");
     }
 
-    public static String id(String identity) {
+    static String id(String identity) {
         return identity.split("\\|", PARTS)[PARTS - 1];
     }
 }

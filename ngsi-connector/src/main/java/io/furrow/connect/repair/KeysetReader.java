@@ -63,13 +63,13 @@ public final class KeysetReader {
     private int recounts;
 
     /** @param limit at least 2 */
-    public KeysetReader(Pages pages, int limit) {
+    KeysetReader(Pages pages, int limit) {
         this.pages = pages;
         this.limit = limit;
     }
 
     /** Reads until a page is not full. */
-    public void readFrom(Instant start, Reader reader) throws BrokerException, InterruptedException, IOException {
+    void readFrom(Instant start, Reader reader) throws BrokerException, InterruptedException, IOException {
         moveTo(start);
         while (true) {
             Page page = pages.page(from, offset, limit);

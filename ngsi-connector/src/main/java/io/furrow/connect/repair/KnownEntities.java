@@ -13,7 +13,7 @@ import java.util.stream.Stream;
  * the entities that have to be read again. Survives a restart in a {@link KnownFile}. Uses a bounded part of the heap:
  * with more entities all are dropped, because a part of them would not reveal deletions. Thread-safe.
  */
-public final class KnownEntities implements AutoCloseable {
+final class KnownEntities implements AutoCloseable {
     /** Per entity besides its identity: the node of the set and a text. */
     private static final int ENTRY_BYTES = 104;
 
@@ -29,7 +29,7 @@ public final class KnownEntities implements AutoCloseable {
     }
 
     /** @param maxBytes of heap */
-    public static KnownEntities open(Path path, long maxBytes) throws IOException {
+    static KnownEntities open(Path path, long maxBytes) throws IOException {
         KnownEntities known = new KnownEntities(maxBytes);
         KnownFile.read(path, known::apply);
         known.file = KnownFile.write(path, known.changes());
@@ -86,20 +86,20 @@ public final class KnownEntities implements AutoCloseable {
         return ENTRY_BYTES + 2L * identity.length();
     }
 
-    public synchronized void add(String identity) throws IOException {
+    synchronized void add(String identity) throws IOException {
         if (keep(identity)) {
             file.append(tooMany ? KnownFile.Change.TOO_MANY : KnownFile.Change.added(identity));
         }
     }
 
-    public synchronized void remove(String identity) throws IOException {
+    synchronized void remove(String identity) throws IOException {
         if (drop(identity)) {
             file.append(KnownFile.Change.removed(identity));
         }
     }
 
     /** Marks an entity to be read again; durable across restarts. */
-    public synchronized void markStale(String identity) throws IOException {
+    synchronized void markStale(String identity) throws IOException {
         if (stale.add(identity)) {
             file.append(KnownFile.Change.stale(identity));
             file.flush();
@@ -107,12 +107,12 @@ public final class KnownEntities implements AutoCloseable {
     }
 
     /** The entities that are marked and not settled. */
-    public synchronized Set<String> stale() {
+    synchronized Set<String> stale() {
         return new HashSet<>(stale);
     }
 
     /** Unmarks entities that were read again, unless others were marked meanwhile. */
-    public synchronized void settle(Set<String> these) throws IOException {
+    synchronized void settle(Set<String> these) throws IOException {
         if (!stale.isEmpty() && stale.equals(these)) {
             stale.clear();
             file.append(KnownFile.Change.SETTLED);
@@ -120,7 +120,7 @@ public final class KnownEntities implements AutoCloseable {
     }
 
     /** Flushes the changes to the operating system, and compacts the file if most of it is obsolete. */
-    public void flush() throws IOException {
+    void flush() throws IOException {
         Iterable<KnownFile.Change> now;
         synchronized (this) {
             file.flush();
@@ -143,20 +143,20 @@ public final class KnownEntities implements AutoCloseable {
     }
 
     /** Whether there are more entities than fit. */
-    public synchronized boolean isOverfull() {
+    synchronized boolean isOverfull() {
         return tooMany;
     }
 
-    public synchronized int size() {
+    synchronized int size() {
         return identities.size();
     }
 
-    public synchronized boolean contains(String identity) {
+    synchronized boolean contains(String identity) {
         return identities.contains(identity);
     }
 
     /** A copy of the current identities. */
-    public synchronized Set<String> copy() {
+    synchronized Set<String> copy() {
         return new HashSet<>(identities);
     }
 

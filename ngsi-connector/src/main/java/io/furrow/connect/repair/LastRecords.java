@@ -15,7 +15,7 @@ import java.util.Set;
  * that was quiet longest is forgotten. An unknown entity counts as stale if its record is no newer than any forgotten
  * one. Not thread-safe.
  */
-public final class LastRecords {
+final class LastRecords {
     /** Per entry besides its identity: the nodes of map and set, two texts, the event id. */
     private static final int ENTRY_BYTES = 320;
 

@@ -109,7 +109,7 @@ public final class LiveEvents {
     }
 
     /** Restores the entities that were to be read again when the source stopped. */
-    public synchronized void restoreStale(Iterable<String> identities) {
+    synchronized void restoreStale(Iterable<String> identities) {
         identities.forEach(last::restoreStale);
     }
 

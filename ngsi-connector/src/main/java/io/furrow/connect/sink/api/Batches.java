@@ -15,7 +15,7 @@ public record Batches(int maxCount, long maxBytes) {
     /** An update or a deletion, its scope, and its JSON, which is written once. */
     public record Rendered<T>(T of, FiwareScope scope, byte[] json) {}
 
-    public <T> List<List<Rendered<T>>> cut(List<Rendered<T>> all) {
+    <T> List<List<Rendered<T>>> cut(List<Rendered<T>> all) {
         Map<FiwareScope, List<Rendered<T>>> byScope = new LinkedHashMap<>();
         all.forEach(one ->
                 byScope.computeIfAbsent(one.scope(), scope -> new ArrayList<>()).add(one));

@@ -19,7 +19,7 @@ public record Change(EntityKey key, Entity entity, long time, int source) {
         Objects.requireNonNull(key);
     }
 
-    public boolean isDeletion() {
+    boolean isDeletion() {
         return entity == null;
     }
 }

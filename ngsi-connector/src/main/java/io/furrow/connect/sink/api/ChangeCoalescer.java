@@ -18,7 +18,7 @@ import io.furrow.model.ngsi.Entity;
  * last one if times are equal, and no value older than the known state of the context broker. A deletion removes all
  * values that are not newer.
  */
-public final class ChangeCoalescer {
+final class ChangeCoalescer {
     private static final Set<String> BROKER_METADATA =
             Set.of("dateCreated", "dateModified", "previousValue", "actionType");
 
@@ -28,7 +28,7 @@ public final class ChangeCoalescer {
     private int coalesced;
 
     /** @param known must contain every entity that is added */
-    public ChangeCoalescer(EntityTimesCache known) {
+    ChangeCoalescer(EntityTimesCache known) {
         this.known = known;
     }
 
@@ -68,7 +68,7 @@ public final class ChangeCoalescer {
         private final List<Change> changes = new ArrayList<>(1);
     }
 
-    public void add(Change change) {
+    void add(Change change) {
         Pending pending = entities.computeIfAbsent(change.key(), key -> new Pending(known.of(key)));
         if (change.isDeletion()) {
             delete(pending, change);
@@ -133,7 +133,7 @@ public final class ChangeCoalescer {
     }
 
     /** The plan, in the order in which the entities were first added. */
-    public Plan plan() {
+    Plan plan() {
         List<Change> deletions = new ArrayList<>();
         List<Change> partial = new ArrayList<>();
         List<Update> updates = new ArrayList<>(entities.size());

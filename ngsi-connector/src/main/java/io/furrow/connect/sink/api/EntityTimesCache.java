@@ -31,7 +31,7 @@ public final class EntityTimesCache {
     }
 
     /** Null if the entity is not cached, which differs from known to be absent. */
-    public EntityTimes of(EntityKey key) {
+    EntityTimes of(EntityKey key) {
         return entities.get(key);
     }
 

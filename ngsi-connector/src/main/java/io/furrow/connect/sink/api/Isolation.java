@@ -36,7 +36,7 @@ public final class Isolation {
     }
 
     /** Whether this try splits the delivery. */
-    public boolean isDue(Collection<Change> changes) {
+    boolean isDue(Collection<Change> changes) {
         if (after == 0) {
             return false;
         }
@@ -49,21 +49,21 @@ public final class Isolation {
     /**
      * Whether this try rejects an entity that causes a 500 although no other record of the delivery could be written.
      */
-    public boolean refusesWithoutProof() {
+    boolean refusesWithoutProof() {
         return refuseAfter > 0 && failures + 1 >= refuseAfter;
     }
 
-    public void suspect(EntityKey key) {
+    void suspect(EntityKey key) {
         suspects.add(key);
     }
 
     /** A try ended with an answer 500. */
-    public void failed() {
+    void failed() {
         failures++;
     }
 
     /** The delivery was written. */
-    public void passed() {
+    void passed() {
         failures = 0;
     }
 }

@@ -9,4 +9,4 @@ import java.util.List;
  * @param stale number of changes without a value newer than the known state
  * @param coalesced number of changes that were merged into another update or overridden by a deletion
  */
-public record Plan(List<Change> deletions, List<Change> partial, List<Update> updates, int stale, int coalesced) {}
+record Plan(List<Change> deletions, List<Change> partial, List<Update> updates, int stale, int coalesced) {}

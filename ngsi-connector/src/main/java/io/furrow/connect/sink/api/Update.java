@@ -12,7 +12,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  * @param times the event time of each attribute
  * @param changes the merged changes, in the order of their arrival
  */
-public record Update(
+record Update(
         EntityKey key,
         String type,
         Map<String, ObjectNode> attributes,

@@ -7,7 +7,7 @@ import io.furrow.connect.source.option.OverloadOptions;
  * a tree, as records and in the journal's format. Short JSON can be a large tree: {@code {},} has 3 bytes there and
  * more than 100 here. The estimate errs on the high side.
  */
-public final class HeapEstimate {
+final class HeapEstimate {
     /** Per value or name in the tree, with its share of the collection that holds it. */
     private static final int PER_NODE = 96;
     /** Per object that may be an entity, mostly for the headers of its record. */
