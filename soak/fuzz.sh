@@ -57,7 +57,7 @@ class_of() {
         bodies) echo io.furrow.connect.source.FuzzBodies ;;
         journal) echo io.furrow.connect.journal.FuzzJournal ;;
         records) echo io.furrow.connect.source.journal.FuzzRecords ;;
-        pages) echo io.furrow.connect.repair.entity.FuzzPages ;;
+        pages) echo io.furrow.connect.repair.FuzzPages ;;
         answers) echo io.furrow.connect.sink.api.FuzzAnswers ;;
         gzip) echo io.furrow.connect.source.http.FuzzGzip ;;
     esac

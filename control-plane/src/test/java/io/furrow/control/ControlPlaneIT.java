@@ -34,15 +34,15 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.MissionCommand;
+import io.furrow.model.control.MissionPlan;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.ReplayPlan;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.Requests;
-import io.furrow.model.control.mission.MissionPlan;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

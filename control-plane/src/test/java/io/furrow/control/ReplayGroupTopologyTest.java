@@ -14,11 +14,11 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.control.CommandResult;
-import io.furrow.model.control.mission.RecordedMission;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.DesiredReplay.Clock;
-import io.furrow.model.control.replay.DesiredReplay.Range;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.DesiredReplay.Clock;
+import io.furrow.model.control.DesiredReplay.Range;
+import io.furrow.model.control.RecordedMission;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

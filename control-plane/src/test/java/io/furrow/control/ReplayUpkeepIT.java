@@ -46,12 +46,12 @@ import io.furrow.control.replay.TopicCleanup;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.RecordedMission;
 import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.ReplayPlan;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.Requests;
-import io.furrow.model.control.mission.RecordedMission;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -10,9 +10,9 @@ import org.apache.flink.streaming.api.datastream.DataStreamUtils;
 import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
-import io.furrow.flink.job.TopicOptions;
 import io.furrow.flink.kafka.DeadLetterSink;
 import io.furrow.flink.kafka.KafkaOutput;
+import io.furrow.flink.kafka.TopicOptions;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;

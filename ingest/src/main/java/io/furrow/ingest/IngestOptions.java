@@ -12,7 +12,7 @@ import picocli.CommandLine.ParameterException;
 
 import io.furrow.flink.job.InputTopics;
 import io.furrow.flink.job.JobOptions;
-import io.furrow.flink.job.TopicOptions;
+import io.furrow.flink.kafka.TopicOptions;
 import io.furrow.ingest.image.ImageOptions;
 import io.furrow.ingest.image.Storing;
 import io.furrow.ingest.latest.LatestKey;

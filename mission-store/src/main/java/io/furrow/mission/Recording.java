@@ -5,8 +5,6 @@ import java.util.Optional;
 import java.util.Set;
 import java.util.function.Predicate;
 
-import io.furrow.mission.mongo.CursorsBack;
-
 /**
  * A stored mission: its events in the order of {@link EventOrder}. Read by one thread. After a {@link RecordingException} the
  * same page can be asked for again.

@@ -16,7 +16,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.journal.FuzzJournal;
-import io.furrow.connect.repair.entity.FuzzPages;
+import io.furrow.connect.repair.FuzzPages;
 import io.furrow.connect.sink.api.FuzzAnswers;
 import io.furrow.connect.source.FuzzBodies;
 import io.furrow.connect.source.http.FuzzGzip;

@@ -9,7 +9,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.MissingNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.device.MeasuredAttribute;
+import io.furrow.model.control.MeasuredAttribute;
 
 /**
  * The registration of a device at the IoT Agent, actual or desired; two are equal if devices need not be provisioned

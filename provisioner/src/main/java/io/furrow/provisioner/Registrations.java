@@ -7,10 +7,10 @@ import java.util.function.Supplier;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.model.control.MeasuredAttribute;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.device.MeasuredAttribute;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -57,7 +57,7 @@ final class Registrations {
                 secret.get().apiKey(version.mission()),
                 version.id(),
                 desired.type(),
-                new LinkedHashSet<>(MeasuredAttribute.of(desired)),
+                new LinkedHashSet<>(desired.attributes()),
                 new Registration.Fixed(version.domain(), version.mission(), place(desired)),
                 COMMANDS);
     }

@@ -7,10 +7,10 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.flink.job.JobEnvironment;
-import io.furrow.flink.job.TopicOptions;
 import io.furrow.flink.kafka.EnsureTopics;
 import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.flink.kafka.KafkaOutput;
+import io.furrow.flink.kafka.TopicOptions;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.recording.RecordingSources;

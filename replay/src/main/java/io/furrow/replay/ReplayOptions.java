@@ -19,14 +19,14 @@ import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
 
 import io.furrow.flink.job.JobOptions;
-import io.furrow.flink.job.TopicOptions;
 import io.furrow.flink.job.WithoutEventTime;
+import io.furrow.flink.kafka.TopicOptions;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.MongoRecordings;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.time.Instants;
 import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;

@@ -20,11 +20,11 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.mission.StoredEvent;
 import io.furrow.mission.file.ArchiveLine;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.ReplayPlan;
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 

@@ -7,9 +7,9 @@ import java.util.stream.Stream;
 
 import org.apache.flink.api.common.JobID;
 
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.ReplayStatus.State;
 
 import static org.awaitility.Awaitility.await;
 

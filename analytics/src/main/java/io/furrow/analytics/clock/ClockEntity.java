@@ -2,9 +2,9 @@ package io.furrow.analytics.clock;
 
 import java.io.Serializable;
 
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.ResultRecord;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.Epochs;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.result.ClockResult;

@@ -16,6 +16,7 @@ import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.TrackDevices;
 import io.furrow.analytics.collision.matching.CellOverflow;
 import io.furrow.analytics.collision.matching.MatchPairs;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 

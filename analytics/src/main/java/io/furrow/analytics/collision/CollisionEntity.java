@@ -3,7 +3,7 @@ package io.furrow.analytics.collision;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.motion.Approach;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.result.CollisionResult;
@@ -45,7 +45,7 @@ public final class CollisionEntity {
     }
 
     /** The record's key: both entity ids, the lesser first. */
-    public static String key(Encounter encounter) {
+    static String key(Encounter encounter) {
         return key(encounter.first(), encounter.second());
     }
 

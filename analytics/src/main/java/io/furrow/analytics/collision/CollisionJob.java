@@ -10,8 +10,8 @@ import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.clock.ClockStage;
+import io.furrow.analytics.collision.grid.AssignCarriers;
 import io.furrow.analytics.collision.motion.MotionDetection;
-import io.furrow.analytics.collision.position.AssignCarriers;
 import io.furrow.analytics.job.AnalyticsJob;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;

@@ -7,6 +7,7 @@ import picocli.CommandLine.Option;
 import io.furrow.analytics.clock.ClockSettings;
 import io.furrow.analytics.collision.motion.MotionOptions;
 import io.furrow.analytics.collision.motion.MotionRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.model.topic.Topics;
 

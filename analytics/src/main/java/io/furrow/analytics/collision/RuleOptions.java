@@ -7,12 +7,13 @@ import java.util.Map;
 
 import picocli.CommandLine.Option;
 
-import io.furrow.analytics.collision.debounce.DebounceRules;
-import io.furrow.analytics.collision.grid.CellRules;
-import io.furrow.analytics.collision.matching.ExclusionZones;
-import io.furrow.analytics.collision.matching.Thresholds;
-import io.furrow.analytics.collision.matching.ZoneFile;
-import io.furrow.analytics.collision.position.PositionRules;
+import io.furrow.analytics.collision.rules.CellRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.rules.DebounceRules;
+import io.furrow.analytics.collision.rules.ExclusionZones;
+import io.furrow.analytics.collision.rules.PositionRules;
+import io.furrow.analytics.collision.rules.Thresholds;
+import io.furrow.analytics.collision.rules.ZoneFile;
 
 /** The options of {@link CollisionRules}. An accessor refuses, with its argument's name, what no job could start with. */
 final class RuleOptions {

@@ -17,8 +17,8 @@ import org.apache.flink.api.common.typeinfo.Types;
 import io.furrow.analytics.field.FieldIndex.Located;
 import io.furrow.analytics.field.FieldIndex.Span;
 import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.Epochs;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.Position;
 

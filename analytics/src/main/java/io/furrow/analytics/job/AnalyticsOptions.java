@@ -7,7 +7,7 @@ import picocli.CommandLine.Mixin;
 
 import io.furrow.flink.job.AlignmentOptions;
 import io.furrow.flink.job.JobOptions;
-import io.furrow.flink.job.TopicOptions;
+import io.furrow.flink.kafka.TopicOptions;
 
 /** Options of every analytics job. An accessor rejects a value that no job could start with. */
 public abstract class AnalyticsOptions extends JobOptions {

@@ -8,12 +8,12 @@ import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
 import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
-import io.furrow.flink.time.Epochs;
 import io.furrow.flink.time.ReplayKind;
-import io.furrow.model.ngsi.EntityReader;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.position.EntityReader;
 import io.furrow.model.result.ResultTypes;
 
 /**

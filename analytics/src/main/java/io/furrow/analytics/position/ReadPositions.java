@@ -7,15 +7,15 @@ import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.util.Collector;
 
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
-import io.furrow.flink.time.Epochs;
 import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
-import io.furrow.model.ngsi.EntityReader;
 import io.furrow.model.ngsi.Quantity;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.position.EntityReader;
 import io.furrow.model.position.Position;
 import io.furrow.model.position.PositionReading;
 

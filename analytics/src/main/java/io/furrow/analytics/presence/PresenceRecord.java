@@ -6,9 +6,9 @@ import java.security.NoSuchAlgorithmException;
 import java.util.HexFormat;
 
 import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.ResultRecord;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.Epochs;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.result.PresenceResult;

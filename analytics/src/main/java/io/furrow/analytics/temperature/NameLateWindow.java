@@ -17,7 +17,7 @@ import io.furrow.model.topic.Topics;
  * Turns a reading that came after its window was closed back into the record it was, with two headers more: {@value #FIELD}
  * (id) and {@value #WINDOW} (the last window it belonged to, {@code <start>/<end>} in ISO 8601). Counted as {@code late}.
  */
-public final class NameLateWindow extends RichMapFunction<FieldReading, TopicRecord> {
+final class NameLateWindow extends RichMapFunction<FieldReading, TopicRecord> {
     static final String FIELD = "late-field";
     static final String WINDOW = "late-window";
     private static final long serialVersionUID = 1L;
@@ -27,7 +27,7 @@ public final class NameLateWindow extends RichMapFunction<FieldReading, TopicRec
     private final long slideMillis;
     private transient Counter late;
 
-    public NameLateWindow(String topic, Duration window, Duration slide) {
+    NameLateWindow(String topic, Duration window, Duration slide) {
         this.topic = topic;
         this.windowMillis = window.toMillis();
         this.slideMillis = slide.toMillis();

@@ -10,19 +10,19 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.util.Collector;
 
 import io.furrow.analytics.position.ReadEntities;
-import io.furrow.flink.kafka.LargeRecords;
+import io.furrow.flink.record.Epochs;
+import io.furrow.flink.record.LargeRecords;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
-import io.furrow.flink.time.Epochs;
 import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
-import io.furrow.model.ngsi.EntityReader;
 import io.furrow.model.ngsi.Quantity;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.position.EntityReader;
 import io.furrow.model.position.Position;
 import io.furrow.model.position.PositionReading;
 

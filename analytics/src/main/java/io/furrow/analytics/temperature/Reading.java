@@ -1,7 +1,7 @@
 package io.furrow.analytics.temperature;
 
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.Epochs;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.Position;

@@ -4,11 +4,9 @@ import java.io.Serializable;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-import io.furrow.analytics.temperature.window.FieldAverage;
-import io.furrow.analytics.temperature.window.RobustMean;
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.ResultRecord;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.Epochs;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.result.FieldResult;

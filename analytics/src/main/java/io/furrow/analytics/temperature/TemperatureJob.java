@@ -12,13 +12,10 @@ import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.field.KnownFields;
 import io.furrow.analytics.field.RecognizeFields;
 import io.furrow.analytics.job.AnalyticsJob;
-import io.furrow.analytics.temperature.suspect.DeviceVote;
-import io.furrow.analytics.temperature.suspect.VoteStage;
-import io.furrow.analytics.temperature.window.FieldAverage;
 import io.furrow.flink.record.DeadLetters;
-import io.furrow.flink.record.DeduplicateById;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.DeduplicateById;
 import io.furrow.flink.time.KeyedLatenessOperator;
 import io.furrow.flink.time.TimelessBroadcastOperator;
 

@@ -13,12 +13,10 @@ import org.slf4j.LoggerFactory;
 import io.furrow.analytics.JobCounters;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
-import io.furrow.analytics.collision.grid.CellRules;
 import io.furrow.analytics.collision.grid.Geodesy;
 import io.furrow.analytics.collision.matching.CellOverflow;
-import io.furrow.analytics.collision.position.CollisionOracle;
-import io.furrow.analytics.collision.position.DetectionRun;
-import io.furrow.analytics.collision.position.Fixes;
+import io.furrow.analytics.collision.rules.CellRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;

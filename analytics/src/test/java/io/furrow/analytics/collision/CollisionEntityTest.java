@@ -4,7 +4,6 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
-import io.furrow.analytics.collision.position.Fixes;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.model.ngsi.Entity;
 

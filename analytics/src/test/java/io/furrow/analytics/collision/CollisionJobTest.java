@@ -16,7 +16,7 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.analytics.collision.position.Fixes;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.JobUids;
 import io.furrow.flink.record.TopicRecord;

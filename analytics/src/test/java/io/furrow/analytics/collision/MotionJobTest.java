@@ -17,7 +17,6 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import picocli.CommandLine.ParameterException;
 
 import io.furrow.analytics.TestEnvironment;
-import io.furrow.analytics.collision.position.Fixes;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.device.DeviceInput;
 import io.furrow.flink.job.JobCommandLine;

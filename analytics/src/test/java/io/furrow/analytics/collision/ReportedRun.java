@@ -16,7 +16,6 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import io.furrow.analytics.AfterBroadcast;
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.TestEnvironment;
-import io.furrow.analytics.collision.position.Fixes;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.device.DeviceInput;
 import io.furrow.flink.job.JobCommandLine;

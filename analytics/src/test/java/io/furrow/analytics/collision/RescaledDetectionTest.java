@@ -40,12 +40,10 @@ import org.junit.jupiter.api.io.TempDir;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.analytics.collision.debounce.DebounceRules;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
-import io.furrow.analytics.collision.position.CollisionOracle;
-import io.furrow.analytics.collision.position.DetectionRun;
-import io.furrow.analytics.collision.position.Fixes;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.rules.DebounceRules;
 import io.furrow.analytics.eventtime.Timed;
 import io.furrow.analytics.position.PositionFix;
 

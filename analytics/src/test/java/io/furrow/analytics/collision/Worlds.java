@@ -13,13 +13,13 @@ import org.locationtech.jts.geom.Geometry;
 import org.locationtech.jts.geom.GeometryFactory;
 
 import io.furrow.analytics.Seeds;
-import io.furrow.analytics.collision.debounce.DebounceRules;
-import io.furrow.analytics.collision.grid.CellRules;
 import io.furrow.analytics.collision.grid.Geodesy;
-import io.furrow.analytics.collision.matching.ExclusionZones;
-import io.furrow.analytics.collision.matching.Thresholds;
-import io.furrow.analytics.collision.position.Fixes;
-import io.furrow.analytics.collision.position.PositionRules;
+import io.furrow.analytics.collision.rules.CellRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.rules.DebounceRules;
+import io.furrow.analytics.collision.rules.ExclusionZones;
+import io.furrow.analytics.collision.rules.PositionRules;
+import io.furrow.analytics.collision.rules.Thresholds;
 import io.furrow.analytics.position.PositionFix;
 
 /** Made-up farms: a handful of devices that wander about a place, with silences, repetitions and shared instants. */

@@ -13,8 +13,6 @@ import org.apache.flink.api.java.typeutils.PojoTypeInfo;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.field.Field;
-import io.furrow.analytics.temperature.suspect.DeviceVote;
-import io.furrow.analytics.temperature.window.DeviceReadings;
 import io.furrow.flink.record.TopicRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;

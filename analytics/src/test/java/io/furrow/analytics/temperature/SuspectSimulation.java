@@ -9,7 +9,6 @@ import java.util.function.IntToDoubleFunction;
 import java.util.stream.IntStream;
 
 import io.furrow.analytics.Seeds;
-import io.furrow.analytics.temperature.window.RobustMean;
 
 /**
  * Windows of a field in which sound devices vote normally distributed around one temperature, and maybe some that are off by a

@@ -15,10 +15,6 @@ import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.analytics.temperature.suspect.DeviceVote;
-import io.furrow.analytics.temperature.suspect.VoteStage;
-import io.furrow.analytics.temperature.window.FieldAverage;
-import io.furrow.analytics.temperature.window.RobustMean;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.position.Position;
 

@@ -8,14 +8,14 @@ import java.util.function.UnaryOperator;
 
 import org.HdrHistogram.Histogram;
 
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.encounter.Pair;
 import io.furrow.analytics.collision.encounter.PairObservation;
-import io.furrow.analytics.collision.grid.Cell;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Track;
 import io.furrow.analytics.collision.grid.Tracker;
+import io.furrow.analytics.collision.matching.Cell;
 import io.furrow.analytics.collision.matching.Matching;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.bench.analytics.load.Fleet;
 

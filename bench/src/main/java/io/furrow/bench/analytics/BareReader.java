@@ -14,8 +14,8 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.bench.analytics.load.Fleet;
 import io.furrow.bench.analytics.load.FleetTopic;
-import io.furrow.model.ngsi.EntityReader;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.position.EntityReader;
 import io.furrow.model.position.PositionReading;
 
 /** One thread that reads a topic with a consumer and gives the positions to a {@link BareLoop}, in the order of arrival. */

@@ -8,12 +8,12 @@ import java.util.List;
 import java.util.Random;
 import java.util.stream.IntStream;
 
-import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.grid.Cell;
-import io.furrow.analytics.collision.grid.CellRules;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Presence;
+import io.furrow.analytics.collision.matching.Cell;
 import io.furrow.analytics.collision.matching.Matching;
+import io.furrow.analytics.collision.rules.CellRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.bench.analytics.load.CrowdedFleet;
 import io.furrow.bench.analytics.load.Fleet;
 

@@ -18,7 +18,7 @@ import redis.clients.jedis.args.GeoUnit;
 import redis.clients.jedis.exceptions.JedisConnectionException;
 import redis.clients.jedis.resps.GeoRadiusResponse;
 
-import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.bench.analytics.load.Fleet;
 import io.furrow.embedded.FreePort;

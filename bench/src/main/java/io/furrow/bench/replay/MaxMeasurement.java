@@ -15,9 +15,9 @@ import com.mongodb.client.MongoClients;
 import org.apache.kafka.clients.producer.KafkaProducer;
 
 import io.furrow.bench.analytics.Figures;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.topic.Topics;
 
 /**

@@ -8,9 +8,9 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.header.Header;
 
-import io.furrow.flink.record.TopicRecordFormat;
+import io.furrow.flink.kafka.TopicRecordFormat;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.replay.playback.Played;
 import io.furrow.replay.record.EventEncoder;

@@ -20,8 +20,8 @@ import org.openjdk.jmh.annotations.Warmup;
 import org.openjdk.jmh.infra.Blackhole;
 
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.EntityReader;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.position.EntityReader;
 import io.furrow.model.position.PositionReading;
 
 /** Id, type, position and mission out of the bytes of an entity: with a tree of what is requested, and without one. */

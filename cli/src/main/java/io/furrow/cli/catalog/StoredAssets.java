@@ -9,7 +9,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.mongodb.MongoException;
 import org.apache.flink.core.fs.Path;
 
-import io.furrow.ingest.image.store.ImageUsage;
+import io.furrow.ingest.image.ImageUsage;
 import io.furrow.ingest.mission.StoredMissions;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.ngsi.NgsiJson;

@@ -12,9 +12,9 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.nayuki.qrcodegen.QrCode;
 
+import io.furrow.model.control.MeasuredAttribute;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.model.device.MeasuredAttribute;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
@@ -63,7 +63,7 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
         FarmSecret now = secret.get();
         FarmSecret.Login login = now.device(mission, device.device(), device.generation());
         String topic = "/%s/%s/".formatted(now.apiKey(mission), device.device());
-        List<MeasuredAttribute> attributes = MeasuredAttribute.of(device);
+        List<MeasuredAttribute> attributes = device.attributes();
         ObjectNode json = JsonNodeFactory.instance
                 .objectNode()
                 .put("device", device.version().id())

@@ -6,10 +6,10 @@ import java.util.function.Predicate;
 import io.furrow.control.manager.Quota;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
+import io.furrow.model.control.MissionDevices;
+import io.furrow.model.control.MissionPlan;
+import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.mission.MissionDevices;
-import io.furrow.model.control.mission.MissionPlan;
-import io.furrow.model.control.mission.MissionTemplate;
 
 /** Plans a mission: resolves template and groups to a list of devices, or rejects the request. */
 final class MissionPlanner {

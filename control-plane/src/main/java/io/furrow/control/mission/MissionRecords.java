@@ -1,7 +1,7 @@
 package io.furrow.control.mission;
 
 import io.furrow.control.manager.record.Records;
-import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.control.MissionTemplate;
 
 /**
  * All that the manager of missions remembers.

@@ -10,8 +10,8 @@ import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.record.Records;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.mission.MissionTemplate;
 import io.furrow.model.topic.Topics;
 
 /** The templates, version by version. A version never changes, and its number is never given again. */

@@ -5,10 +5,10 @@ import java.util.List;
 import java.util.function.Function;
 import java.util.stream.LongStream;
 
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.RecordedMission;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.mission.RecordedMission;
-import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.topic.TopicName;
 
 /**

@@ -8,7 +8,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 
-import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.control.RecordedMission;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**

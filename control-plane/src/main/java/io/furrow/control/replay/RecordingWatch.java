@@ -19,7 +19,7 @@ import io.furrow.kafka.PartStatus;
 import io.furrow.kafka.RestartingWorker;
 import io.furrow.mission.mongo.MissionCatalog;
 import io.furrow.mission.mongo.MongoAccess;
-import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.control.RecordedMission;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 

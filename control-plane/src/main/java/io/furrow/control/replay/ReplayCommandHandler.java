@@ -15,13 +15,13 @@ import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.record.Records;
 import io.furrow.control.manager.record.Sequence;
 import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.ReplayPlan;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
 

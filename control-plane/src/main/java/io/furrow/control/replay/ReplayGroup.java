@@ -4,6 +4,9 @@ import java.time.Instant;
 import java.util.List;
 import java.util.function.UnaryOperator;
 
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.DesiredReplay.Clock;
+import io.furrow.model.control.DesiredReplay.Range;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.ReplayCommand;
@@ -12,10 +15,7 @@ import io.furrow.model.control.ReplayCommand.Seek;
 import io.furrow.model.control.ReplayCommand.Simple;
 import io.furrow.model.control.ReplayCommand.Speed;
 import io.furrow.model.control.ReplayCommand.Step;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.DesiredReplay.Clock;
-import io.furrow.model.control.replay.DesiredReplay.Range;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.ReplayStatus;
 
 /** Replays that follow one clock: what a command makes of all of them. Times are epoch ms. */
 final class ReplayGroup {

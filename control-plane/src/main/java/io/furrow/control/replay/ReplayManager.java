@@ -24,10 +24,10 @@ import io.furrow.control.manager.StatusProcessor;
 import io.furrow.control.manager.record.GlobalStoreProcessor;
 import io.furrow.control.manager.record.Records;
 import io.furrow.control.manager.record.StoredRecords;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.RecordedMission;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.mission.RecordedMission;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 

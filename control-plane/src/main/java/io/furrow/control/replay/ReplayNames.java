@@ -5,9 +5,9 @@ import java.util.UUID;
 import java.util.function.Supplier;
 
 import io.furrow.control.manager.record.Records;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.replay.DesiredReplay;
 import io.furrow.model.topic.Topics;
 
 /** Gives new replays names and topics that no wanted replay has. */

@@ -4,12 +4,12 @@ import java.util.ArrayList;
 import java.util.List;
 
 import io.furrow.control.manager.record.Records;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.ReplayStatus.State;
 
 /** The actual state of desired replays, as reported, and what of a command fits it. */
 final class ReplayReports {

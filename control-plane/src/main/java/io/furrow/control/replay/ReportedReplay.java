@@ -1,6 +1,6 @@
 package io.furrow.control.replay;
 
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.ReplayStatus;
 
 /**
  * What was reported last of a replay, without what changes as long as it runs.

@@ -6,10 +6,10 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.manager.StateJson;
+import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.topic.Topics;

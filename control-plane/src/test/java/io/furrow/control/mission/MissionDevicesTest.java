@@ -7,15 +7,15 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionCommand;
+import io.furrow.model.control.MissionDevices;
+import io.furrow.model.control.MissionPlan;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.mission.DeviceGroup;
-import io.furrow.model.control.mission.MissionDevices;
-import io.furrow.model.control.mission.MissionPlan;
 import io.furrow.model.topic.Topics;
 
 import static com.fasterxml.jackson.databind.node.JsonNodeFactory.instance;

@@ -7,12 +7,12 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.mission.DeviceGroup;
-import io.furrow.model.control.mission.MissionPlan;
-import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.control.MissionPlan;
+import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;

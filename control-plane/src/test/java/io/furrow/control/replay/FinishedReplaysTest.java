@@ -8,9 +8,9 @@ import org.apache.kafka.common.record.TimestampType;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.replay.FinishedReplays.Remains;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayPlan;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -23,7 +23,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.control.readiness.Readiness;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.embedded.EmbeddedMongo;
-import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.control.RecordedMission;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

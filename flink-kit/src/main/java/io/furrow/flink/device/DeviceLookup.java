@@ -13,8 +13,8 @@ import org.apache.flink.api.common.state.BroadcastState;
 import org.apache.flink.api.common.state.ReadOnlyBroadcastState;
 
 import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.Epochs;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.UnreadableException;
 

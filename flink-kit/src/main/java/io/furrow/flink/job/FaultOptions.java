@@ -6,7 +6,7 @@ import java.util.Optional;
 import picocli.CommandLine.Option;
 
 /** How a job keeps its state and comes back after a failure. Holds no Flink type, as {@link JobOptions}. */
-public final class FaultOptions {
+final class FaultOptions {
     /** What Flink calls the ways of coming back. */
     public enum Restart {
         EXPONENTIAL_DELAY,
@@ -82,32 +82,32 @@ public final class FaultOptions {
         return Optional.ofNullable(checkpointDir);
     }
 
-    public boolean unalignedCheckpoints() {
+    boolean unalignedCheckpoints() {
         return unalignedCheckpoints;
     }
 
-    public Optional<String> stateBackend() {
+    Optional<String> stateBackend() {
         return Optional.ofNullable(stateBackend);
     }
 
     /** Whether any of the options of restarts was given: then they, and not the cluster, say all of it. */
-    public boolean setRestarts() {
+    boolean setRestarts() {
         return restart != null || restartDelay != null || restartDelayMax != null || restartAttempts != null;
     }
 
-    public Restart restart() {
+    Restart restart() {
         return restart == null ? Restart.EXPONENTIAL_DELAY : restart;
     }
 
-    public Duration restartDelay() {
+    Duration restartDelay() {
         return restartDelay == null ? Duration.ofSeconds(1) : restartDelay;
     }
 
-    public Duration restartDelayMax() {
+    Duration restartDelayMax() {
         return restartDelayMax == null ? Duration.ofMinutes(1) : restartDelayMax;
     }
 
-    public Optional<Integer> restartAttempts() {
+    Optional<Integer> restartAttempts() {
         return Optional.ofNullable(restartAttempts);
     }
 }

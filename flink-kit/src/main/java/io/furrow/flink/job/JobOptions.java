@@ -239,7 +239,7 @@ public abstract class JobOptions {
     }
 
     /** At least 10 ms, Flink's own limit; empty if the cluster decides. */
-    public Optional<Duration> checkpointInterval() {
+    Optional<Duration> checkpointInterval() {
         Optional<Duration> interval = faults.checkpointInterval();
         if (interval.filter(time -> time.toMillis() < 10).isPresent()) {
             throw refused("--checkpoint-interval is below 10ms; write for instance 1s", null);
@@ -253,11 +253,11 @@ public abstract class JobOptions {
     }
 
     /** How checkpoints are taken and what follows a failure. */
-    public FaultOptions faults() {
+    FaultOptions faults() {
         return faults;
     }
 
-    public Optional<String> checkpointDir() {
+    Optional<String> checkpointDir() {
         return faults.checkpointDir();
     }
 
@@ -274,7 +274,7 @@ public abstract class JobOptions {
      * Every option with the value in force, as one would write it, less passwords in addresses; the web UI shows it as the
      * job's configuration.
      */
-    public Map<String, String> effective() {
+    Map<String, String> effective() {
         Map<String, String> values = new TreeMap<>();
         for (OptionSpec option : spec.options()) {
             if (!option.usageHelp() && option.getValue() != null) {

@@ -8,7 +8,6 @@ import org.apache.flink.api.common.functions.RichMapFunction;
 import org.apache.kafka.clients.CommonClientConfigs;
 
 import io.furrow.flink.job.JobOptions;
-import io.furrow.flink.job.TopicOptions;
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.Reason;

@@ -21,16 +21,15 @@ import io.furrow.flink.job.InputTopics;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.StartPosition;
 import io.furrow.flink.job.TransactionTimeout;
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.Receipt;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.record.TopicRecordFormat;
-import io.furrow.flink.time.Epochs;
 import io.furrow.flink.time.ReceiptBoundWatermarks;
 import io.furrow.flink.time.ReplayWatermarks;
 
 /** The Kafka sources and sinks of a job, with the settings that every job of Furrow has. */
 public final class KafkaConnectors {
-    public static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
+    static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
     /** A backlog is at the drift within as long, and waits for the next look. */
     private static final Duration ALIGNMENT_INTERVAL = Duration.ofMillis(100);
 

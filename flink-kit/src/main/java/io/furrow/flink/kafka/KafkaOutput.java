@@ -3,7 +3,6 @@ package io.furrow.flink.kafka;
 import org.apache.flink.streaming.api.datastream.DataStream;
 
 import io.furrow.flink.job.JobOptions;
-import io.furrow.flink.job.TopicOptions;
 import io.furrow.flink.record.TopicRecord;
 
 /** Where a job's records go that name their topic; a test puts something else in its place. */

@@ -24,7 +24,6 @@ import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.flink.job.TopicOptions;
 import io.furrow.model.text.FailureText;
 
 /**

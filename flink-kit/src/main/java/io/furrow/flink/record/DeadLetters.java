@@ -2,7 +2,6 @@ package io.furrow.flink.record;
 
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.flink.kafka.LargeRecords;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;

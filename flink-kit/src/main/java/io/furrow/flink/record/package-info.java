@@ -1,2 +1,2 @@
-/** Records between operators: their serializer, dead letters, deduplication. */
+/** Records between operators: their serializer, dead letters, the epochs of replays. */
 package io.furrow.flink.record;

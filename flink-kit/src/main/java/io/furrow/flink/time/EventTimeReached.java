@@ -88,7 +88,7 @@ public final class EventTimeReached {
     }
 
     /** The furthest that any key group of this subtask has come. */
-    public long furthest() {
+    long furthest() {
         return before == null ? now : Math.max(now, Arrays.stream(before).max().orElse(NOTHING_YET));
     }
 

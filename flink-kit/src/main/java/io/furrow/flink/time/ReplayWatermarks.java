@@ -11,6 +11,7 @@ import org.apache.flink.api.common.eventtime.WatermarkGeneratorSupplier;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 
+import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.UnreadableException;
 

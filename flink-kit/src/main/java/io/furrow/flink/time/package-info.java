@@ -1,2 +1,2 @@
-/** Event time: watermarks, lateness, epochs of replays. */
+/** Event time: watermarks, lateness, deduplication within a time. */
 package io.furrow.flink.time;

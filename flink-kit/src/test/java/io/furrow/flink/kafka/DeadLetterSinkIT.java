@@ -24,7 +24,6 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TestJob;
-import io.furrow.flink.job.TopicOptions;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 

@@ -32,9 +32,7 @@ import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.flink.job.TopicOptions;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.record.TopicRecordFormat;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Reason;
 

@@ -5,7 +5,6 @@ import java.util.Map;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.kafka.LargeRecords;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.Original;
 import io.furrow.model.ngsi.Reason;

@@ -30,7 +30,6 @@ import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TestJob;
 import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.flink.kafka.KafkaInput;
-import io.furrow.flink.time.Epochs;
 import io.furrow.model.event.HeaderNames;
 
 import static org.assertj.core.api.Assertions.assertThat;

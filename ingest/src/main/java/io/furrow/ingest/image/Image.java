@@ -4,12 +4,12 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** A whole image of a known format, not larger than allowed. */
-public record Image(byte[] bytes, ImageFormat format, String sha256) {
+record Image(byte[] bytes, ImageFormat format, String sha256) {
     /**
      * @param text of the attribute
      * @throws UnreadableException with {@link Reason#NOT_AN_IMAGE} or {@link Reason#TOO_LARGE}
      */
-    public static Image of(byte[] text, int limit) throws UnreadableException {
+    static Image of(byte[] text, int limit) throws UnreadableException {
         byte[] bytes = ImageText.decode(text);
         if (bytes.length > limit) {
             throw new UnreadableException(

@@ -10,7 +10,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * The formats that are stored, detected by the bytes, never by what a sender declares. Checked are the structure and
  * that the end is there; the pixels are not decoded.
  */
-public enum ImageFormat {
+enum ImageFormat {
     /** Chunks from {@code IHDR} to {@code IEND}, each with a right checksum (ISO/IEC 15948). */
     PNG("image/png", "png") {
         @Override
@@ -136,7 +136,7 @@ public enum ImageFormat {
 
     abstract void check(ByteBuffer image) throws UnreadableException;
 
-    public String contentType() {
+    String contentType() {
         return contentType;
     }
 

@@ -12,8 +12,6 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.ingest.image.store.ImageStore;
-import io.furrow.ingest.image.store.StoredImage;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -25,7 +23,7 @@ import io.furrow.model.topic.Topics;
  * Stores the images of one event and makes the event that travels on. Instead of an image it carries {@code {url, sha256,
  * bytes, contentType}}; instead of a broken one null, and a header {@value #BROKEN} with the reason.
  */
-public final class ImageMover {
+final class ImageMover {
     /** Header of an event that lost an image: the reason code. */
     static final String BROKEN = "image-broken";
     /** Header {@code ce_type} of the manifest. */
@@ -54,7 +52,7 @@ public final class ImageMover {
      *
      * @throws IOException if the store does not take an image; the same call may be made again
      */
-    public Moved move(ReportedEvent event) throws IOException {
+    Moved move(ReportedEvent event) throws IOException {
         Moved moved = moved(event);
         return settings.storing() == Storing.BY_OTHERS ? Moved.unannounced(moved.record()) : moved;
     }

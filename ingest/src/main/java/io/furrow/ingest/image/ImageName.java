@@ -18,7 +18,7 @@ import io.furrow.model.event.FiwareScope;
  * @param folder {@code <domain>/<mission>/<entity id>}, below those of the scope
  * @param file without the extension
  */
-public record ImageName(String folder, String file) {
+record ImageName(String folder, String file) {
     /** A file name holds at most 255 bytes: the part, the time, a hash and the mark of a file under way must fit in. */
     private static final int MAX_LENGTH = 120;
 
@@ -30,7 +30,7 @@ public record ImageName(String folder, String file) {
 
     private static final String SERVICE_PATH = "~path-";
 
-    public static ImageName of(FiwareScope scope, String domain, String mission, String entityId, long eventTime) {
+    static ImageName of(FiwareScope scope, String domain, String mission, String entityId, long eventTime) {
         String entity = part(entityId);
         return new ImageName(
                 folder(scope) + part(domain) + "/" + part(mission) + "/" + entity,
@@ -44,17 +44,17 @@ public record ImageName(String folder, String file) {
     }
 
     /** Whether a folder is that of a tenant or service path, with the folders of domains in it. */
-    public static boolean isScope(String folder) {
+    static boolean isScope(String folder) {
         return folder.startsWith(TENANT) || folder.startsWith(SERVICE_PATH);
     }
 
     /** {@code <folder>/<file>.<extension>}. */
-    public String path(ImageFormat format) {
+    String path(ImageFormat format) {
         return folder + "/" + file + "." + format.extension();
     }
 
     /** The name of an image whose first name is taken by another one: the same entity, the same millisecond. */
-    public String path(ImageFormat format, String sha256) {
+    String path(ImageFormat format, String sha256) {
         return folder + "/" + file + "-" + sha256 + "." + format.extension();
     }
 
@@ -63,7 +63,7 @@ public record ImageName(String folder, String file) {
         return TIME.parse(digits, Instant::from);
     }
 
-    public static String part(String name) {
+    static String part(String name) {
         if (name.isEmpty()) {
             return "~none";
         }

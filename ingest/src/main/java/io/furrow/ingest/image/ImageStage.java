@@ -14,7 +14,6 @@ import org.apache.flink.util.OutputTag;
 
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.ingest.image.store.ImageStore;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.text.FailureText;
 

@@ -30,8 +30,6 @@ import org.apache.flink.streaming.runtime.watermarkstatus.WatermarkStatus;
 import org.apache.flink.util.function.ThrowingRunnable;
 
 import io.furrow.flink.record.DeadLetters;
-import io.furrow.ingest.image.store.ImageStore;
-import io.furrow.ingest.image.store.StoreRetries;
 import io.furrow.ingest.route.ReportedEvent;
 
 /**

@@ -14,8 +14,7 @@ import io.furrow.model.ngsi.Reason;
  * @param broken the reason of the dead letter; null if there is none
  * @param bytes of the images stored
  */
-public record Moved(
-        TopicRecord record, List<TopicRecord> manifest, List<TopicRecord> deadLetters, Reason broken, long bytes) {
+record Moved(TopicRecord record, List<TopicRecord> manifest, List<TopicRecord> deadLetters, Reason broken, long bytes) {
     /** The record and nothing beside it. */
     static Moved unannounced(TopicRecord record) {
         return new Moved(record, List.of(), List.of(), null, 0);

@@ -22,7 +22,6 @@ import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
 import io.furrow.flink.job.FileSystemOptions;
-import io.furrow.ingest.image.store.ImageFiles;
 import io.furrow.model.text.Counts;
 import io.furrow.model.text.FailureText;
 

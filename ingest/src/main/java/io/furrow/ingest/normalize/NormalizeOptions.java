@@ -13,8 +13,8 @@ import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
 
 import io.furrow.flink.job.JobOptions;
-import io.furrow.flink.job.TopicOptions;
 import io.furrow.flink.job.WithoutEventTime;
+import io.furrow.flink.kafka.TopicOptions;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.NotificationRules;
 import io.furrow.model.event.Origin;

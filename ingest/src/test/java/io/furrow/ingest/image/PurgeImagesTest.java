@@ -18,7 +18,6 @@ import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine;
 
 import io.furrow.flink.job.JobCommandLine;
-import io.furrow.ingest.image.store.ImageFiles;
 import io.furrow.model.event.FiwareScope;
 
 import static org.assertj.core.api.Assertions.assertThat;

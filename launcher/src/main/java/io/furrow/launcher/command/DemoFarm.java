@@ -11,9 +11,9 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlPlaneException;
 import io.furrow.fiware.FiwareStandIn;
+import io.furrow.model.control.MissionDevices;
+import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.mission.MissionDevices;
-import io.furrow.model.control.mission.MissionTemplate;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The domains, templates and missions of the demonstration farm, made and started as anybody else makes his. */

@@ -3,8 +3,8 @@ package io.furrow.launcher.replay;
 import java.util.List;
 
 import io.furrow.cli.control.AnalyticsJob;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayStatus;
 
 /**
  * Which analytics jobs a replay wants.

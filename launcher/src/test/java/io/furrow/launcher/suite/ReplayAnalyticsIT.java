@@ -23,9 +23,9 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.fields.FieldsTopic;
 import io.furrow.launcher.Furrow;
 import io.furrow.launcher.replay.ReplayAnalytics;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayPlan;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 

@@ -30,7 +30,7 @@ import io.furrow.model.ngsi.UnreadableException;
 public final class EventDocumentCodec {
     public static final String ID = "_id";
     public static final String TIME = "_time";
-    public static final String ENTITY_ID = "id";
+    static final String ENTITY_ID = "id";
 
     private static final String HEADERS = "_headers";
     private static final String DELETED = "_deleted";

@@ -41,7 +41,7 @@ public final class MissionCatalog implements AutoCloseable {
     }
 
     /** Of the missions that these recordings open. */
-    public static MissionCatalog of(MongoRecordings recordings) {
+    static MissionCatalog of(MongoRecordings recordings) {
         return new MissionCatalog(recordings);
     }
 
@@ -50,7 +50,7 @@ public final class MissionCatalog implements AutoCloseable {
      *
      * @throws RecordingException if MongoDB cannot be asked now
      */
-    public List<StoredMission> list() throws RecordingException {
+    List<StoredMission> list() throws RecordingException {
         return answer(() -> {
             List<StoredMission> missions = new ArrayList<>();
             for (String name : database.listCollectionNames()) {
@@ -95,7 +95,7 @@ public final class MissionCatalog implements AutoCloseable {
      *
      * @throws RecordingException if MongoDB cannot be asked now
      */
-    public boolean has(String mission) throws RecordingException {
+    boolean has(String mission) throws RecordingException {
         return answer(() -> MongoRecordings.collectionOf(database, mission).isPresent());
     }
 

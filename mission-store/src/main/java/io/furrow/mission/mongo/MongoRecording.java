@@ -25,6 +25,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.mission.Cursor;
+import io.furrow.mission.CursorsBack;
 import io.furrow.mission.Page;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;

@@ -6,8 +6,6 @@ import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.mission.DeviceGroup;
-
 /** What the topic {@code service.alarmmanager} asks for. */
 public sealed interface AlarmCommand extends Command {
     /** What is muted: one alarm, or all of a kind, those to come too. */

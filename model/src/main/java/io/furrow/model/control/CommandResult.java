@@ -28,7 +28,7 @@ public record CommandResult(ObjectNode json) {
         return new CommandResult(json.put("type", "response").put("status", status));
     }
 
-    public static CommandResult refused(RefusedException refusal) {
+    static CommandResult refused(RefusedException refusal) {
         return of(ERROR).with("error", refusal.code().code()).with("reason", refusal.getMessage());
     }
 

@@ -6,8 +6,6 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.mission.DeviceGroup;
-
 /**
  * What is said of a domain. Null is what is not said.
  *
@@ -43,7 +41,7 @@ public record DomainDetails(String name, String description, ObjectNode area, Li
     }
 
     /** Puts what is said. */
-    public void describe(ObjectNode json) {
+    void describe(ObjectNode json) {
         DeviceGroup.put(json, "name", name);
         DeviceGroup.put(json, "description", description);
         if (area != null) {

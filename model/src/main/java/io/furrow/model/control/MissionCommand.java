@@ -5,11 +5,6 @@ import java.time.Instant;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.mission.DeviceGroup;
-import io.furrow.model.control.mission.MissionDevices;
-import io.furrow.model.control.mission.MissionPlan;
-import io.furrow.model.control.mission.MissionTemplate;
-
 /** What the topic {@code service.missionmanager} asks for. */
 public sealed interface MissionCommand extends Command {
     record Create(String mission, String domain, MissionPlan plan) implements MissionCommand {

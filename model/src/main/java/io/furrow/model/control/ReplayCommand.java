@@ -10,9 +10,6 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.mission.DeviceGroup;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.topic.TopicName;
 
 /** What the topic {@code service.replaymanager} asks for. */
@@ -126,7 +123,7 @@ public sealed interface ReplayCommand extends Command {
      * @param group null for a replay
      */
     record Target(String replay, String group) {
-        public static Target of(String replay) {
+        static Target of(String replay) {
             return new Target(replay, null);
         }
 

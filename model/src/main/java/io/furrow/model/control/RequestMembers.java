@@ -30,16 +30,16 @@ public final class RequestMembers {
         this.json = json;
     }
 
-    public ObjectNode json() {
+    ObjectNode json() {
         return json;
     }
 
-    public boolean has(String member) {
+    boolean has(String member) {
         return json.hasNonNull(member);
     }
 
     /** A legal name of a domain, a mission or a template. */
-    public String name(String member) throws RefusedException {
+    String name(String member) throws RefusedException {
         String name = text(member);
         if (!TopicName.isLegal(name)) {
             throw new RefusedException(
@@ -50,7 +50,7 @@ public final class RequestMembers {
     }
 
     /** Null if it is missing. */
-    public String nameOrNull(String member) throws RefusedException {
+    String nameOrNull(String member) throws RefusedException {
         return has(member) ? name(member) : null;
     }
 
@@ -63,7 +63,7 @@ public final class RequestMembers {
     }
 
     /** Null if it is missing. */
-    public String textOrNull(String member) throws RefusedException {
+    String textOrNull(String member) throws RefusedException {
         if (!has(member)) {
             return null;
         }
@@ -75,7 +75,7 @@ public final class RequestMembers {
     }
 
     /** False if it is missing. */
-    public boolean flag(String member) throws RefusedException {
+    boolean flag(String member) throws RefusedException {
         if (!has(member)) {
             return false;
         }
@@ -85,7 +85,7 @@ public final class RequestMembers {
         return json.get(member).booleanValue();
     }
 
-    public int wholeNumber(String member, int least, int most, int missing) throws RefusedException {
+    int wholeNumber(String member, int least, int most, int missing) throws RefusedException {
         if (!has(member)) {
             return missing;
         }
@@ -99,7 +99,7 @@ public final class RequestMembers {
         return value.intValue();
     }
 
-    public long number(String member) throws RefusedException {
+    long number(String member) throws RefusedException {
         JsonNode value = json.path(member);
         if (!value.isIntegralNumber() || !value.canConvertToLong()) {
             throw wrong(member, "a whole number");
@@ -108,7 +108,7 @@ public final class RequestMembers {
     }
 
     /** Null if it is missing. */
-    public Double numberOrNull(String member, double least, double most) throws RefusedException {
+    Double numberOrNull(String member, double least, double most) throws RefusedException {
         if (!has(member)) {
             return null;
         }
@@ -130,7 +130,7 @@ public final class RequestMembers {
     }
 
     /** ISO 8601 with an offset, or epoch ms; null if it is missing. */
-    public Instant timeOrNull(String member) throws RefusedException {
+    Instant timeOrNull(String member) throws RefusedException {
         if (!has(member)) {
             return null;
         }
@@ -154,7 +154,7 @@ public final class RequestMembers {
     }
 
     /** ISO 8601 such as {@code PT90S}, above zero and at most ten years; null if it is missing. */
-    public Duration durationOrNull(String member) throws RefusedException {
+    Duration durationOrNull(String member) throws RefusedException {
         if (!has(member)) {
             return null;
         }
@@ -171,7 +171,7 @@ public final class RequestMembers {
     }
 
     /** Null if it is missing. */
-    public ObjectNode objectOrNull(String member) throws RefusedException {
+    ObjectNode objectOrNull(String member) throws RefusedException {
         if (has(member) && !(json.get(member) instanceof ObjectNode)) {
             throw wrong(member, "an object");
         }
@@ -183,7 +183,7 @@ public final class RequestMembers {
      *
      * @param name what the message calls it
      */
-    public static void checkArea(JsonNode area, String name) throws RefusedException {
+    static void checkArea(JsonNode area, String name) throws RefusedException {
         try {
             FieldArea.read(area, name);
         } catch (UnreadableException e) {
@@ -192,13 +192,13 @@ public final class RequestMembers {
     }
 
     /** Those of an object; null if it is missing. */
-    public RequestMembers membersOrNull(String member) throws RefusedException {
+    RequestMembers membersOrNull(String member) throws RefusedException {
         ObjectNode object = objectOrNull(member);
         return object == null ? null : new RequestMembers(object);
     }
 
     /** Null if it is missing. */
-    public ArrayNode arrayOrNull(String member, int most) throws RefusedException {
+    ArrayNode arrayOrNull(String member, int most) throws RefusedException {
         if (has(member) && !(json.get(member) instanceof ArrayNode array && array.size() <= most)) {
             throw wrong(member, "a list of at most " + most);
         }
@@ -206,7 +206,7 @@ public final class RequestMembers {
     }
 
     /** Texts that fit a pattern; none where it is missing. */
-    public List<String> texts(String member, Pattern form, String said) throws RefusedException {
+    List<String> texts(String member, Pattern form, String said) throws RefusedException {
         List<String> texts = new ArrayList<>();
         ArrayNode array = arrayOrNull(member, 10_000);
         for (JsonNode each : array == null ? List.<JsonNode>of() : array) {
@@ -218,7 +218,7 @@ public final class RequestMembers {
         return List.copyOf(texts);
     }
 
-    public static RefusedException missing(String member) {
+    static RefusedException missing(String member) {
         return new RefusedException(ErrorCode.MISSING_MEMBER, "the request needs a member '" + member + "'");
     }
 
@@ -227,7 +227,7 @@ public final class RequestMembers {
     }
 
     /** As it may stand in a sentence: printable ASCII, not too long. */
-    public static String quotable(String text) {
+    static String quotable(String text) {
         String start = text.length() > MAX_QUOTE_LENGTH ? text.substring(0, MAX_QUOTE_LENGTH) + "..." : text;
         return NOT_PRINTABLE.matcher(start).replaceAll("?");
     }

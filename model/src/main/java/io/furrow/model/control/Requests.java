@@ -7,7 +7,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.TopicName;
@@ -129,7 +128,7 @@ public final class Requests {
         return JsonNodeFactory.instance.objectNode();
     }
 
-    public static RefusedException unknown(String verb, String known) {
+    static RefusedException unknown(String verb, String known) {
         return verb == null
                 ? new RefusedException(
                         ErrorCode.MISSING_MEMBER, "the request needs a member 'command': one of " + known)

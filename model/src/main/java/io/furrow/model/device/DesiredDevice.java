@@ -2,12 +2,14 @@ package io.furrow.model.device;
 
 import java.time.DateTimeException;
 import java.time.Duration;
+import java.util.List;
 import java.util.Objects;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.control.MeasuredAttribute;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
@@ -66,6 +68,11 @@ public record DesiredDevice(
     public JsonNode place() {
         JsonNode at = settings.path("at");
         return at.isObject() && !simulated ? at : null;
+    }
+
+    /** What it sends, see {@link MeasuredAttribute#of}; its settings are in it, and checked. */
+    public List<MeasuredAttribute> attributes() {
+        return MeasuredAttribute.of(type, simulated, settings.path("attributes"), place() != null);
     }
 
     /** The same after another version of it. */

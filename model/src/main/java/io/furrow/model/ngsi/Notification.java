@@ -17,7 +17,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 public record Notification(
         Optional<String> subscriptionId, List<Entity> entities, List<Integer> places, List<Rejected> rejected) {
     /** A notification with more unreadable entities than this is unreadable as a whole. */
-    public static final int MAX_REJECTED = 1000;
+    static final int MAX_REJECTED = 1000;
 
     /** One unreadable entity as it was reported, and why it could not be read. */
     public record Rejected(JsonNode reported, Reason reason, String message) {}

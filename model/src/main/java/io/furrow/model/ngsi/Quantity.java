@@ -36,7 +36,7 @@ public enum Quantity {
     }
 
     /** @param unitCode empty if none was reported @return NaN for a number in an unknown unit */
-    double read(double number, String unitCode) {
+    public double read(double number, String unitCode) {
         return unitCode.isEmpty() ? number : units.getOrDefault(unitCode, other).applyAsDouble(number);
     }
 

@@ -5,11 +5,8 @@ import java.io.IOException;
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 
-import io.furrow.model.ngsi.AttributeValue;
-import io.furrow.model.ngsi.StrictTokens;
-
 /** The value of {@code location}: a geo:point's text, or an object that may be a GeoJSON Point. */
-public final class LocationValue extends AttributeValue {
+final class LocationValue extends AttributeValue {
     private boolean typeIsPoint;
     private int coordinates;
     private double longitude;
@@ -65,12 +62,12 @@ public final class LocationValue extends AttributeValue {
     }
 
     /** Whether it is a text without a sign, which says nothing. */
-    public boolean isBlank() {
+    boolean isBlank() {
         String text = textOrNull();
         return text != null && text.isBlank();
     }
 
-    public PositionReading position() {
+    PositionReading position() {
         String text = textOrNull();
         if (text != null) {
             return PositionRules.ofGeoPoint(text);

@@ -10,10 +10,9 @@ import io.furrow.model.ngsi.Numbers;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** The result of each form of a position, for {@link PositionReading}. */
-public final class PositionRules {
+final class PositionRules {
     /** Attributes that together are a position, in the order in which they are looked for. */
-    public static final List<Pair> PAIRS =
-            List.of(new Pair("Latitude", "Longitude"), new Pair("latitude", "longitude"));
+    static final List<Pair> PAIRS = List.of(new Pair("Latitude", "Longitude"), new Pair("latitude", "longitude"));
 
     static final PositionReading NO_POINT = new PositionReading.Faulty("location is no GeoJSON Point");
 
@@ -23,7 +22,7 @@ public final class PositionRules {
     private PositionRules() {}
 
     /** Degrees; NaN if the entity has no number. */
-    public static PositionReading of(double latitude, double longitude) {
+    static PositionReading of(double latitude, double longitude) {
         if (Double.isNaN(latitude) || Double.isNaN(longitude)) {
             return new PositionReading.Faulty("latitude or longitude is no number");
         }
@@ -56,7 +55,7 @@ public final class PositionRules {
     }
 
     /** The text of {@code gnss} or {@code pose}. */
-    public static PositionReading ofFiros(String escaped) {
+    static PositionReading ofFiros(String escaped) {
         try {
             byte[] json = escaped.replace("%27", "\"").getBytes(StandardCharsets.UTF_8);
             JsonNode message = NgsiJson.read(json);

@@ -6,8 +6,6 @@ import java.util.function.Function;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.model.control.replay.MadeUpCommands;
-
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RequestsPropertyTest {

@@ -10,11 +10,6 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-import io.furrow.model.control.mission.DeviceGroup;
-import io.furrow.model.control.mission.MissionDevices;
-import io.furrow.model.control.mission.MissionPlan;
-import io.furrow.model.control.replay.ReplayPlan;
-
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RequestsTest {

@@ -21,14 +21,14 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
  * JSONTestSuite (Nicolas Seriot, MIT), all 318 documents of {@code test_parsing}: {@code y_} must be accepted, {@code n_} must
  * be refused, {@code i_} is ours to decide, and {@code parsing-decided.txt} lists those that are accepted.
  */
-class JsonTestSuiteTest {
+public class JsonTestSuiteTest {
     private static final Path SUITE = Path.of("src/test/resources/json-test-suite");
 
     /** RFC 8259 says that names SHOULD be unique; which of two values holds cannot be known, so here they MUST. */
     private static final Set<String> REFUSED_ALL_THE_SAME =
             Set.of("y_object_duplicated_key", "y_object_duplicated_key_and_value");
 
-    record Case(String name, byte[] document) {
+    public record Case(String name, byte[] document) {
         @Override
         public String toString() {
             return name;

@@ -6,7 +6,7 @@ import java.util.List;
 import java.util.Random;
 
 /** Entities with everything that devices, brokers and robots write, and much that none should; mostly well-formed. */
-final class MadeUpEntities {
+public final class MadeUpEntities {
     private static final String[] NAMES = {
         "location",
         "Latitude",
@@ -87,11 +87,11 @@ final class MadeUpEntities {
 
     private final Random random;
 
-    MadeUpEntities(Random random) {
+    public MadeUpEntities(Random random) {
         this.random = random;
     }
 
-    String next() {
+    public String next() {
         List<String> members = new ArrayList<>();
         if (random.nextInt(40) > 0) {
             members.add("\"id\":"

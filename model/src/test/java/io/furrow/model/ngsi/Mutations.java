@@ -6,7 +6,7 @@ import java.util.List;
 import java.util.Random;
 
 /** Breaks JSON at random: values and names become others, the end is cut off, a byte is replaced. */
-final class Mutations {
+public final class Mutations {
     private static final String[] SPLICES = {
         "null",
         "{}",
@@ -50,11 +50,11 @@ final class Mutations {
 
     private final Random random;
 
-    Mutations(Random random) {
+    public Mutations(Random random) {
         this.random = random;
     }
 
-    byte[] of(byte[] body) {
+    public byte[] of(byte[] body) {
         String text = new String(body, StandardCharsets.UTF_8);
         for (int changes = 1 + random.nextInt(3); changes > 0; changes--) {
             text = switch (random.nextInt(10)) {

@@ -28,14 +28,14 @@ import io.furrow.model.ngsi.UnreadableException;
  * are such that JSON Schema, Avro and Protobuf have them. Fields may be added with a default and another version, never renamed.
  */
 public final class EntityStruct {
-    public static final Schema METADATA = SchemaBuilder.struct()
+    static final Schema METADATA = SchemaBuilder.struct()
             .name("io.furrow.ngsi.Metadata")
             .version(1)
             .field("type", Schema.OPTIONAL_STRING_SCHEMA)
             .field("value", Schema.STRING_SCHEMA)
             .build();
 
-    public static final Schema ATTRIBUTE = SchemaBuilder.struct()
+    static final Schema ATTRIBUTE = SchemaBuilder.struct()
             .name("io.furrow.ngsi.Attribute")
             .version(1)
             .field("type", Schema.OPTIONAL_STRING_SCHEMA)

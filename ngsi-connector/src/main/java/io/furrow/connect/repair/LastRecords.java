@@ -9,15 +9,13 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
 
-import io.furrow.connect.repair.entity.EntityRecord;
-
 /**
  * Tracks the last record of each entity on the topic, and whether it may be older than a previous state of the topic or
  * the context broker: then the entity is stale and has to be read again. Uses a bounded part of the heap: the entity
  * that was quiet longest is forgotten. An unknown entity counts as stale if its record is no newer than any forgotten
  * one. Not thread-safe.
  */
-public final class LastRecords {
+final class LastRecords {
     /** Per entry besides its identity: the nodes of map and set, two texts, the event id. */
     private static final int ENTRY_BYTES = 320;
 

@@ -10,7 +10,6 @@ import java.util.function.Function;
 import java.util.function.Supplier;
 
 import io.furrow.connect.repair.LastRecords.Judgment;
-import io.furrow.connect.repair.entity.EntityRecord;
 
 /**
  * Orders the records of notifications and repairs, and tracks the state that the repair needs: the number of arrived
@@ -110,7 +109,7 @@ public final class LiveEvents {
     }
 
     /** Restores the entities that were to be read again when the source stopped. */
-    public synchronized void restoreStale(Iterable<String> identities) {
+    synchronized void restoreStale(Iterable<String> identities) {
         identities.forEach(last::restoreStale);
     }
 

@@ -3,8 +3,6 @@ package io.furrow.connect.repair;
 import java.time.Instant;
 import java.util.Optional;
 
-import io.furrow.connect.repair.entity.EntityRecord;
-import io.furrow.connect.repair.entity.EntityState;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.ngsi.UnreadableException;

@@ -11,18 +11,13 @@ import java.util.TreeSet;
 import java.util.function.Predicate;
 
 import io.furrow.connect.broker.BrokerException;
-import io.furrow.connect.repair.entity.BrokerEntities;
-import io.furrow.connect.repair.entity.EntityState;
-import io.furrow.connect.repair.entity.Identities;
-import io.furrow.connect.repair.entity.KeysetReader;
-import io.furrow.connect.repair.entity.KnownEntities;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 
 /** Reads changes that may have been missed once, and emits the states that the topic does not have. */
-public final class Repair {
+final class Repair {
     private final BrokerEntities entities;
     private final RepairSettings.Reading reading;
     private final LiveEvents live;
@@ -32,7 +27,7 @@ public final class Repair {
     private int repeated;
     private int deleted;
 
-    public Repair(
+    Repair(
             BrokerEntities entities,
             RepairSettings.Reading reading,
             LiveEvents live,
@@ -53,7 +48,7 @@ public final class Repair {
     }
 
     /** Emits the state of entities that changed since a time. */
-    public void changesFrom(Instant since) throws BrokerException, InterruptedException, IOException {
+    void changesFrom(Instant since) throws BrokerException, InterruptedException, IOException {
         long[] asked = {live.now()};
         new KeysetReader(
                         (from, offset, limit) -> {
@@ -86,7 +81,7 @@ public final class Repair {
     }
 
     /** Reads entities again whose last record may not be the newest. */
-    public void stale(Predicate<FiwareScope> ours) throws BrokerException, InterruptedException, IOException {
+    void stale(Predicate<FiwareScope> ours) throws BrokerException, InterruptedException, IOException {
         for (String identity : live.stale()) {
             FiwareScope place = Identities.scope(identity);
             if (ours.test(place)) {
@@ -117,7 +112,7 @@ public final class Repair {
     }
 
     /** Emits the deletions of entities that no longer exist, and registers existing ones. */
-    public void deletions() throws BrokerException, InterruptedException, IOException {
+    void deletions() throws BrokerException, InterruptedException, IOException {
         if (known.isOverfull()) {
             return;
         }

@@ -12,12 +12,10 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.LogText;
 import io.furrow.connect.repair.LiveEvents.Appended;
-import io.furrow.connect.repair.entity.EntityRecord;
-import io.furrow.connect.repair.entity.KnownEntities;
 import io.furrow.model.text.FailureText;
 
 /** Emits findings in small batches and waits until they are durable, which leaves room for concurrent notifications. */
-public final class RepairPublisher {
+final class RepairPublisher {
     private static final Logger LOG = LoggerFactory.getLogger(RepairPublisher.class);
 
     private static final int AT_ONCE = 100;
@@ -30,7 +28,7 @@ public final class RepairPublisher {
     private final KnownEntities known;
     private final String subscription;
 
-    public RepairPublisher(RepairOutput output, LiveEvents live, KnownEntities known, String subscription) {
+    RepairPublisher(RepairOutput output, LiveEvents live, KnownEntities known, String subscription) {
         this.output = output;
         this.live = live;
         this.known = known;

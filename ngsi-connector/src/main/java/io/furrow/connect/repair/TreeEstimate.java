@@ -1,7 +1,7 @@
 package io.furrow.connect.repair;
 
 /** Estimates the heap that a JSON document needs as a tree. */
-public final class TreeEstimate {
+final class TreeEstimate {
     /** An object with its map, a list with its array, the entry of a member with its name, an element. */
     private static final int OBJECT = 160;
 
@@ -12,7 +12,7 @@ public final class TreeEstimate {
     private TreeEstimate() {}
 
     /** Bytes, rather too many than too few; any number for invalid JSON. */
-    public static long of(byte[] json) {
+    static long of(byte[] json) {
         long bytes = 2L * json.length;
         boolean inText = false;
         for (int i = 0; i < json.length; i++) {

@@ -10,7 +10,7 @@ import java.util.Optional;
  * A time, by the clock of the context broker, up to which all notified or missed changes of one subscription are
  * durable. Survives a restart in a file; never moves back.
  */
-public final class Watermark {
+final class Watermark {
     private final TimeFile file;
     private Optional<Instant> time;
 
@@ -20,7 +20,7 @@ public final class Watermark {
     }
 
     /** An unreadable file counts as missing: then more is read again than needed. */
-    public static Watermark open(Path path) throws IOException {
+    static Watermark open(Path path) throws IOException {
         TimeFile file = new TimeFile(path);
         try {
             return new Watermark(file, file.read());
@@ -29,11 +29,11 @@ public final class Watermark {
         }
     }
 
-    public Optional<Instant> time() {
+    Optional<Instant> time() {
         return time;
     }
 
-    public void advanceTo(Instant later) throws IOException {
+    void advanceTo(Instant later) throws IOException {
         if (time.isPresent() && !later.isAfter(time.get())) {
             return;
         }

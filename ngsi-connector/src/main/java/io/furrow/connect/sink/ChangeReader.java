@@ -12,6 +12,8 @@ import org.apache.kafka.connect.data.Struct;
 import org.apache.kafka.connect.sink.SinkRecord;
 
 import io.furrow.connect.record.EntityStruct;
+import io.furrow.connect.sink.api.Change;
+import io.furrow.connect.sink.api.EntityKey;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;

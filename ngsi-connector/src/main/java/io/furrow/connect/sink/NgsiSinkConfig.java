@@ -16,7 +16,7 @@ import io.furrow.connect.sink.api.EntityTimesCache;
  * The configuration of the sink connector, one record per group of options. Throws {@link ConfigException} with the
  * name of the invalid option.
  */
-public class NgsiSinkConfig extends AbstractConfig {
+class NgsiSinkConfig extends AbstractConfig {
     /** Set by the connector for each task, not by users. */
     static final String TASK_INDEX = "task.index";
 

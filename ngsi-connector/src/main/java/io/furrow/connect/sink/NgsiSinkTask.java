@@ -22,6 +22,7 @@ import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.ledger.LedgerBean;
 import io.furrow.connect.sink.api.BrokerAwayException;
 import io.furrow.connect.sink.api.BrokerBackoff;
+import io.furrow.connect.sink.api.Change;
 import io.furrow.connect.sink.api.ContextWriter;
 import io.furrow.connect.sink.api.ContextWriter.Fates;
 import io.furrow.connect.sink.api.ContextWriter.RefusedChange;

@@ -12,6 +12,7 @@ import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.source.journal.AcknowledgedRecords;
 import io.furrow.connect.source.journal.TaskJournals;
+import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.option.AccessOptions;
 import io.furrow.connect.source.option.AcknowledgingOptions;
 import io.furrow.connect.source.option.EntityOptions;
@@ -195,8 +196,8 @@ public class NgsiSourceConfig extends AbstractConfig {
         return topics;
     }
 
-    RecordOptions records() {
-        return records;
+    SourceRecords records() {
+        return new SourceRecords(records.keys(), records.values());
     }
 
     EntityOptions entities() {

@@ -53,7 +53,7 @@ public class NgsiSourceTask extends SourceTask {
     public void start(Map<String, String> properties) {
         config = new NgsiSourceConfig(properties);
         batchSize = config.acknowledging().batchSize();
-        sourceRecords = config.records().records();
+        sourceRecords = config.records();
         try {
             source.set(SourceRuntime.attach(config)
                     .map(running -> resumed(running, this::committed))

@@ -29,6 +29,7 @@ import io.furrow.connect.source.http.RequestAuthenticator;
 import io.furrow.connect.source.http.RequestHandler;
 import io.furrow.connect.source.http.TlsEngines;
 import io.furrow.connect.source.journal.RecordLog;
+import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.option.ListeningOptions;
 import io.furrow.connect.source.option.TlsOptions;
 import io.furrow.http.jetty.AccessHandler;

@@ -16,11 +16,11 @@ import org.apache.kafka.connect.source.SourceRecord;
 
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.repair.EntityRecord;
 import io.furrow.connect.repair.LiveEvents;
 import io.furrow.connect.repair.ReconcileLoop;
 import io.furrow.connect.repair.ReconcileLoop.Assignment;
 import io.furrow.connect.repair.SubscriptionReconciler;
-import io.furrow.connect.repair.entity.EntityRecord;
 import io.furrow.connect.source.journal.JournalRecordLog;
 import io.furrow.connect.source.journal.RecordLog;
 import io.furrow.connect.source.journal.TrackedRecordLog;

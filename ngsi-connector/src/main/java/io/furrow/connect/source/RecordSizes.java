@@ -6,7 +6,9 @@ import java.util.Map;
 
 import io.furrow.connect.journal.JournalRecord;
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.journal.JournalRecordCodec;
+import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.option.SizeOptions;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Reason;

@@ -8,10 +8,12 @@ import java.util.concurrent.CompletableFuture;
 
 import io.furrow.connect.LogText;
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.repair.MissedChange;
 import io.furrow.connect.repair.RepairOutput;
 import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.source.journal.JournalRecordLog;
+import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;

@@ -11,12 +11,13 @@ import org.apache.kafka.connect.header.ConnectHeaders;
 import org.apache.kafka.connect.source.SourceRecord;
 
 import io.furrow.connect.journal.JournalRecord;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.journal.TaskJournals;
 import io.furrow.connect.source.option.KeyMode;
 import io.furrow.connect.source.option.ValueMode;
 
 /** Converts journal records into records for the worker. */
-public record SourceRecords(KeyMode keys, ValueMode values) {
+record SourceRecords(KeyMode keys, ValueMode values) {
     /**
      * @param reading the record that is sent to Kafka for a journal record
      * @throws ConnectException if a newer version of the plugin wrote one of them

@@ -25,7 +25,6 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.RepairSettings.Deletions;
 import io.furrow.connect.repair.RepairSettings.Mode;
 import io.furrow.connect.repair.RepairSettings.Reading;
-import io.furrow.connect.repair.entity.EntityRecord;
 import io.furrow.connect.subscription.Content;
 import io.furrow.connect.subscription.DesiredSubscription;
 import io.furrow.connect.subscription.IdShare;

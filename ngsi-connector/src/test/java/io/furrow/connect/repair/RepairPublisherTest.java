@@ -14,9 +14,6 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.connect.repair.entity.EntityRecord;
-import io.furrow.connect.repair.entity.Identities;
-import io.furrow.connect.repair.entity.KnownEntities;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;

@@ -7,9 +7,12 @@ import java.util.List;
 import java.util.Map;
 
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.http.Answer;
-import io.furrow.connect.source.http.ReceivedNotification;
 import io.furrow.connect.source.journal.JournalRecordCodec;
+import io.furrow.connect.source.notification.NotificationTranslator;
+import io.furrow.connect.source.notification.ReceivedNotification;
+import io.furrow.connect.source.notification.Translation;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;

@@ -9,9 +9,11 @@ import java.util.Set;
 import java.util.concurrent.CompletableFuture;
 
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.repair.MissedChange;
 import io.furrow.connect.repair.RepairOutput;
 import io.furrow.connect.source.journal.JournalRecordCodec;
+import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 

@@ -19,7 +19,9 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.source.http.ReceivedNotification;
+import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.source.notification.NotificationTranslator;
+import io.furrow.connect.source.notification.ReceivedNotification;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -19,6 +19,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.connect.journal.Journal;
 import io.furrow.connect.journal.JournalReader;
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.repair.Broker;
 import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.source.journal.JournalRecordLog;

@@ -16,6 +16,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.connect.journal.JournalRecord;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.source.journal.TaskJournals;
 import io.furrow.model.event.DeadLetter;
@@ -121,7 +122,6 @@ class RecordModesTest {
     private static SourceRecord record(String keyMode, String valueMode, OutgoingRecord record) {
         SourceRecords records = new NgsiSourceConfig(
                         Map.of("journal.dir", "/tmp/journal", "key.mode", keyMode, "value.mode", valueMode))
-                .records()
                 .records();
         JournalRecord kept = new JournalRecord(3, JournalRecordCodec.write(record));
         return records.of(new TaskJournals.Batch("j", List.of(kept)), each -> JournalRecordCodec.read(each.payload()))

@@ -1,7 +1,7 @@
 package io.furrow.replay.playback;
 
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayStatus;
 
 /** The schedule of a replay whose group has a clock; the passes of a loop are counted from that clock. */
 final class GroupTimeline {

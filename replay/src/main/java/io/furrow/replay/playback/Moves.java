@@ -1,9 +1,9 @@
 package io.furrow.replay.playback;
 
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Span;
-import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /** What a step makes of a {@link PlaybackState}: each is the state before it with a few members changed. */

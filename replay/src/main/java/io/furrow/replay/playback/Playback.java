@@ -5,10 +5,10 @@ import java.util.List;
 import java.util.Optional;
 import java.util.function.LongUnaryOperator;
 
-import io.furrow.flink.time.Epochs;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.flink.record.Epochs;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayPlan;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /**

@@ -3,7 +3,7 @@ package io.furrow.replay.playback;
 import java.io.IOException;
 
 import io.furrow.mission.Cursor;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.ReplayStatus;
 
 /**
  * Where a replay is; with it a playback continues at the next record.

@@ -6,7 +6,7 @@ import java.util.List;
 import java.util.Optional;
 
 import io.furrow.mission.Cursor;
-import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /**

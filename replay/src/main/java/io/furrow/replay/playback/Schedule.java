@@ -3,8 +3,8 @@ package io.furrow.replay.playback;
 import java.time.Instant;
 import java.util.function.LongUnaryOperator;
 
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayStatus;
 
 /** When the events of a replay are due, and by how much they were late. Times are those of the playback's clock, ms. */
 final class Schedule {

@@ -1,8 +1,8 @@
 package io.furrow.replay.playback;
 
 import io.furrow.mission.Cursor;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /** Which single steps a state of a replay still has to make of those that are requested. */

@@ -6,7 +6,7 @@ import java.util.Map;
 
 import io.furrow.flink.record.HeaderTexts;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;

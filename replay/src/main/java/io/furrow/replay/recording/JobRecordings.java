@@ -8,8 +8,8 @@ import io.furrow.mission.RecordingException;
 import io.furrow.mission.RecordingGoneException;
 import io.furrow.mission.Recordings;
 import io.furrow.mission.file.FileRecordings;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.file.FileProblem;
 
 /**

@@ -6,7 +6,7 @@ import java.util.Optional;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.Recordings;
-import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.DesiredReplay;
 
 /** Finds the recording of a replay, wherever it is. Serializable, so that a job can carry it. */
 public interface RecordingSources extends Serializable {

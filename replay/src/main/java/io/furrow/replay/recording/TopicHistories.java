@@ -8,7 +8,7 @@ import java.util.TreeMap;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.topic.TopicRecordings;
-import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.DesiredReplay;
 
 /** Recordings that are topics with their own history. Serializable, so that a job can carry it. */
 @FunctionalInterface

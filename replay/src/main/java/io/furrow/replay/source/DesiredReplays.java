@@ -6,7 +6,7 @@ import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.locks.LockSupport;
 
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.ReplayStatus;
 
 /** Source of the desired replays. Serializable, so that a job can carry it. */
 public interface DesiredReplays extends Serializable {

@@ -21,7 +21,7 @@ import io.furrow.flink.kafka.KafkaTopicSnapshot;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.kafka.CommittedReader;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;

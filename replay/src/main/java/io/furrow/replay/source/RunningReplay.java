@@ -9,8 +9,8 @@ import java.util.function.Consumer;
 
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.replay.playback.Fetched;

@@ -5,7 +5,7 @@ import java.util.Objects;
 import java.util.function.Consumer;
 
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.Playback;
 import io.furrow.replay.playback.Played;

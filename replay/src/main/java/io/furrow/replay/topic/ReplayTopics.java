@@ -9,8 +9,8 @@ import java.util.Properties;
 import org.apache.kafka.clients.consumer.ConsumerConfig;
 
 import io.furrow.flink.job.JobOptions;
-import io.furrow.flink.job.TopicOptions;
 import io.furrow.flink.kafka.EnsureTopics;
+import io.furrow.flink.kafka.TopicOptions;
 import io.furrow.flink.kafka.WritableRecords;
 import io.furrow.flink.record.TopicRecord;
 

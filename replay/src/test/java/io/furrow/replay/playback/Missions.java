@@ -16,7 +16,7 @@ import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Span;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.replay.DesiredReplay;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.replay.record.EventEncoder;
 
 /** Made-up recordings in memory. */

@@ -13,9 +13,9 @@ import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.replay.record.ReplayRecords;
 

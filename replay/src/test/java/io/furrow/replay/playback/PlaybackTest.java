@@ -5,16 +5,16 @@ import java.util.Optional;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Span;
 import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.ReplayPlan;
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.ReplayStatus.State;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

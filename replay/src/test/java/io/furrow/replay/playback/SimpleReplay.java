@@ -6,9 +6,9 @@ import java.util.List;
 
 import io.furrow.mission.Cursor;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayPlan;
+import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.event.EventId;
 
 /**

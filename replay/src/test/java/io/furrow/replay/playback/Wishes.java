@@ -5,10 +5,10 @@ import java.util.List;
 import java.util.Random;
 
 import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
-import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.ReplayPlan;
+import io.furrow.model.control.ReplayStatus.State;
 
 /** What is requested of a replay, as the control plane would write it. */
 final class Wishes {

@@ -8,8 +8,8 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.mission.Cursor;
 import io.furrow.mission.PageLimits;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.DesiredReplay;
+import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.Fetch;
 import io.furrow.replay.playback.Fetched;

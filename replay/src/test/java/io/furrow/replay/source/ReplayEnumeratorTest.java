@@ -17,8 +17,8 @@ import org.apache.flink.metrics.groups.SplitEnumeratorMetricGroup;
 import org.apache.flink.metrics.groups.UnregisteredMetricsGroup;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.model.control.replay.ReplayStatus;
-import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.source.DesiredReplays.Told;
 import io.furrow.replay.source.DesiredReplays.Wish;

@@ -13,9 +13,9 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
+import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.replay.DesiredReplay;
-import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.PlaybackState;

@@ -6,9 +6,9 @@ import org.apache.flink.api.common.state.ValueStateDescriptor;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Pair;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.eventtime.OneTimer;
 
 /**

@@ -3,9 +3,9 @@ package io.furrow.analytics.collision.debounce;
 import java.io.Serializable;
 import java.util.function.Consumer;
 
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.rules.CollisionRules;
 
 /**
  * Emits an encounter once it has lasted for the dwell: at exactly that instant, with where both were last seen, and

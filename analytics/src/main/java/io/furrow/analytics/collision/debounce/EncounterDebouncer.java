@@ -3,9 +3,9 @@ package io.furrow.analytics.collision.debounce;
 import java.io.Serializable;
 import java.util.function.Consumer;
 
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.rules.CollisionRules;
 
 /** What becomes of the encounters of a pair behind the exact stages: hysteresis, then dwell, then the rate of records. */
 public final class EncounterDebouncer implements Serializable {

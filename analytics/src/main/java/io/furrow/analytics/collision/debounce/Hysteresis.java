@@ -2,10 +2,10 @@ package io.furrow.analytics.collision.debounce;
 
 import java.io.Serializable;
 
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
-import io.furrow.analytics.collision.matching.Thresholds;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.rules.Thresholds;
 
 /**
  * Delays the start of an encounter to the threshold of its pair where the exact stages found it at a greater distance:

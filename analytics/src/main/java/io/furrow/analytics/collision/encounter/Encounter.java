@@ -2,7 +2,7 @@ package io.furrow.analytics.collision.encounter;
 
 import io.furrow.analytics.eventtime.Timed;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 
 /**
  * One moment in the life of an encounter of two devices; complete in itself, a reader needs no earlier record.

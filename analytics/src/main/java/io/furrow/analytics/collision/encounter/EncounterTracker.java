@@ -4,8 +4,8 @@ import java.io.Serializable;
 import java.util.List;
 import java.util.function.Consumer;
 
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.grid.Geodesy;
+import io.furrow.analytics.collision.rules.CollisionRules;
 
 /**
  * Joins what all cells saw of one pair into encounters. A pair is close in no cell or in one: the changes of all cells at

@@ -8,8 +8,8 @@ import org.apache.flink.runtime.state.StateInitializationContext;
 import org.apache.flink.runtime.state.StateSnapshotContext;
 import org.apache.flink.util.Collector;
 
-import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.matching.RestoredRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.rules.RestoredRules;
 import io.furrow.analytics.eventtime.EventTimeOperator;
 
 /**

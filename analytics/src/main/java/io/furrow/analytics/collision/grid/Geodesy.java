@@ -18,7 +18,7 @@ public final class Geodesy {
         return 2 * EARTH_RADIUS_METERS * StrictMath.asin(Math.min(1, Math.sqrt(h)));
     }
 
-    static double square(double x) {
+    public static double square(double x) {
         return x * x;
     }
 }

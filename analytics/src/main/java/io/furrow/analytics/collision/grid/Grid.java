@@ -3,7 +3,7 @@ package io.furrow.analytics.collision.grid;
 import java.io.Serializable;
 import java.util.Arrays;
 
-import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 
 /**
  * Cells over the whole Earth: bands of latitude of equal height, each cut into its own number of columns, so that cells are

@@ -12,9 +12,8 @@ import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
 import io.furrow.analytics.clock.LaggingPosition;
-import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.matching.RestoredRules;
-import io.furrow.analytics.collision.position.PendingFixesSerializer;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.rules.RestoredRules;
 import io.furrow.analytics.eventtime.EventTimeOperator;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;

@@ -4,8 +4,8 @@ import java.io.Serializable;
 import java.util.List;
 import java.util.function.Consumer;
 
-import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.matching.ExclusionZones;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.rules.ExclusionZones;
 import io.furrow.analytics.position.PositionFix;
 
 /** Moves a device through the grid: what its positions, and their end, mean for which cell at which instant. */
@@ -42,7 +42,7 @@ public final class Tracker implements Serializable {
     }
 
     /** The first instant at which the track's position counts no more. */
-    public long expiry(Track track) {
+    long expiry(Track track) {
         return track.last().time() + timeToLive;
     }
 

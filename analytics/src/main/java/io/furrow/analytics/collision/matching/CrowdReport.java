@@ -9,7 +9,7 @@ import io.furrow.analytics.position.PositionFix;
  * @param over whether a device was in a crowd then
  * @param witness a device that is, or was, in it; has its topic and scope
  */
-public record CrowdReport(long time, boolean over, PositionFix witness) {
+record CrowdReport(long time, boolean over, PositionFix witness) {
     /** Between two records of a cell, in milliseconds. */
     static final long EVERY = 60_000;
 

@@ -11,12 +11,11 @@ import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.encounter.PairObservation;
-import io.furrow.analytics.collision.grid.Cell;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Grid;
-import io.furrow.analytics.collision.grid.PendingUpdatesSerializer;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.rules.RestoredRules;
 import io.furrow.analytics.eventtime.EventTimeOperator;
 
 /**

@@ -5,9 +5,7 @@ import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Set;
 
-import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.grid.Member;
-import io.furrow.analytics.collision.grid.Proximity;
+import io.furrow.analytics.collision.rules.CollisionRules;
 
 /**
  * Which pairs of a grid cell are followed: all that are close, but for those of crowds. A device that has more than
@@ -29,12 +27,12 @@ public final class Matching implements Serializable {
         crowd = rules.cells().isLimited() ? rules.cells().crowd() : Integer.MAX_VALUE;
     }
 
-    public Proximity proximity() {
+    Proximity proximity() {
         return proximity;
     }
 
     /** Whether so many devices can be a crowd. */
-    public boolean canCrowd(int devices) {
+    boolean canCrowd(int devices) {
         return devices - 1 > crowd;
     }
 
@@ -44,12 +42,12 @@ public final class Matching implements Serializable {
     }
 
     /** Whether two members that are near each other are a pair of this cell. Two halo copies meet elsewhere. */
-    public static boolean meet(Member a, Member b) {
+    static boolean meet(Member a, Member b) {
         return a.resident() || b.resident();
     }
 
     /** Whether a pair that is close is followed. */
-    public static boolean follows(Member a, Member b) {
+    static boolean follows(Member a, Member b) {
         boolean anyOf = a.shortlist() == null && (b.shortlist() == null || isNotBefore(a, b));
         return anyOf || b.shortlist() == null && isNotBefore(b, a) || a.lists(b) || b.lists(a);
     }
@@ -64,7 +62,7 @@ public final class Matching implements Serializable {
      * @param before the same device until then; null if it was not in the cell
      * @param near all that are near it, halo copies of a halo copy too: nobody is a crowd on one side of a border only
      */
-    public Shortlist shortlist(Member before, Member after, List<Member> near) {
+    Shortlist shortlist(Member before, Member after, List<Member> near) {
         if (near.size() <= crowd) {
             return null;
         }

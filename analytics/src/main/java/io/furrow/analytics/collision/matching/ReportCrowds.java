@@ -6,9 +6,7 @@ import java.util.Comparator;
 import java.util.List;
 import java.util.function.Consumer;
 
-import io.furrow.analytics.collision.grid.Cell;
 import io.furrow.analytics.collision.grid.Grid;
-import io.furrow.analytics.collision.grid.Member;
 import io.furrow.analytics.position.PositionFix;
 
 /**

@@ -5,7 +5,7 @@ import java.util.List;
 import io.furrow.analytics.position.PositionFix;
 
 /** The devices with which a device of a crowd has encounters, as of its newest report; of its own topic. */
-public final class Shortlist {
+final class Shortlist {
     private static final int SPREAD = 0x9E3779B9;
     /** Slots for each identity: nearly every device that is asked for is not here, and then its slot is mostly empty. */
     private static final int ROOM = 8;
@@ -18,7 +18,7 @@ public final class Shortlist {
     private final int shift;
 
     /** @param identities of the devices, none twice */
-    public Shortlist(List<String> identities) {
+    Shortlist(List<String> identities) {
         this.identities = List.copyOf(identities);
         shift = Integer.numberOfLeadingZeros(ROOM * Math.max(1, identities.size()));
         slots = new String[1 << Integer.SIZE - shift];
@@ -30,20 +30,20 @@ public final class Shortlist {
         bits = sum;
     }
 
-    public List<String> identities() {
+    List<String> identities() {
         return identities;
     }
 
     /** One of 64, by which most devices that are not on a list are reported from those that are. */
-    public static long bit(String identity) {
+    static long bit(String identity) {
         return 1L << (identity.hashCode() * SPREAD >>> Integer.SIZE - 6);
     }
 
-    public long bits() {
+    long bits() {
         return bits;
     }
 
-    public boolean has(PositionFix device) {
+    boolean has(PositionFix device) {
         return slots[slot(device.identity())] != null;
     }
 

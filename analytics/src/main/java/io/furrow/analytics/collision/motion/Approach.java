@@ -3,7 +3,7 @@ package io.furrow.analytics.collision.motion;
 import io.furrow.analytics.collision.encounter.PairId;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 
 /**
  * That two devices will come, or came between their reports, within the threshold; complete in itself.

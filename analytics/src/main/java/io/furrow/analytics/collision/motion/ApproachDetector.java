@@ -2,10 +2,8 @@ package io.furrow.analytics.collision.motion;
 
 import java.util.function.Consumer;
 
-import io.furrow.analytics.collision.motion.space.Cubes;
-import io.furrow.analytics.collision.motion.space.Place;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 
 /**
  * Finds out whether two legs come within the threshold, for one cube.
@@ -14,11 +12,11 @@ import io.furrow.flink.time.Epochs;
  * @param predictions takes findings about legs ahead
  * @param contacts takes findings about legs behind
  */
-public record ApproachDetector(
+record ApproachDetector(
         MotionRules rules, Cubes cubes, long cube, Consumer<Finding> predictions, Consumer<Finding> contacts) {
 
     /** Two legs from the newest positions on; {@code now} is the instant at which one of them was reported. */
-    public void ahead(Leg one, Leg other, long now) {
+    void ahead(Leg one, Leg other, long now) {
         long oldest = Math.min(one.from(), other.from());
         Place start = one.start();
         if (now - oldest < rules.timeToLive()
@@ -29,7 +27,7 @@ public record ApproachDetector(
     }
 
     /** Two legs up to a position each. */
-    public void behind(Leg one, Leg other) {
+    void behind(Leg one, Leg other) {
         long from = Math.max(one.from(), other.from());
         long until = Math.min(one.until(), other.until());
         if (from < until && mayMeet(one, other)) {

@@ -2,8 +2,6 @@ package io.furrow.analytics.collision.motion;
 
 import java.util.Optional;
 
-import io.furrow.analytics.collision.motion.space.Place;
-
 /**
  * How near two straight motions come to each other during a time.
  *

@@ -22,7 +22,7 @@ import io.furrow.analytics.eventtime.OneTimer;
  *
  * <p><b>Emits</b>: one record for each contact that no report shows.
  */
-public final class JoinContacts extends KeyedProcessFunction<String, Finding, Approach> {
+final class JoinContacts extends KeyedProcessFunction<String, Finding, Approach> {
     private static final long serialVersionUID = 1L;
 
     private final long timeToLive;

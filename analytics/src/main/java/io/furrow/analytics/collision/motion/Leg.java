@@ -1,8 +1,7 @@
 package io.furrow.analytics.collision.motion;
 
-import io.furrow.analytics.collision.motion.space.Place;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.time.Epochs;
+import io.furrow.flink.record.Epochs;
 
 /**
  * A straight, uniform motion of one device.

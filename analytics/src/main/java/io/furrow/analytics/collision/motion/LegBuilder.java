@@ -6,8 +6,6 @@ import java.util.List;
 import java.util.Optional;
 import java.util.function.Consumer;
 
-import io.furrow.analytics.collision.motion.space.Cubes;
-import io.furrow.analytics.collision.motion.space.Place;
 import io.furrow.analytics.position.PositionFix;
 
 /** Creates legs from the positions of one device and adds them to cubes. */

@@ -9,8 +9,6 @@ import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.collision.motion.space.Cubes;
-import io.furrow.analytics.collision.motion.space.Neighbourhood;
 import io.furrow.analytics.eventtime.Inbox;
 import io.furrow.analytics.eventtime.OneTimer;
 
@@ -26,7 +24,7 @@ import io.furrow.analytics.eventtime.OneTimer;
  *
  * <p><b>Emits</b>: findings about legs ahead; those about legs behind to {@link #CONTACTS}.
  */
-public final class MatchLegs extends KeyedProcessFunction<Long, LegUpdate, Finding> {
+final class MatchLegs extends KeyedProcessFunction<Long, LegUpdate, Finding> {
     static final OutputTag<Finding> CONTACTS = new OutputTag<>("contacts") {
         private static final long serialVersionUID = 1L;
     };

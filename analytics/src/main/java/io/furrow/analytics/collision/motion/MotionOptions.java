@@ -6,7 +6,7 @@ import java.util.Set;
 
 import picocli.CommandLine.Option;
 
-import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 
 /** The options of the job {@code collision} about what lies ahead of devices and between their reports. */
 public final class MotionOptions {

@@ -4,7 +4,7 @@ import java.io.Serializable;
 import java.time.Duration;
 import java.util.Set;
 
-import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 
 /**
  * What counts as predicted and as crossed.

@@ -22,7 +22,7 @@ import io.furrow.analytics.eventtime.OneTimer;
  *
  * <p><b>Emits</b>: a record when a prediction is new, and at a limited rate while it lasts.
  */
-public final class TrackPredictions extends KeyedProcessFunction<String, Finding, Approach> {
+final class TrackPredictions extends KeyedProcessFunction<String, Finding, Approach> {
     private static final long serialVersionUID = 1L;
 
     private final MotionRules rules;

@@ -6,13 +6,14 @@ import java.util.List;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Pair;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.encounter.Stage;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.rules.DebounceRules;
 
-import static io.furrow.analytics.collision.position.Fixes.east;
+import static io.furrow.analytics.collision.Fixes.east;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 import static org.assertj.core.groups.Tuple.tuple;

@@ -14,16 +14,16 @@ import org.junit.jupiter.api.Test;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.CollisionOracle;
+import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.collision.Worlds;
-import io.furrow.analytics.collision.debounce.DebounceRules;
-import io.furrow.analytics.collision.grid.CellRules;
 import io.furrow.analytics.collision.grid.CellUpdate;
-import io.furrow.analytics.collision.matching.ExclusionZones;
-import io.furrow.analytics.collision.matching.Thresholds;
-import io.furrow.analytics.collision.position.CollisionOracle;
-import io.furrow.analytics.collision.position.Fixes;
-import io.furrow.analytics.collision.position.PositionRules;
+import io.furrow.analytics.collision.rules.CellRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.collision.rules.DebounceRules;
+import io.furrow.analytics.collision.rules.ExclusionZones;
+import io.furrow.analytics.collision.rules.PositionRules;
+import io.furrow.analytics.collision.rules.Thresholds;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 

@@ -13,19 +13,19 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.Seeds;
-import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.CollisionOracle;
+import io.furrow.analytics.collision.Fixes;
+import io.furrow.analytics.collision.Simulation;
 import io.furrow.analytics.collision.Worlds;
-import io.furrow.analytics.collision.grid.Cell;
-import io.furrow.analytics.collision.grid.CellRules;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Geodesy;
 import io.furrow.analytics.collision.grid.Presence;
+import io.furrow.analytics.collision.matching.Cell;
 import io.furrow.analytics.collision.matching.CellOverflow;
 import io.furrow.analytics.collision.matching.MatchPairs;
 import io.furrow.analytics.collision.matching.Matching;
-import io.furrow.analytics.collision.position.CollisionOracle;
-import io.furrow.analytics.collision.position.Fixes;
-import io.furrow.analytics.collision.position.Simulation;
+import io.furrow.analytics.collision.rules.CellRules;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -9,11 +9,11 @@ import org.junit.jupiter.api.Test;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.CollisionOracle;
 import io.furrow.analytics.collision.Worlds;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.TrackDevices;
-import io.furrow.analytics.collision.position.CollisionOracle;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 

@@ -16,11 +16,11 @@ import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.debounce.DebounceEncounters;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.TrackDevices;
 import io.furrow.analytics.collision.matching.MatchPairs;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 

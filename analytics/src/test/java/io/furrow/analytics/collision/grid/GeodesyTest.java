@@ -1,11 +1,8 @@
 package io.furrow.analytics.collision.grid;
 
-import java.util.Random;
-
 import org.junit.jupiter.api.Test;
 
-import io.furrow.analytics.collision.position.Fixes;
-import io.furrow.analytics.position.PositionFix;
+import io.furrow.analytics.collision.Fixes;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
@@ -26,25 +23,6 @@ class GeodesyTest {
         assertThat(distance(0, 179.99999, 0, -179.99999)).isCloseTo(2.223_898_5, within(1e-6));
         assertThat(distance(90, 0, 90, 123)).isLessThan(1e-9);
         assertThat(distance(89.99999, 0, 89.99999, 180)).isCloseTo(2.223_898_5, within(1e-6));
-    }
-
-    @Test
-    void isSymmetricToTheLastBitAndAgreesWithTheAngleBetweenVectors() {
-        Random random = new Random(7);
-        for (int i = 0; i < 2000; i++) {
-            PositionFix a = Fixes.at("a", random.nextDouble(-90, 90), random.nextDouble(-180, 180), 0);
-            PositionFix b = Fixes.at("b", random.nextDouble(-90, 90), random.nextDouble(-180, 180), 0);
-            assertThat(Geodesy.distance(a, b)).isEqualTo(Geodesy.distance(b, a));
-            assertThat(Geodesy.distance(a, b)).isCloseTo(angle(a, b) * Geodesy.EARTH_RADIUS_METERS, within(0.1));
-        }
-    }
-
-    private static double angle(PositionFix a, PositionFix b) {
-        Member u = Member.of(a, true);
-        Member v = Member.of(b, true);
-        double chord = Math.sqrt(
-                Geodesy.square(u.x() - v.x()) + Geodesy.square(u.y() - v.y()) + Geodesy.square(u.z() - v.z()));
-        return 2 * Math.asin(Math.min(1, chord / 2));
     }
 
     private static double distance(double latitude, double longitude, double otherLatitude, double otherLongitude) {

@@ -10,9 +10,9 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.collision.Worlds;
-import io.furrow.analytics.collision.position.Fixes;
+import io.furrow.analytics.collision.rules.CollisionRules;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -11,12 +11,12 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.clock.LaggingPosition;
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.encounter.Stage;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 
-import static io.furrow.analytics.collision.position.Fixes.east;
+import static io.furrow.analytics.collision.Fixes.east;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 

@@ -17,8 +17,6 @@ import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 
-import io.furrow.analytics.collision.motion.space.Courses;
-import io.furrow.analytics.collision.motion.space.MotionOracle;
 import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;

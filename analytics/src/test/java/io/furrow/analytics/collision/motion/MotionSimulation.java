@@ -9,8 +9,6 @@ import java.util.Map;
 import java.util.Random;
 import java.util.function.Function;
 
-import io.furrow.analytics.collision.motion.space.Cubes;
-import io.furrow.analytics.collision.motion.space.Neighbourhood;
 import io.furrow.analytics.position.PositionFix;
 
 /** The stages without Flink: watermarks at random instants, and within each all keys in random order. */

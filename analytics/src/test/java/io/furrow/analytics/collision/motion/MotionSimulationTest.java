@@ -11,8 +11,6 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.collision.encounter.Phase;
-import io.furrow.analytics.collision.motion.space.Courses;
-import io.furrow.analytics.collision.motion.space.MotionOracle;
 import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;

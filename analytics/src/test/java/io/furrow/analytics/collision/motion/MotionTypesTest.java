@@ -15,8 +15,6 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.analytics.collision.encounter.Phase;
-import io.furrow.analytics.collision.motion.space.Courses;
-import io.furrow.analytics.collision.motion.space.Neighbourhood;
 import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -8,10 +8,8 @@ import java.util.Set;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.encounter.Phase;
-import io.furrow.analytics.collision.motion.space.Courses;
-import io.furrow.analytics.collision.motion.space.Place;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;

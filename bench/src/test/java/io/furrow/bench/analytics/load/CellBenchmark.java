@@ -19,12 +19,12 @@ import org.openjdk.jmh.annotations.State;
 import org.openjdk.jmh.annotations.Warmup;
 import org.openjdk.jmh.infra.Blackhole;
 
-import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.grid.Cell;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Track;
 import io.furrow.analytics.collision.grid.Tracker;
+import io.furrow.analytics.collision.matching.Cell;
 import io.furrow.analytics.collision.matching.Matching;
+import io.furrow.analytics.collision.rules.CollisionRules;
 
 /** The search in a cell: one device moves, and those near it before and after are found. Of a fleet that fills 400 cells. */
 @State(Scope.Thread)

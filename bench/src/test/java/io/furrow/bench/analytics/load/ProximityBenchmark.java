@@ -15,9 +15,9 @@ import org.openjdk.jmh.annotations.Setup;
 import org.openjdk.jmh.annotations.State;
 import org.openjdk.jmh.annotations.Warmup;
 
-import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.grid.Member;
-import io.furrow.analytics.collision.grid.Proximity;
+import io.furrow.analytics.collision.matching.Member;
+import io.furrow.analytics.collision.matching.Proximity;
+import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
 /** The predicate: whether two devices are close, for pairs at some distance. */

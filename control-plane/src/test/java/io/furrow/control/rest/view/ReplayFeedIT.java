@@ -27,7 +27,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.rest.ApiClient;
 import io.furrow.control.rest.RunningApi;
-import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -6,8 +6,6 @@ import java.util.Map;
 
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
-import io.furrow.connect.sink.EntityKey;
-import io.furrow.connect.sink.Update;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
 

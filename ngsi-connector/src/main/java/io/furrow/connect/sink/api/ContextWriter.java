@@ -7,13 +7,6 @@ import java.util.function.Consumer;
 
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
-import io.furrow.connect.sink.Batches;
-import io.furrow.connect.sink.Change;
-import io.furrow.connect.sink.ChangeCoalescer;
-import io.furrow.connect.sink.FailingChange;
-import io.furrow.connect.sink.Isolation;
-import io.furrow.connect.sink.Plan;
-import io.furrow.connect.sink.Update;
 import io.furrow.connect.sink.api.EntityWriter.FailingUpdate;
 import io.furrow.connect.sink.api.EntityWriter.RefusedUpdate;
 

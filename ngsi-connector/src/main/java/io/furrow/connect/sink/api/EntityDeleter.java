@@ -8,11 +8,7 @@ import java.util.Set;
 import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
-import io.furrow.connect.sink.Batches;
-import io.furrow.connect.sink.Batches.Rendered;
-import io.furrow.connect.sink.Change;
-import io.furrow.connect.sink.EntityKey;
-import io.furrow.connect.sink.FailingChange;
+import io.furrow.connect.sink.api.Batches.Rendered;
 import io.furrow.connect.sink.api.ContextWriter.RefusedChange;
 import io.furrow.model.ngsi.UnreadableException;
 

@@ -4,13 +4,11 @@ import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 
-import io.furrow.connect.sink.Change;
-
 /**
  * Stores the event time of every attribute of an entity, per type if several entities share the id, and of its last
  * deletion. Uses arrays, because a hundred thousand entities are cached.
  */
-public final class EntityTimes {
+final class EntityTimes {
     private String[] types = {};
     private String[] names = {};
     private long[] times = {};
@@ -18,7 +16,7 @@ public final class EntityTimes {
     private long readAtNanos;
 
     /** {@link Change#NO_TIME} if unknown. */
-    public long of(String type, String name) {
+    long of(String type, String name) {
         int found = find(type, name);
         return found < 0 ? Change.NO_TIME : times[found];
     }
@@ -27,7 +25,7 @@ public final class EntityTimes {
         return find(type, name) >= 0;
     }
 
-    public long deletedAt() {
+    long deletedAt() {
         return deletedAt;
     }
 
@@ -42,12 +40,12 @@ public final class EntityTimes {
     }
 
     /** Of all attributes of all types. */
-    public long newest() {
+    long newest() {
         return Arrays.stream(times).max().orElse(Change.NO_TIME);
     }
 
     /** How many attributes are known. */
-    public int size() {
+    int size() {
         return names.length;
     }
 

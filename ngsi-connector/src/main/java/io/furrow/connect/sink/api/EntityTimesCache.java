@@ -6,9 +6,6 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.function.LongSupplier;
 
-import io.furrow.connect.sink.Change;
-import io.furrow.connect.sink.EntityKey;
-
 /**
  * Caches the times of the entities written or read last, up to {@code maxAttributes} attributes in total. Entries
  * expire {@code maxAge} after the last reading, because other tasks may have written meanwhile.
@@ -34,7 +31,7 @@ public final class EntityTimesCache {
     }
 
     /** Null if the entity is not cached, which differs from known to be absent. */
-    public EntityTimes of(EntityKey key) {
+    EntityTimes of(EntityKey key) {
         return entities.get(key);
     }
 

@@ -15,8 +15,6 @@ import org.slf4j.LoggerFactory;
 import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
-import io.furrow.connect.sink.Change;
-import io.furrow.connect.sink.EntityKey;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;

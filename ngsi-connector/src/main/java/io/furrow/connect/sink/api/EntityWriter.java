@@ -11,10 +11,7 @@ import java.util.concurrent.Future;
 import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
-import io.furrow.connect.sink.Batches;
-import io.furrow.connect.sink.Batches.Rendered;
-import io.furrow.connect.sink.FailingChange;
-import io.furrow.connect.sink.Update;
+import io.furrow.connect.sink.api.Batches.Rendered;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**

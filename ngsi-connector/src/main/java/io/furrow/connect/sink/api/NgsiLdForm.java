@@ -11,9 +11,6 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.connect.sink.Change;
-import io.furrow.connect.sink.Update;
-
 /**
  * An NGSI-v2 entity as NGSI-LD. An id that is no URI becomes {@code urn:ngsi-ld:<type>:<id>}. An attribute of type
  * {@code Relationship} becomes a Relationship; {@code geo:json}, or {@code geo:point} ("latitude, longitude"), a GeoProperty;

@@ -17,9 +17,6 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
-import io.furrow.connect.sink.Change;
-import io.furrow.connect.sink.EntityKey;
-import io.furrow.connect.sink.Update;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;

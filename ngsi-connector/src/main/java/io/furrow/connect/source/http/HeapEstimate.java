@@ -1,13 +1,13 @@
 package io.furrow.connect.source.http;
 
+import io.furrow.connect.source.option.OverloadOptions;
+
 /**
  * Estimates the heap in bytes that a notification needs while it is translated and made durable: its bytes as text, as
  * a tree, as records and in the journal's format. Short JSON can be a large tree: {@code {},} has 3 bytes there and
  * more than 100 here. The estimate errs on the high side.
  */
-public final class HeapEstimate {
-    /** Per byte: text in the tree, the record, the buffers of both, and the journal's format. */
-    public static final int PER_BYTE = 6;
+final class HeapEstimate {
     /** Per value or name in the tree, with its share of the collection that holds it. */
     private static final int PER_NODE = 96;
     /** Per object that may be an entity, mostly for the headers of its record. */
@@ -45,7 +45,7 @@ public final class HeapEstimate {
                 default -> {}
             }
         }
-        return (entities + 1) * PER_ENTITY + nodes * PER_NODE + (long) json.length * PER_BYTE;
+        return (entities + 1) * PER_ENTITY + nodes * PER_NODE + (long) json.length * OverloadOptions.HEAP_PER_BYTE;
     }
 
     /** The position of the closing quotation mark, or the end of the document if there is none. */

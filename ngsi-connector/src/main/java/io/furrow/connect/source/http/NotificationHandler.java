@@ -19,9 +19,10 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.source.NotificationTranslator;
-import io.furrow.connect.source.Translation;
 import io.furrow.connect.source.journal.RecordLog;
+import io.furrow.connect.source.notification.NotificationTranslator;
+import io.furrow.connect.source.notification.ReceivedNotification;
+import io.furrow.connect.source.notification.Translation;
 import io.furrow.connect.source.option.OverloadOptions;
 
 /**
@@ -107,7 +108,7 @@ public final class NotificationHandler extends Handler.Abstract.NonBlocking {
 
     private long asDeadLetter(ReceivedNotification received) {
         return Math.min(
-                (long) received.body().length * HeapEstimate.PER_BYTE,
+                (long) received.body().length * OverloadOptions.HEAP_PER_BYTE,
                 limits.translations().size());
     }
 

@@ -11,6 +11,7 @@ import java.util.function.UnaryOperator;
 import org.apache.kafka.common.config.types.Password;
 
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.source.notification.ReceivedNotification;
 import io.furrow.connect.source.option.SecurityOptions;
 
 /**

@@ -27,7 +27,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.connect.journal.Journal;
 import io.furrow.connect.journal.JournalReader;
 import io.furrow.connect.journal.JournalRecord;
-import io.furrow.connect.source.OutgoingRecord;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.text.FailureText;
 

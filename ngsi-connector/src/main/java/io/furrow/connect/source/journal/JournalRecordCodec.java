@@ -10,7 +10,7 @@ import java.util.Arrays;
 import java.util.LinkedHashMap;
 import java.util.Map;
 
-import io.furrow.connect.source.OutgoingRecord;
+import io.furrow.connect.record.OutgoingRecord;
 
 /**
  * Serializes a record for the journal. Version 1: the version (1 byte), the time in epoch milliseconds (8), topic, key,

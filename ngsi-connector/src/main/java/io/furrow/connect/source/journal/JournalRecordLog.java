@@ -8,7 +8,7 @@ import java.util.concurrent.CompletableFuture;
 import io.furrow.connect.journal.Journal;
 import io.furrow.connect.journal.JournalException;
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.source.OutgoingRecord;
+import io.furrow.connect.record.OutgoingRecord;
 
 /** Appends records to a journal; they are durable once they are on disk. */
 public final class JournalRecordLog implements RecordLog {

@@ -6,9 +6,9 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 
+import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.repair.EntityRecord;
 import io.furrow.connect.repair.LiveEvents;
-import io.furrow.connect.repair.entity.EntityRecord;
-import io.furrow.connect.source.OutgoingRecord;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 

@@ -8,7 +8,6 @@ import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Range;
 
 import io.furrow.connect.OptionGroup;
-import io.furrow.connect.source.http.HeapEstimate;
 
 /** Options for the answer to notifications for which there is no room, and for the memory that senders may use. */
 public record OverloadOptions(AbstractConfig config) {
@@ -16,6 +15,9 @@ public record OverloadOptions(AbstractConfig config) {
     public static final String HOLD = "overload.hold.ms";
     public static final String MEMORY = "overload.memory.bytes";
     public static final String TRANSLATION_MEMORY = "translation.memory.bytes";
+
+    /** Bytes of heap per byte of a body: text in the tree, the record, the buffers of both, and the journal's format. */
+    public static final int HEAP_PER_BYTE = 6;
 
     private static final String RESET = "reset";
     private static final String UNAVAILABLE = "503";
@@ -58,7 +60,7 @@ public record OverloadOptions(AbstractConfig config) {
                         "Estimated bytes of heap that notifications may use besides their bodies, from the end of a body to its"
                                 + " answer; beyond it, their senders wait. A notification whose own estimate is higher is"
                                 + " answered 413 and"
-                                + " becomes one dead letter. A body needs at least " + HeapEstimate.PER_BYTE
+                                + " becomes one dead letter. A body needs at least " + HEAP_PER_BYTE
                                 + " times its size, plus an amount for each value in it. 0 for a quarter of the worker's heap.");
     }
 

@@ -9,7 +9,6 @@ import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.OptionGroup;
-import io.furrow.connect.source.SourceRecords;
 
 /**
  * Options for the form in which converters and transforms receive records; checks that the connector's own converters
@@ -91,9 +90,11 @@ public record RecordOptions(AbstractConfig config) {
                         "Form of the key for the key converter: the entity's id as text, or as bytes (for ByteArrayConverter).");
     }
 
-    public SourceRecords records() {
-        return new SourceRecords(
-                KeyMode.valueOf(config.getString(KEY_MODE).toUpperCase(Locale.ROOT)),
-                ValueMode.valueOf(config.getString(VALUE_MODE).toUpperCase(Locale.ROOT)));
+    public KeyMode keys() {
+        return KeyMode.valueOf(config.getString(KEY_MODE).toUpperCase(Locale.ROOT));
+    }
+
+    public ValueMode values() {
+        return ValueMode.valueOf(config.getString(VALUE_MODE).toUpperCase(Locale.ROOT));
     }
 }

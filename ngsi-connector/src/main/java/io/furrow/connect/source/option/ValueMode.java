@@ -12,7 +12,7 @@ import org.apache.kafka.connect.data.Struct;
 import org.apache.kafka.connect.header.Headers;
 
 import io.furrow.connect.record.EntityStruct;
-import io.furrow.connect.source.OutgoingRecord;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;

@@ -12,7 +12,7 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.source.OutgoingRecord;
+import io.furrow.connect.record.OutgoingRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;

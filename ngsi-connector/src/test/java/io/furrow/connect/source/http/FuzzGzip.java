@@ -19,10 +19,10 @@ import org.eclipse.jetty.util.component.LifeCycle;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.NgsiSourceConfig;
-import io.furrow.connect.source.NotificationTranslator;
-import io.furrow.connect.source.OutgoingRecord;
 import io.furrow.connect.source.journal.RecordLog;
+import io.furrow.connect.source.notification.NotificationTranslator;
 
 /**
  * What a fuzzer throws at bodies with {@code Content-Encoding: gzip}: the first byte picks how the others become one, as they

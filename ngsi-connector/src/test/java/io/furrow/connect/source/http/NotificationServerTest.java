@@ -10,8 +10,8 @@ import org.apache.kafka.connect.errors.ConnectException;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.NotificationEndpoint;
-import io.furrow.connect.source.OutgoingRecord;
 import io.furrow.connect.source.ReceptionRig;
 
 import static org.assertj.core.api.Assertions.assertThat;

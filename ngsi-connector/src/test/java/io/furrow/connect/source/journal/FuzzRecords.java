@@ -2,7 +2,7 @@ package io.furrow.connect.source.journal;
 
 import java.util.Arrays;
 
-import io.furrow.connect.source.OutgoingRecord;
+import io.furrow.connect.record.OutgoingRecord;
 
 /** What a fuzzer throws at the reading of a journal's payloads: it is a record, written again as the same, or refused. */
 public final class FuzzRecords {

@@ -17,8 +17,8 @@ import io.furrow.connect.journal.JournalFolders;
 import io.furrow.connect.journal.JournalRecord;
 import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.record.OutgoingRecord;
 import io.furrow.connect.source.NgsiSourceConnector;
-import io.furrow.connect.source.OutgoingRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatCode;

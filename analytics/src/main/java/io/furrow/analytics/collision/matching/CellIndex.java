@@ -1,0 +1,224 @@
+package io.furrow.analytics.collision.matching;
+
+import java.util.Arrays;
+import java.util.List;
+
+import io.furrow.analytics.collision.grid.Geodesy;
+import io.furrow.analytics.position.PositionFix;
+
+/**
+ * The devices of a grid cell, found by their names and by where they are: in squares of twice the threshold. The squares lie
+ * in the plane of two of the three axes in which unit vectors are given, the two that the first member's surroundings are
+ * flattest to. Who is close in space is close along every axis, so nothing is missed anywhere on the sphere, and nothing has
+ * to be wrapped around. All of it is in a few arrays, because at a million comparisons a second what costs is memory that
+ * lies scattered: a member is a number, both ways to find it are chains of numbers.
+ */
+final class CellIndex {
+    /** Twice the rounding of a coordinate, in Earth radii: 6 nm. */
+    private static final double GUARD = 1e-15;
+
+    private static final int MIN = 8;
+    private static final int NONE = -1;
+    private static final long SPREAD = 0x9E3779B97F4A7C15L;
+
+    private final double reach;
+    private final double margin;
+    private final double side;
+    private Axes axes;
+    private int size;
+
+    private Member[] members = new Member[MIN];
+    private double[] coordinates = new double[3 * MIN];
+    private long[] squares = new long[MIN];
+    private int[] names = new int[MIN];
+    private int[] nextInSquare = new int[MIN];
+    private int[] nextOfName = new int[MIN];
+    private int[] firstInSquare = empty(2 * MIN);
+    private int[] firstOfName = empty(2 * MIN);
+
+    /** The two axes of the plane. */
+    private enum Axes {
+        YZ,
+        XZ,
+        XY
+    }
+
+    /** @param reach the greatest chord between two close members, in Earth radii */
+    CellIndex(double reach) {
+        this.reach = reach;
+        margin = reach + GUARD;
+        side = 2 * margin;
+    }
+
+    double reach() {
+        return reach;
+    }
+
+    int size() {
+        return size;
+    }
+
+    List<Member> all() {
+        return List.of(Arrays.copyOf(members, size));
+    }
+
+    /** A device that is not there. */
+    void add(Member member) {
+        if (axes == null) {
+            axes = flattest(member);
+        }
+        if (size == members.length) {
+            grow();
+        }
+        set(size++, member, square(index(u(member)), index(v(member))));
+    }
+
+    /** Takes a device out; null if it is not there. */
+    Member remove(PositionFix device) {
+        int name = device.identity().hashCode();
+        int number = firstOfName[slot(name, firstOfName)];
+        while (number != NONE
+                && (names[number] != name || !members[number].fix().isOfSameDevice(device))) {
+            number = nextOfName[number];
+        }
+        if (number == NONE) {
+            return null;
+        }
+        Member removed = members[number];
+        unlink(number);
+        size--;
+        if (number != size) { // the last takes its number
+            Member last = members[size];
+            unlink(size);
+            set(number, last, squares[size]);
+        }
+        members[size] = null;
+        return removed;
+    }
+
+    /** Adds all others to {@code near} that are close to a member, halo copies of a halo copy too. */
+    void near(Member member, Proximity proximity, List<Member> near) {
+        find(member, proximity, false, near);
+    }
+
+    /** Adds all to {@code partners} with whom a member has an encounter; in a crowd few of those that are close. */
+    void partners(Member member, Proximity proximity, List<Member> partners) {
+        find(member, proximity, true, partners);
+    }
+
+    private void find(Member member, Proximity proximity, boolean followed, List<Member> found) {
+        if (size == 0) {
+            return;
+        }
+        double u = u(member);
+        double v = v(member);
+        int lastU = index(u + margin);
+        int lastV = index(v + margin);
+        for (int i = index(u - margin); i <= lastU; i++) {
+            for (int j = index(v - margin); j <= lastV; j++) {
+                find(member, square(i, j), proximity, followed, found);
+            }
+        }
+    }
+
+    private void find(Member member, long square, Proximity proximity, boolean followed, List<Member> found) {
+        double limit = reach * reach;
+        for (int n = firstInSquare[slot(square, firstInSquare)]; n != NONE; n = nextInSquare[n]) {
+            if (squares[n] == square
+                    && Geodesy.square(member.x() - coordinates[3 * n])
+                                    + Geodesy.square(member.y() - coordinates[3 * n + 1])
+                                    + Geodesy.square(member.z() - coordinates[3 * n + 2])
+                            <= limit
+                    && (!followed || Matching.meet(member, members[n]) && Matching.follows(member, members[n]))
+                    && proximity.near(member, members[n])
+                    && members[n] != member) {
+                found.add(members[n]);
+            }
+        }
+    }
+
+    private void set(int number, Member member, long square) {
+        members[number] = member;
+        coordinates[3 * number] = member.x();
+        coordinates[3 * number + 1] = member.y();
+        coordinates[3 * number + 2] = member.z();
+        squares[number] = square;
+        names[number] = member.fix().identity().hashCode();
+        link(number);
+    }
+
+    private void link(int number) {
+        int inSquare = slot(squares[number], firstInSquare);
+        nextInSquare[number] = firstInSquare[inSquare];
+        firstInSquare[inSquare] = number;
+        int ofName = slot(names[number], firstOfName);
+        nextOfName[number] = firstOfName[ofName];
+        firstOfName[ofName] = number;
+    }
+
+    private void unlink(int number) {
+        unlink(number, slot(squares[number], firstInSquare), firstInSquare, nextInSquare);
+        unlink(number, slot(names[number], firstOfName), firstOfName, nextOfName);
+    }
+
+    private static void unlink(int number, int slot, int[] first, int[] next) {
+        if (first[slot] == number) {
+            first[slot] = next[number];
+            return;
+        }
+        int before = first[slot];
+        while (next[before] != number) {
+            before = next[before];
+        }
+        next[before] = next[number];
+    }
+
+    private void grow() {
+        int capacity = 2 * members.length;
+        members = Arrays.copyOf(members, capacity);
+        coordinates = Arrays.copyOf(coordinates, 3 * capacity);
+        squares = Arrays.copyOf(squares, capacity);
+        names = Arrays.copyOf(names, capacity);
+        nextInSquare = new int[capacity];
+        nextOfName = new int[capacity];
+        firstInSquare = empty(2 * capacity);
+        firstOfName = empty(2 * capacity);
+        for (int number = 0; number < size; number++) {
+            link(number);
+        }
+    }
+
+    private static int[] empty(int slots) {
+        int[] empty = new int[slots];
+        Arrays.fill(empty, NONE);
+        return empty;
+    }
+
+    private static Axes flattest(Member member) {
+        double x = Math.abs(member.x());
+        double y = Math.abs(member.y());
+        double z = Math.abs(member.z());
+        return x >= y && x >= z ? Axes.YZ : y >= z ? Axes.XZ : Axes.XY;
+    }
+
+    private double u(Member member) {
+        return axes == Axes.YZ ? member.y() : member.x();
+    }
+
+    private double v(Member member) {
+        return axes == Axes.XY ? member.y() : member.z();
+    }
+
+    private int index(double coordinate) {
+        return (int) Math.floor(coordinate / side);
+    }
+
+    private static long square(int i, int j) {
+        return (long) i << Integer.SIZE | j & 0xFFFF_FFFFL;
+    }
+
+    private static int slot(long number, int[] slots) {
+        long spread = number * SPREAD;
+        return (int) (spread >>> 40) & slots.length - 1;
+    }
+}

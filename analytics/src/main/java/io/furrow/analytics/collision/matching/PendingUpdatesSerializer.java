@@ -1,0 +1,14 @@
+package io.furrow.analytics.collision.matching;
+
+import io.furrow.analytics.collision.grid.CellUpdate;
+import io.furrow.analytics.collision.grid.CellUpdateSerializer;
+import io.furrow.analytics.eventtime.PendingFormat;
+
+/** What waits for a grid cell and is remembered of it. */
+public final class PendingUpdatesSerializer extends PendingFormat<CellUpdate, Cell> {
+    private static final long serialVersionUID = 1L;
+
+    public PendingUpdatesSerializer() {
+        super(new CellUpdateSerializer(), new CellSerializer());
+    }
+}

@@ -1,0 +1,22 @@
+package io.furrow.analytics.collision.rules;
+
+import java.io.Serializable;
+import java.time.Duration;
+
+/**
+ * Which positions count.
+ *
+ * @param timeToLive how long a position counts when no newer one comes, at least 1 ms
+ * @param maxSkew how far apart in time the positions of a close pair may be; zero for any
+ * @param zones where no position counts
+ */
+public record PositionRules(Duration timeToLive, Duration maxSkew, ExclusionZones zones) implements Serializable {
+    public PositionRules {
+        if (timeToLive.toMillis() < 1) {
+            throw new IllegalArgumentException("the time-to-live must be at least 1 ms, not " + timeToLive);
+        }
+        if (maxSkew.isNegative()) {
+            throw new IllegalArgumentException("the greatest skew must not be negative: " + maxSkew);
+        }
+    }
+}

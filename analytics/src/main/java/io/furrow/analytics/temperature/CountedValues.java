@@ -1,0 +1,44 @@
+package io.furrow.analytics.temperature;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+
+/**
+ * What one device measured in one field and window.
+ *
+ * @param type of its entity
+ * @param values in the attribute's unit, each once, in rising order
+ * @param times how often each came
+ */
+public record CountedValues(String type, List<Double> values, List<Integer> times) {
+    static CountedValues none(String type) {
+        return new CountedValues(type, new ArrayList<>(), new ArrayList<>());
+    }
+
+    /** Counts a value. The lists are those of the state and are changed in place. */
+    void add(double value) {
+        int at = Collections.binarySearch(values, value);
+        if (at >= 0) {
+            times.set(at, times.get(at) + 1);
+        } else {
+            values.add(-at - 1, value);
+            times.add(-at - 1, 1);
+        }
+    }
+
+    /** Of all values, each as often as it came. */
+    public double median() {
+        int all = times.stream().mapToInt(Integer::intValue).sum();
+        double upper = inOrder(all / 2);
+        return all % 2 == 1 ? upper : (inOrder(all / 2 - 1) + upper) / 2;
+    }
+
+    private double inOrder(int index) {
+        int at = 0;
+        for (int left = index - times.get(0); left >= 0; left -= times.get(at)) {
+            at++;
+        }
+        return values.get(at);
+    }
+}

@@ -1,0 +1,62 @@
+package io.furrow.analytics.temperature;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Collection;
+import java.util.List;
+
+import org.apache.flink.api.common.ExecutionConfig;
+import org.apache.flink.api.common.typeutils.TypeSerializer;
+import org.apache.flink.streaming.api.windowing.assigners.WindowAssigner;
+import org.apache.flink.streaming.api.windowing.triggers.EventTimeTrigger;
+import org.apache.flink.streaming.api.windowing.triggers.Trigger;
+import org.apache.flink.streaming.api.windowing.windows.TimeWindow;
+
+import io.furrow.flink.record.Epochs;
+
+/**
+ * Windows of event time that begin at whole multiples of the slide since 1970 of the original time, in each epoch of a replay: a
+ * span of an epoch is no whole number of most windows. In epoch 0 they are those of Flink's own assigners, and their state is too.
+ */
+public final class EpochWindows extends WindowAssigner<Object, TimeWindow> {
+    private static final long serialVersionUID = 1L;
+
+    private final long size;
+    private final long slide;
+
+    private EpochWindows(long size, long slide) {
+        this.size = size;
+        this.slide = slide;
+    }
+
+    /** @param slide from start to start; the size where windows do not overlap */
+    public static EpochWindows of(Duration size, Duration slide) {
+        return new EpochWindows(size.toMillis(), slide.toMillis());
+    }
+
+    @Override
+    public Collection<TimeWindow> assignWindows(Object element, long time, WindowAssignerContext context) {
+        long begin = Epochs.begin(time);
+        List<TimeWindow> windows = new ArrayList<>((int) (size / slide));
+        long last = begin + TimeWindow.getWindowStartWithOffset(Epochs.original(time), 0, slide);
+        for (long start = last; start > time - size; start -= slide) {
+            windows.add(new TimeWindow(start, start + size));
+        }
+        return windows;
+    }
+
+    @Override
+    public Trigger<Object, TimeWindow> getDefaultTrigger() {
+        return EventTimeTrigger.create();
+    }
+
+    @Override
+    public TypeSerializer<TimeWindow> getWindowSerializer(ExecutionConfig config) {
+        return new TimeWindow.Serializer();
+    }
+
+    @Override
+    public boolean isEventTime() {
+        return true;
+    }
+}

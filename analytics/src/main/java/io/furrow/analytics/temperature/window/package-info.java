@@ -1,2 +1,0 @@
-/** Averages of a field per window of event time. */
-package io.furrow.analytics.temperature.window;

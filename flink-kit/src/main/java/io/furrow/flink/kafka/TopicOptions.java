@@ -1,0 +1,88 @@
+package io.furrow.flink.kafka;
+
+import java.io.Serializable;
+import java.time.Duration;
+import java.util.HashMap;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.common.config.TopicConfig;
+import picocli.CommandLine.Option;
+
+import io.furrow.flink.job.CountConverter;
+import io.furrow.model.topic.Topics;
+
+/** How topics are made that a job writes to and that are not there; those that exist stay as they are. */
+public final class TopicOptions {
+    @Option(
+            names = "--topic-partitions",
+            paramLabel = "N",
+            converter = CountConverter.class,
+            description = "Partitions of topics that the job makes. Default: the broker's num.partitions.")
+    private Integer partitions;
+
+    @Option(
+            names = "--topic-replication",
+            paramLabel = "N",
+            converter = CountConverter.class,
+            description = "Replicas of topics that the job makes. Default: the broker's default.replication.factor.")
+    private Integer replication;
+
+    @Option(
+            names = "--topic-retention",
+            paramLabel = "DURATION",
+            description =
+                    "How long topics that the job makes keep their records, compacted ones excepted. Default: the "
+                            + "broker's log.retention.")
+    private Duration retention;
+
+    /** What is asked of the broker, without picocli, because it travels with the job. */
+    public Settings settings(Set<String> compacted) {
+        return new Settings(
+                partitions,
+                replication == null ? null : replication.shortValue(),
+                retention == null ? null : retention.toMillis(),
+                compacted,
+                null);
+    }
+
+    /**
+     * @param partitions null for the broker's default, as are {@code replication} and {@code retentionMillis}
+     * @param compacted topics that keep the newest record of each key forever
+     * @param replayBytes of a partition of a replay's topic or of one of its results, which are bounded by size instead of time:
+     *     their records are as old as what they replay, or stamped ahead; null for no bound
+     */
+    public record Settings(
+            Integer partitions, Short replication, Long retentionMillis, Set<String> compacted, Long replayBytes)
+            implements Serializable {
+        public Settings(Integer partitions, Short replication, Long retentionMillis, Set<String> compacted) {
+            this(partitions, replication, retentionMillis, compacted, null);
+        }
+
+        /** The same with a bound for each partition of a replay's topic. */
+        public Settings withReplayBytes(long bytes) {
+            return new Settings(partitions, replication, retentionMillis, compacted, bytes);
+        }
+
+        /** The topic to be asked for; it takes records as large as the job may write. */
+        NewTopic topic(String name) {
+            Map<String, String> configs = new HashMap<>();
+            configs.put(TopicConfig.MAX_MESSAGE_BYTES_CONFIG, Integer.toString(KafkaConnectors.MAX_REQUEST_BYTES));
+            if (compacted.contains(name)) {
+                configs.put(TopicConfig.CLEANUP_POLICY_CONFIG, TopicConfig.CLEANUP_POLICY_COMPACT);
+            } else if (Topics.isOfReplay(name)) {
+                configs.put(TopicConfig.RETENTION_MS_CONFIG, "-1");
+                configs.put(TopicConfig.MESSAGE_TIMESTAMP_AFTER_MAX_MS_CONFIG, Long.toString(Long.MAX_VALUE));
+                if (replayBytes != null) {
+                    configs.put(TopicConfig.RETENTION_BYTES_CONFIG, Long.toString(replayBytes));
+                }
+            } else if (retentionMillis != null) {
+                configs.put(TopicConfig.RETENTION_MS_CONFIG, Long.toString(retentionMillis));
+            }
+            return new NewTopic(name, Optional.ofNullable(partitions), Optional.ofNullable(replication))
+                    .configs(configs);
+        }
+    }
+}

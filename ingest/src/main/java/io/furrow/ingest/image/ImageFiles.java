@@ -1,0 +1,148 @@
+package io.furrow.ingest.image;
+
+import java.io.File;
+import java.io.FileNotFoundException;
+import java.io.IOException;
+import java.net.URI;
+import java.util.Set;
+import java.util.UUID;
+
+import org.apache.flink.core.fs.FSDataInputStream;
+import org.apache.flink.core.fs.FSDataOutputStream;
+import org.apache.flink.core.fs.FileStatus;
+import org.apache.flink.core.fs.FileSystem;
+import org.apache.flink.core.fs.FileSystem.WriteMode;
+import org.apache.flink.core.fs.Path;
+
+/**
+ * Images as files on a Flink file system. A file appears whole or not at all: it is written under another name and renamed,
+ * on object stores put at once. What was written once is not written again; what is there under a name and is another image
+ * is left alone, the newcomer gets a name with its hash. On the local file system an image is on the disk, and so is its name,
+ * before the call returns: a checkpoint after it may take it for done.
+ */
+final class ImageFiles implements ImageStore {
+    /** Files under way, to be deleted when they are left behind by a process that died. */
+    static final String UNFINISHED = ".unfinished-";
+
+    /** Stores where a rename is a copy and a put shows nothing before it is whole. */
+    private static final Set<String> OBJECT_STORES = Set.of("s3", "s3a", "s3n", "s3p", "gs", "oss", "wasb", "wasbs");
+
+    private final String root;
+    private final FileSystem files;
+    private final boolean atomicPut;
+    private final boolean local;
+
+    ImageFiles(String root, FileSystem files) {
+        this.root = root;
+        this.files = files;
+        String scheme = URI.create(root).getScheme();
+        this.local = "file".equals(scheme); // what the file system is is unknown: in a task Flink wraps it
+        this.atomicPut = OBJECT_STORES.contains(scheme);
+    }
+
+    /** @throws IOException if there is no file system for this kind of URI */
+    static ImageFiles in(String root) throws IOException {
+        return new ImageFiles(root, path(root).getFileSystem());
+    }
+
+    /** Writes an image unless it is there already. */
+    @Override
+    public StoredImage store(ImageName name, Image image) throws IOException {
+        String first = root + "/" + name.path(image.format());
+        String url = switch (found(path(first), image)) {
+            case NOTHING -> write(first, image);
+            case THE_SAME -> named(first);
+            case ANOTHER -> storeBeside(name, image);
+        };
+        return StoredImage.of(url, image);
+    }
+
+    /** The same under the name with its hash, which no other image can have. */
+    StoredImage storeByHash(ImageName name, Image image) throws IOException {
+        return StoredImage.of(storeBeside(name, image), image);
+    }
+
+    private String storeBeside(ImageName name, Image image) throws IOException {
+        String second = root + "/" + name.path(image.format(), image.sha256());
+        Found found = found(path(second), image);
+        if (found == Found.ANOTHER) {
+            files.delete(path(second), false); // nothing but a damaged file of the same image can have its hash
+        }
+        return found == Found.THE_SAME ? named(second) : write(second, image);
+    }
+
+    private enum Found {
+        NOTHING,
+        THE_SAME,
+        ANOTHER
+    }
+
+    private Found found(Path path, Image image) throws IOException {
+        try {
+            FileStatus status = files.getFileStatus(path);
+            boolean same = status.getLen() == image.bytes().length
+                    && Sha256.hex(read(path, image.bytes().length)).equals(image.sha256());
+            return same ? Found.THE_SAME : Found.ANOTHER;
+        } catch (FileNotFoundException e) {
+            return Found.NOTHING;
+        }
+    }
+
+    private byte[] read(Path path, int length) throws IOException {
+        try (FSDataInputStream in = files.open(path)) {
+            return in.readNBytes(length);
+        }
+    }
+
+    private String write(String url, Image image) throws IOException {
+        Path target = path(url);
+        if (atomicPut) {
+            put(target, image.bytes(), WriteMode.OVERWRITE);
+            return url;
+        }
+        Path unfinished = new Path(target.getParent(), UNFINISHED + UUID.randomUUID());
+        put(unfinished, image.bytes(), WriteMode.NO_OVERWRITE);
+        if (!files.rename(unfinished, target)) {
+            files.delete(unfinished, false);
+            throw new IOException("cannot rename a file to " + url);
+        }
+        return named(url);
+    }
+
+    /** A file's name is on the disk when its folder is, that of a new folder when the one above is. */
+    private String named(String url) throws IOException {
+        if (local) {
+            java.nio.file.Path top = folder(path(root)).getParent();
+            for (var each = folder(path(url).getParent()); each != null && !each.equals(top); each = each.getParent()) {
+                LocalFolder.sync(each);
+            }
+        }
+        return url;
+    }
+
+    /** Flink takes the text of a path as it stands, without the percent-encoding of a URL. */
+    private static Path path(String url) {
+        return new Path(URI.create(url));
+    }
+
+    private static java.nio.file.Path folder(Path path) {
+        return new File(path.getPath()).toPath().normalize();
+    }
+
+    private void put(Path path, byte[] bytes, WriteMode mode) throws IOException {
+        boolean written = false;
+        try {
+            try (FSDataOutputStream out = files.create(path, mode)) {
+                out.write(bytes);
+                if (local) {
+                    out.sync();
+                }
+            }
+            written = true;
+        } finally {
+            if (!written) {
+                files.delete(path, false); // closing may have made a file of what was written so far
+            }
+        }
+    }
+}

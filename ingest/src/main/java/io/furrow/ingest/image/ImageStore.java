@@ -1,0 +1,24 @@
+package io.furrow.ingest.image;
+
+import java.io.IOException;
+
+/** Where images go. */
+interface ImageStore {
+    /**
+     * Says where an image is, after it was written where that is this instance's part.
+     *
+     * @throws IOException if the store does not take it; it may be tried again
+     */
+    StoredImage store(ImageName name, Image image) throws IOException;
+
+    /** @throws IOException if there is no file system for the root's kind of URI and one is needed */
+    static ImageStore of(ImageSettings settings) throws IOException {
+        String root = settings.root();
+        return switch (settings.storing()) {
+            case ALL -> ImageFiles.in(root);
+            case FOR_OTHERS -> ImageFiles.in(root)::storeByHash;
+            case BY_OTHERS ->
+                (name, image) -> StoredImage.of(root + "/" + name.path(image.format(), image.sha256()), image);
+        };
+    }
+}

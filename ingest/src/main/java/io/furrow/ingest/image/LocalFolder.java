@@ -1,0 +1,25 @@
+package io.furrow.ingest.image;
+
+import java.io.IOException;
+import java.nio.channels.FileChannel;
+import java.nio.file.FileSystems;
+import java.nio.file.Path;
+import java.nio.file.StandardOpenOption;
+
+/** A folder of the local file system. */
+final class LocalFolder {
+    /** Elsewhere a folder cannot be opened, and its names need no such care. */
+    private static final boolean IS_POSIX =
+            FileSystems.getDefault().supportedFileAttributeViews().contains("posix");
+
+    private LocalFolder() {}
+
+    /** Has the names in it written to the disk. */
+    static void sync(Path folder) throws IOException {
+        if (IS_POSIX) {
+            try (FileChannel channel = FileChannel.open(folder, StandardOpenOption.READ)) {
+                channel.force(true);
+            }
+        }
+    }
+}

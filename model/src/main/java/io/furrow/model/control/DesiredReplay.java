@@ -1,0 +1,312 @@
+package io.furrow.model.control;
+
+import java.util.Objects;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/**
+ * A record of {@code service.replays}: the replay that is requested, whole, because compaction may remove all but the newest record.
+ * The manager keeps it in this form too. Whoever plays it back says so on {@code service.replays.status}, see {@link ReplayStatus}.
+ *
+ * @param replay {@code <mission>.<id8>}, the record's key
+ * @param topic on which it is played
+ * @param group id of the group whose clock it follows; null if it has its own
+ * @param speed 0.1 to 1000, or {@link ReplayCommand#MAX}
+ * @param range what is played over and over; null for all
+ * @param desired running, paused or stopped
+ * @param seek the newest jump that was asked for; null if none was
+ * @param step the newest steps that were asked for; null if none were
+ * @param clock of the group; null if it has none
+ * @param created when, epoch ms
+ * @param sequence grows with every change of the replay
+ */
+public record DesiredReplay(
+        String replay,
+        String mission,
+        String topic,
+        String group,
+        ReplayPlan plan,
+        double speed,
+        Range range,
+        ReplayStatus.State desired,
+        Seek seek,
+        Step step,
+        Clock clock,
+        long created,
+        long sequence) {
+
+    /**
+     * A part of the recording, between event times.
+     *
+     * @param from epoch ms
+     * @param to epoch ms, after the last event
+     */
+    public record Range(long from, long to) {
+        static Range read(RequestMembers members) throws RefusedException {
+            long from = members.time("from").toEpochMilli();
+            long to = members.time("to").toEpochMilli();
+            if (from >= to) {
+                throw RequestMembers.wrong("to", "after 'from'");
+            }
+            return new Range(from, to);
+        }
+
+        void describe(ObjectNode json) {
+            json.put("from", from).put("to", to);
+        }
+    }
+
+    /**
+     * A jump, for whoever has not yet applied its sequence.
+     *
+     * @param to event time, epoch ms
+     */
+    public record Seek(long to, long sequence) {}
+
+    /** @param total events asked for one by one since the replay was started, less those asked to go back */
+    public record Step(long total, long sequence) {}
+
+    /**
+     * One clock for all replays of a group: at a moment it shows an event time; from then on it runs by the speed, unless the replay
+     * is paused.
+     *
+     * @param at epoch ms of the clock of the machines
+     * @param shows event time, epoch ms
+     */
+    public record Clock(long at, long shows) {
+        /** The event time that it shows, epoch ms; before its moment that of its moment. */
+        public long position(long now, double speed) {
+            return shows + (long) Math.floor(Math.max(0, now - at) * speed);
+        }
+
+        /** As {@link #position(long, double)}; each time that it comes to the end of the range it begins again at its start. */
+        public long position(long now, double speed, Range loop) {
+            long position = position(now, speed);
+            return position < loop.to ? position : loop.from + (position - loop.from) % (loop.to - loop.from);
+        }
+    }
+
+    public DesiredReplay {
+        Objects.requireNonNull(plan);
+        Objects.requireNonNull(desired);
+    }
+
+    /** One that was never steered. */
+    public static DesiredReplay started(
+            String mission, String topic, ReplayPlan plan, double speed, long created, long sequence) {
+        String replay = mission + topic.substring(topic.lastIndexOf('.'));
+        return new DesiredReplay(
+                replay,
+                mission,
+                topic,
+                null,
+                plan,
+                speed,
+                null,
+                ReplayStatus.State.RUNNING,
+                null,
+                null,
+                null,
+                created,
+                sequence);
+    }
+
+    public DesiredReplay desired(ReplayStatus.State next, long newSequence) {
+        return changed(speed, range, next, seek, step, clock, newSequence);
+    }
+
+    public DesiredReplay at(double newSpeed, long newSequence) {
+        return changed(newSpeed, range, desired, seek, step, clock, newSequence);
+    }
+
+    /** @param newRange null for all */
+    public DesiredReplay within(Range newRange, long newSequence) {
+        return changed(speed, newRange, desired, seek, step, clock, newSequence);
+    }
+
+    public DesiredReplay seeking(long time, long newSequence) {
+        return changed(speed, range, desired, new Seek(time, newSequence), step, clock, newSequence);
+    }
+
+    /** @param count events; negative to go back */
+    public DesiredReplay stepping(int count, long newSequence) {
+        long total = (step == null ? 0 : step.total) + count;
+        return changed(speed, range, desired, seek, new Step(total, newSequence), clock, newSequence);
+    }
+
+    /** In a group, by its clock. */
+    public DesiredReplay following(String newGroup, Clock newClock) {
+        return new DesiredReplay(
+                replay, mission, topic, newGroup, plan, speed, range, desired, seek, step, newClock, created, sequence);
+    }
+
+    private DesiredReplay changed(
+            double newSpeed,
+            Range newRange,
+            ReplayStatus.State newDesired,
+            Seek newSeek,
+            Step newStep,
+            Clock newClock,
+            long newSequence) {
+        return new DesiredReplay(
+                replay,
+                mission,
+                topic,
+                group,
+                plan,
+                newSpeed,
+                newRange,
+                newDesired,
+                newSeek,
+                newStep,
+                newClock,
+                created,
+                newSequence);
+    }
+
+    /** The first event time that is played, epoch ms, of a recording that begins at a time. */
+    public long from(long first) {
+        long least = plan.from() == null ? first : Math.max(first, plan.from());
+        return range == null ? least : Math.max(least, range.from);
+    }
+
+    /** The event time before which all is played, epoch ms; {@link Long#MAX_VALUE} for the recording's end. */
+    public long to() {
+        long most = plan.to() == null ? Long.MAX_VALUE : plan.to();
+        return range == null ? most : Math.min(most, range.to);
+    }
+
+    /** Of a replay in a group: the event time that the clock shows, epoch ms, within what the group plays. */
+    public long position(long now) {
+        if (desired != ReplayStatus.State.RUNNING) {
+            return clock.shows;
+        }
+        Range all = new Range(from(plan.from()), to());
+        return loops() ? clock.position(now, speed, all) : Math.min(clock.position(now, speed), all.to);
+    }
+
+    /** Whether it begins again at the end. */
+    public boolean loops() {
+        return plan.loop() || range != null;
+    }
+
+    /**
+     * Reads a record; members of other names are skipped.
+     *
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object, is another
+     *     replay's than its key says, or names a topic that is not this replay's
+     */
+    public static DesiredReplay read(String key, byte[] value) throws UnreadableException {
+        DesiredReplay replay = read(value);
+        if (!replay.replay.equals(key)) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "it does not belong to the key " + key);
+        }
+        return replay;
+    }
+
+    /** Reads a record whose key is not known. @throws UnreadableException as {@link #read(String, byte[])} */
+    public static DesiredReplay read(byte[] value) throws UnreadableException {
+        if (!(NgsiJson.read(value) instanceof ObjectNode json)) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "it is no object");
+        }
+        try {
+            DesiredReplay replay = read(new RequestMembers(json));
+            if (!replay.belongsTogether()) {
+                throw new UnreadableException(
+                        Reason.NOT_AN_EVENT, "'replay', 'mission' and 'topic' do not belong together");
+            }
+            return replay;
+        } catch (RefusedException e) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
+        }
+    }
+
+    /** The sequence of a record that may be unreadable otherwise; 0 if it has none. */
+    public static long sequence(byte[] value) {
+        try {
+            JsonNode sequence = NgsiJson.read(value).path("sequence");
+            return sequence.isIntegralNumber() && sequence.canConvertToLong() ? sequence.longValue() : 0;
+        } catch (UnreadableException e) {
+            return 0;
+        }
+    }
+
+    private static DesiredReplay read(RequestMembers members) throws RefusedException {
+        return new DesiredReplay(
+                members.text("replay"),
+                members.text("mission"),
+                members.text("topic"),
+                members.textOrNull("group"),
+                ReplayPlan.read(members),
+                ReplayCommand.speed(members, true),
+                range(members.membersOrNull("range")),
+                desired(members),
+                seek(members.membersOrNull("seek")),
+                step(members.membersOrNull("step")),
+                clock(members.membersOrNull("clock")),
+                members.has("created") ? members.number("created") : 0,
+                members.number("sequence"));
+    }
+
+    private static Range range(RequestMembers members) throws RefusedException {
+        return members == null ? null : Range.read(members);
+    }
+
+    private static Seek seek(RequestMembers members) throws RefusedException {
+        return members == null ? null : new Seek(members.number("to"), members.number("sequence"));
+    }
+
+    private static Step step(RequestMembers members) throws RefusedException {
+        return members == null ? null : new Step(members.number("total"), members.number("sequence"));
+    }
+
+    private static Clock clock(RequestMembers members) throws RefusedException {
+        return members == null ? null : new Clock(members.number("at"), members.number("shows"));
+    }
+
+    private static ReplayStatus.State desired(RequestMembers members) throws RefusedException {
+        return switch (members.text("wanted")) {
+            case "running" -> ReplayStatus.State.RUNNING;
+            case "paused" -> ReplayStatus.State.PAUSED;
+            case "stopped" -> ReplayStatus.State.STOPPED;
+            default -> throw RequestMembers.wrong("wanted", "running, paused or stopped");
+        };
+    }
+
+    /** The topic may be called after something else than the mission, but has the replay's id. */
+    private boolean belongsTogether() {
+        return ReplayCommand.REPLAY.matcher(replay).matches()
+                && replay.substring(0, replay.lastIndexOf('.')).equals(mission)
+                && Topics.isReplay(topic)
+                && topic.endsWith(replay.substring(replay.lastIndexOf('.')));
+    }
+
+    public byte[] toBytes() {
+        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        json.put("replay", replay).put("mission", mission).put("topic", topic);
+        DeviceGroup.put(json, "group", group);
+        plan.describe(json);
+        json.set("speed", ReplayCommand.json(speed));
+        if (range != null) {
+            range.describe(json.putObject("range"));
+        }
+        json.put("wanted", desired.word());
+        if (seek != null) {
+            json.putObject("seek").put("to", seek.to).put("sequence", seek.sequence);
+        }
+        if (step != null) {
+            json.putObject("step").put("total", step.total).put("sequence", step.sequence);
+        }
+        if (clock != null) {
+            json.putObject("clock").put("at", clock.at).put("shows", clock.shows);
+        }
+        return NgsiJson.write(json.put("created", created).put("sequence", sequence));
+    }
+}

@@ -1,0 +1,201 @@
+package io.furrow.model.control;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.Set;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+
+/**
+ * Devices of one kind on a mission, an element of {@code devices}. As a text it is the id of an entity that reports with a login
+ * of its own: it is assigned to the mission, but not provisioned.
+ *
+ * @param name by which other groups say that they are carried; null if none needs it
+ * @param id of the entity, for a single device that has one; null if ids are made of the mission's name
+ * @param type of the entities; null if the device is not provisioned
+ * @param count how many, 1 to {@value #MAX}
+ * @param carriedBy name of the group whose devices carry these, the first the first and so on, then from the first again;
+ *     null if none does
+ * @param period between two measures; null if it is not known
+ * @param simulated whether a host of simulated devices runs them; null for the default of the control plane
+ * @param settings {@code area} (id of a field or GeoJSON), {@code path} (list of [longitude, latitude]), {@code speed} (m/s),
+ *     {@code faults} (objects with {@code kind} stuck, drift, spikes or silent), {@code parameters} (anything the host
+ *     understands), {@code attributes} (see {@link MeasuredAttribute}) and {@code at} ({@code {latitude, longitude}}, or one for
+ *     each device), as they were given; owned by the group, not to be changed by readers
+ */
+public record DeviceGroup(
+        String name,
+        String id,
+        String type,
+        int count,
+        String carriedBy,
+        Duration period,
+        Boolean simulated,
+        ObjectNode settings) {
+    /** Devices of one mission. */
+    public static final int MAX = 10_000;
+
+    /** What the context broker takes as an entity id, some signs shorter. */
+    static final Pattern ENTITY_ID = Pattern.compile("[!-~&&[^&?/#<>\"'=;()|%]]{1,200}");
+
+    private static final String AT = "at";
+    private static final Pattern TYPE = Pattern.compile("[A-Za-z][A-Za-z0-9]{0,63}");
+    private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
+    private static final Set<String> FAULTS = Set.of("stuck", "drift", "spikes", "silent");
+    private static final List<String> SETTINGS =
+            List.of("area", "path", "speed", "faults", "parameters", "attributes", AT);
+    private static final double FASTEST = 100;
+
+    /** An entity that reports with a login of its own. */
+    public static DeviceGroup entity(String id) {
+        return new DeviceGroup(null, id, null, 1, null, null, null, JsonNodeFactory.instance.objectNode());
+    }
+
+    /** By what {@code carriedBy} of another group means this one; null if nothing does. */
+    public String label() {
+        return name == null ? id : name;
+    }
+
+    static DeviceGroup read(JsonNode json) throws RefusedException {
+        if (json.isTextual()) {
+            return entity(entityId(json.textValue()));
+        }
+        if (!(json instanceof ObjectNode object)) {
+            throw RequestMembers.wrong("devices", "a list of objects and entity ids");
+        }
+        RequestMembers members = new RequestMembers(object);
+        String id = members.has("id") ? entityId(members.text("id")) : null;
+        String type = members.text("type");
+        if (!TYPE.matcher(type).matches()) {
+            throw RequestMembers.wrong("type", "1 to 64 letters and digits that begin with a letter");
+        }
+        int count = members.wholeNumber("count", 1, MAX, 1);
+        if (id != null && count > 1) {
+            throw RequestMembers.wrong("count", "1 where the device has an 'id'");
+        }
+        check(members);
+        MeasuredAttribute.check(members);
+        checkPlaces(object.path(AT), count);
+        ObjectNode settings = settings(object);
+        return new DeviceGroup(
+                members.nameOrNull("name"),
+                id,
+                type,
+                count,
+                members.textOrNull("carriedBy"),
+                members.durationOrNull("period"),
+                members.has("simulated") ? members.flag("simulated") : null,
+                settings);
+    }
+
+    /** The settings of a group as requests have it; those that are null are left out. */
+    public static ObjectNode settings(ObjectNode group) {
+        ObjectNode settings = JsonNodeFactory.instance.objectNode();
+        for (String name : SETTINGS) {
+            if (group.hasNonNull(name)) {
+                settings.set(name, group.get(name));
+            }
+        }
+        return settings;
+    }
+
+    /** What its settings take, all but the area, which its devices share: for each device. */
+    long settingsBytes() {
+        ObjectNode own = JsonNodeFactory.instance.objectNode();
+        own.setAll(settings);
+        own.remove(List.of("area", AT));
+        return own.isEmpty() ? 0 : (long) count * NgsiJson.write(own).length;
+    }
+
+    private static String entityId(String id) throws RefusedException {
+        if (!ENTITY_ID.matcher(id).matches()) {
+            throw RequestMembers.wrong("id", "1 to 200 characters that are allowed in an entity id");
+        }
+        return id;
+    }
+
+    private static void check(RequestMembers members) throws RefusedException {
+        members.numberOrNull("speed", 0, FASTEST);
+        members.objectOrNull("parameters");
+        JsonNode area = members.json().path("area");
+        boolean field = area.isTextual() && ENTITY_ID.matcher(area.textValue()).matches();
+        if (members.has("area") && !field && !isArea(area)) {
+            throw RequestMembers.wrong("area", "the id of a field, or a GeoJSON Polygon or MultiPolygon");
+        }
+        ArrayNode path = members.arrayOrNull("path", MAX);
+        for (JsonNode point : path == null ? List.<JsonNode>of() : path) {
+            if (point.size() != 2 || !isDegrees(point.get(0), 180) || !isDegrees(point.get(1), 90)) {
+                throw RequestMembers.wrong("path", "a list of [longitude, latitude]");
+            }
+        }
+        ArrayNode faults = members.arrayOrNull("faults", MAX);
+        for (JsonNode fault : faults == null ? List.<JsonNode>of() : faults) {
+            if (!FAULTS.contains(fault.path("kind").asText())) {
+                throw RequestMembers.wrong("faults", "a list of objects with 'kind' stuck, drift, spikes or silent");
+            }
+        }
+    }
+
+    private static void checkPlaces(JsonNode at, int count) throws RefusedException {
+        boolean fits = at.isMissingNode() || at.isNull() || isPlace(at);
+        if (at.isArray() && at.size() == count) {
+            fits = true;
+            for (JsonNode each : at) {
+                fits &= isPlace(each);
+            }
+        }
+        if (!fits) {
+            throw RequestMembers.wrong(
+                    AT,
+                    "an object with 'latitude' and 'longitude' in degrees, or a list of one for each of the devices");
+        }
+    }
+
+    private static boolean isPlace(JsonNode at) {
+        return at.isObject() && isDegrees(at.get("latitude"), 90) && isDegrees(at.get("longitude"), 180);
+    }
+
+    private static boolean isDegrees(JsonNode value, double most) {
+        return value != null && value.isNumber() && Math.abs(value.doubleValue()) <= most;
+    }
+
+    private static boolean isArea(JsonNode area) {
+        return AREAS.contains(area.path("type").asText())
+                && area.path("coordinates").isArray();
+    }
+
+    JsonNode toJson() {
+        if (type == null) {
+            return JsonNodeFactory.instance.textNode(id);
+        }
+        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        put(json, "name", name);
+        put(json, "id", id);
+        json.put("type", type).put("count", count);
+        put(json, "carriedBy", carriedBy);
+        put(json, "period", period == null ? null : period.toString());
+        if (simulated != null) {
+            json.put("simulated", simulated);
+        }
+        json.setAll(settings);
+        return json;
+    }
+
+    /** Puts a member that is not null. */
+    static void put(ObjectNode json, String member, String value) {
+        if (value != null) {
+            json.put(member, value);
+        }
+    }
+
+    static void put(ObjectNode json, String member, Instant time) {
+        put(json, member, time == null ? null : time.toString());
+    }
+}

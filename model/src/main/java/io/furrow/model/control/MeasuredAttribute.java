@@ -1,0 +1,122 @@
+package io.furrow.model.control;
+
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/**
+ * An attribute of a device's entity, and the member of its MQTT messages that the IoT Agent makes it from. What a device sends follows
+ * from its type and from the member {@code attributes} of its group, a list of {@code {object_id, name, type, unit}}, which
+ * replaces what the type says of the same name.
+ *
+ * @param objectId the member of a message
+ * @param name of the attribute
+ * @param type NGSI type of its value
+ * @param unit code of UN/CEFACT Recommendation 20, as {@code CEL}, for the metadata {@code unitCode}; null for none
+ */
+public record MeasuredAttribute(String objectId, String name, String type, String unit) {
+    /** Attributes that a group may name. */
+    static final int MAX = 100;
+
+    private static final String FLOAT = "Float";
+    private static final String LATITUDE = "Latitude";
+    private static final String LONGITUDE = "Longitude";
+    /** What the context broker takes as the name of an attribute and as a type. */
+    private static final Pattern NAME = Pattern.compile("[A-Za-z][A-Za-z0-9_.:-]{0,99}");
+
+    private static final Pattern OBJECT_ID = Pattern.compile("[!-~&&[^<>\"'=;()]]{1,100}");
+    private static final Pattern UNIT = Pattern.compile("[A-Z0-9]{1,3}");
+
+    private static final List<MeasuredAttribute> COMMON = List.of(
+            of("stat", "Status", "Boolean"),
+            of("time", "Time", "Integer"),
+            of("lat", LATITUDE, FLOAT),
+            of("lon", LONGITUDE, FLOAT),
+            of("where", "Location", "String"),
+            of("bat", "battery", FLOAT));
+    private static final Map<String, List<MeasuredAttribute>> BY_TYPE = Map.of(
+            "Thermometer", List.of(of("temp", "Temperature", FLOAT)),
+            // The context broker refuses the = of base64 in ordinary text.
+            "Camera", List.of(of("img", "Image", "TextUnrestricted")),
+            "WeatherStation",
+                    List.of(
+                            of("temp", "Temperature", FLOAT),
+                            of("hum", "Humidity", FLOAT),
+                            of("press", "Pressure", FLOAT),
+                            of("wind", "WindSpeed", FLOAT),
+                            of("dir", "WindDirection", FLOAT),
+                            of("rain", "Rain", FLOAT),
+                            of("sun", "SolarRadiation", FLOAT)));
+
+    private static MeasuredAttribute of(String objectId, String name, String type) {
+        return new MeasuredAttribute(objectId, name, type, null);
+    }
+
+    /**
+     * What a device sends: first what is measured, then what all devices may send. A real device whose place is known does not send
+     * it, and a simulated one of a known type sends what its type says.
+     *
+     * @param named the member {@code attributes} of its settings, checked
+     * @param placed whether its place is known
+     */
+    public static List<MeasuredAttribute> of(String type, boolean simulated, JsonNode named, boolean placed) {
+        Map<String, MeasuredAttribute> byName = new LinkedHashMap<>();
+        List<MeasuredAttribute> known = BY_TYPE.getOrDefault(type, List.of());
+        known.forEach(each -> byName.put(each.name(), each));
+        COMMON.forEach(each -> byName.put(each.name(), each));
+        if (known.isEmpty() || !simulated) {
+            named.forEach(each -> {
+                MeasuredAttribute own = parse(each);
+                byName.put(own.name(), own);
+            });
+        }
+        if (placed) {
+            byName.remove(LATITUDE);
+            byName.remove(LONGITUDE);
+        }
+        return List.copyOf(byName.values());
+    }
+
+    private static MeasuredAttribute parse(JsonNode json) {
+        String name = json.path("name").asText();
+        return new MeasuredAttribute(
+                json.path("object_id").asText(name),
+                name,
+                json.path("type").asText("Number"),
+                json.path("unit").textValue());
+    }
+
+    /** As both its group and the IoT Agent name it; each has its own member for the unit. */
+    public ObjectNode toJson() {
+        return JsonNodeFactory.instance
+                .objectNode()
+                .put("object_id", objectId)
+                .put("name", name)
+                .put("type", type);
+    }
+
+    /** Checks the member {@code attributes} of a group. */
+    static void check(RequestMembers group) throws RefusedException {
+        JsonNode list = group.arrayOrNull("attributes", MAX);
+        for (JsonNode each : list == null ? List.<JsonNode>of() : list) {
+            MeasuredAttribute attribute = parse(each);
+            boolean fits = each.isObject()
+                    && NAME.matcher(attribute.name()).matches()
+                    && OBJECT_ID.matcher(attribute.objectId()).matches()
+                    && NAME.matcher(attribute.type()).matches()
+                    && (attribute.unit() == null
+                            || UNIT.matcher(attribute.unit()).matches());
+            if (!fits) {
+                throw RequestMembers.wrong(
+                        "attributes",
+                        "a list of objects with 'object_id' (the member of a message), 'name' (of the attribute), and perhaps 'type' (Number)"
+                                + " and 'unit' (a code of UN/CEFACT, as CEL)");
+            }
+        }
+    }
+}

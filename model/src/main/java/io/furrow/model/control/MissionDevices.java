@@ -1,0 +1,146 @@
+package io.furrow.model.control;
+
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+
+/**
+ * The devices of a mission or of a template, group by group. Names are unique, what carries is there, nothing carries itself.
+ *
+ * @param groups at most {@value DeviceGroup#MAX} devices in all
+ */
+public record MissionDevices(List<DeviceGroup> groups) {
+    /** No devices of its own: what reports with the mission's name belongs to it. */
+    public static final MissionDevices NONE = new MissionDevices(List.of());
+
+    public MissionDevices {
+        groups = List.copyOf(groups);
+    }
+
+    /** How many devices there are, those that report by themselves too. */
+    public int count() {
+        return groups.stream().mapToInt(DeviceGroup::count).sum();
+    }
+
+    /**
+     * As {@link #toJson()} wrote it.
+     *
+     * @throws IllegalArgumentException if it did not
+     */
+    public static MissionDevices of(ArrayNode json) {
+        try {
+            return read(new RequestMembers(JsonNodeFactory.instance.objectNode().set("devices", json)));
+        } catch (RefusedException e) {
+            throw new IllegalArgumentException("these are no devices of a mission: " + e.getMessage(), e);
+        }
+    }
+
+    /** A part of a list as {@link #toJson()} wrote it: whether names and carriers fit shows with the rest of the list. */
+    public static MissionDevices ofPart(ArrayNode json) {
+        try {
+            return readPart(
+                    new RequestMembers(JsonNodeFactory.instance.objectNode().set("devices", json)));
+        } catch (RefusedException e) {
+            throw new IllegalArgumentException("these are no devices of a mission: " + e.getMessage(), e);
+        }
+    }
+
+    /** The member {@code devices} of a request or a template. */
+    static MissionDevices read(RequestMembers members) throws RefusedException {
+        return readPart(members).checked();
+    }
+
+    /** The same of a request that adds to a list: whether names and carriers fit shows with the rest of the list. */
+    static MissionDevices readPart(RequestMembers members) throws RefusedException {
+        ArrayNode array = members.arrayOrNull("devices", DeviceGroup.MAX);
+        List<DeviceGroup> groups = new ArrayList<>();
+        long count = 0;
+        for (JsonNode each : array == null ? List.<JsonNode>of() : array) {
+            groups.add(DeviceGroup.read(each));
+            count += groups.get(groups.size() - 1).count();
+        }
+        if (count > DeviceGroup.MAX) {
+            throw tooMany();
+        }
+        return new MissionDevices(groups);
+    }
+
+    private static RefusedException tooMany() {
+        return RequestMembers.wrong("devices", "at most " + DeviceGroup.MAX + " devices in all");
+    }
+
+    /**
+     * These, and behind them others.
+     *
+     * @throws RefusedException where they do not fit together, or are too many
+     */
+    public MissionDevices plus(MissionDevices others) throws RefusedException {
+        List<DeviceGroup> all = new ArrayList<>(groups);
+        all.addAll(others.groups);
+        MissionDevices devices = new MissionDevices(all).checked();
+        if (devices.count() > DeviceGroup.MAX) {
+            throw tooMany();
+        }
+        return devices;
+    }
+
+    /**
+     * What settings take that every device of a group has for itself, all but its area, in bytes: more than they take here where a
+     * group has many.
+     */
+    public long settingsBytes() {
+        return groups.stream().mapToLong(DeviceGroup::settingsBytes).sum();
+    }
+
+    private MissionDevices checked() throws RefusedException {
+        if (settingsBytes() > Limits.MISSION_BYTES) {
+            throw new RefusedException(
+                    ErrorCode.TOO_LARGE,
+                    "'path', 'faults' and 'parameters' of all devices together may have %d bytes, and have %d; give less to so many"
+                            .formatted(Limits.MISSION_BYTES, settingsBytes()));
+        }
+        Map<String, DeviceGroup> named = new HashMap<>();
+        Set<String> ids = new HashSet<>();
+        for (DeviceGroup group : groups) {
+            boolean known = group.label() != null && named.put(group.label(), group) != null;
+            if (known || group.id() != null && !ids.add(group.id())) {
+                throw RequestMembers.wrong("devices", "a list in which no name and no id comes twice");
+            }
+        }
+        for (DeviceGroup group : groups) {
+            Set<String> seen = new HashSet<>();
+            for (DeviceGroup at = group; at != null && at.carriedBy() != null; at = named.get(at.carriedBy())) {
+                if (!named.containsKey(at.carriedBy()) || !seen.add(at.carriedBy())) {
+                    throw RequestMembers.wrong(
+                            "carriedBy", "the name of another group of the list, and not in a circle");
+                }
+            }
+        }
+        return this;
+    }
+
+    /** The same of a request, whose areas must be valid; a list that was stored may be older than that rule. */
+    MissionDevices withValidAreas() throws RefusedException {
+        for (int group = 0; group < groups.size(); group++) {
+            JsonNode area = groups.get(group).settings().path("area");
+            if (area.isObject()) {
+                RequestMembers.checkArea(area, "'area' of devices[" + group + "]");
+            }
+        }
+        return this;
+    }
+
+    /** As {@code devices} has it. */
+    public ArrayNode toJson() {
+        ArrayNode array = JsonNodeFactory.instance.arrayNode();
+        groups.forEach(group -> array.add(group.toJson()));
+        return array;
+    }
+}

@@ -1,0 +1,47 @@
+package io.furrow.model.control;
+
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/** The devices that a mission is created from. */
+public sealed interface MissionPlan {
+    /** @param version 0 for the newest at the time of the request */
+    record FromTemplate(String template, int version) implements MissionPlan {}
+
+    record OfDevices(MissionDevices devices) implements MissionPlan {}
+
+    /** Nothing said: the mission keeps the devices it has, a new one has none. */
+    record Unsaid() implements MissionPlan {}
+
+    /** {@code template}: a name, or {@code <name>@<version>}. */
+    Pattern TEMPLATE = Pattern.compile("([A-Za-z0-9_-]{1,64})(?:@([1-9][0-9]{0,8}))?");
+
+    static MissionPlan read(RequestMembers members) throws RefusedException {
+        if (members.has("template") && members.has("devices")) {
+            throw RequestMembers.wrong("devices", "missing where there is a 'template'");
+        }
+        if (members.has("template")) {
+            Matcher template = TEMPLATE.matcher(members.text("template"));
+            if (!template.matches()) {
+                throw new RefusedException(
+                        ErrorCode.ILLEGAL_NAME, "'template' must be the name of one, or <name>@<version>");
+            }
+            String version = template.group(2);
+            return new FromTemplate(template.group(1), version == null ? 0 : Integer.parseInt(version));
+        }
+        return members.has("devices")
+                ? new OfDevices(MissionDevices.read(members).withValidAreas())
+                : new Unsaid();
+    }
+
+    /** Puts {@code template} or {@code devices}. */
+    default void describe(ObjectNode json) {
+        if (this instanceof FromTemplate from) {
+            json.put("template", from.version() == 0 ? from.template() : from.template() + "@" + from.version());
+        } else if (this instanceof OfDevices of) {
+            json.set("devices", of.devices().toJson());
+        }
+    }
+}

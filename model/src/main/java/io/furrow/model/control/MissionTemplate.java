@@ -1,0 +1,69 @@
+package io.furrow.model.control;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * What missions are made from: {@code {"template": …, "version": …, "description": …, "devices": […]}}, a record of {@code
+ * service.templates} with the key {@link #key()}, and the form in which templates are exported and imported.
+ *
+ * @param version from 1 on; a version never changes. 0 where it is not yet given
+ * @param description null if there is none
+ */
+public record MissionTemplate(String name, int version, String description, MissionDevices devices) {
+    /** {@code <name>@<version>}. */
+    public String key() {
+        return name + "@" + version;
+    }
+
+    /** The same under a version. */
+    public MissionTemplate as(int newVersion) {
+        return new MissionTemplate(name, newVersion, description, devices);
+    }
+
+    /**
+     * Reads an exported template, its version too where it has one.
+     *
+     * @throws RefusedException if it is none; the message names the member
+     */
+    public static MissionTemplate read(byte[] value) throws RefusedException {
+        try {
+            JsonNode json = NgsiJson.read(value);
+            if (!(json instanceof ObjectNode object)) {
+                throw new RefusedException(ErrorCode.NOT_JSON, "the template is no object");
+            }
+            RequestMembers.checkReadable(json);
+            return read(new RequestMembers(object));
+        } catch (UnreadableException e) {
+            throw new RefusedException(ErrorCode.NOT_JSON, RequestMembers.quotable(e.getMessage()));
+        }
+    }
+
+    public static MissionTemplate read(RequestMembers members) throws RefusedException {
+        return new MissionTemplate(
+                members.name("template"),
+                members.wholeNumber("version", 0, Integer.MAX_VALUE, 0),
+                members.textOrNull("description"),
+                MissionDevices.read(members));
+    }
+
+    /** Puts all of it. */
+    void describe(ObjectNode json) {
+        json.put("template", name);
+        if (version > 0) {
+            json.put("version", version);
+        }
+        DeviceGroup.put(json, "description", description);
+        json.set("devices", devices.toJson());
+    }
+
+    public byte[] toBytes() {
+        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        describe(json);
+        return NgsiJson.write(json);
+    }
+}

@@ -1,0 +1,42 @@
+package io.furrow.model.control;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * A record of {@code service.recordings} under the mission's name: the mission is stored and can be played back.
+ *
+ * @param first event time of its oldest event, epoch ms, as it was when it was looked up last
+ * @param last event time of its newest event, epoch ms, inclusive
+ */
+public record RecordedMission(String mission, long first, long last) {
+    private static final String MISSION = "mission";
+    private static final String FIRST = "first";
+    private static final String LAST = "last";
+
+    /**
+     * Reads the value of a record; members of other names are skipped.
+     *
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
+     */
+    public static RecordedMission read(byte[] value) throws UnreadableException {
+        if (!(NgsiJson.read(value) instanceof ObjectNode json)) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "it is no object");
+        }
+        RequestMembers members = new RequestMembers(json);
+        try {
+            return new RecordedMission(members.text(MISSION), members.number(FIRST), members.number(LAST));
+        } catch (RefusedException e) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
+        }
+    }
+
+    public byte[] toBytes() {
+        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        return NgsiJson.write(json.put(MISSION, mission).put(FIRST, first).put(LAST, last));
+    }
+}

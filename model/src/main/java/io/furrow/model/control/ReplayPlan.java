@@ -1,0 +1,159 @@
+package io.furrow.model.control;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.Locale;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/**
+ * What a replay plays, as it was asked for at its start.
+ *
+ * @param source where the recording is; null for the missions that are kept in MongoDB
+ * @param from event time of the first event, epoch ms; null for the recording's first
+ * @param to event time after the last event, epoch ms; null for the recording's end
+ * @param loop whether it begins again at the end
+ * @param devices ids of the entities that are played back; empty for all
+ * @param maxGap the longest stretch of event time in which nothing happens that is played, ms; what is longer is skipped down to it; null
+ *     for every stretch as it was
+ * @param startAt when the first event is due, epoch ms of the clock; null for at once
+ * @param analytics the analytics jobs that run on the replay's topic as long as it lasts
+ */
+public record ReplayPlan(
+        Source source,
+        Long from,
+        Long to,
+        boolean loop,
+        List<String> devices,
+        Long maxGap,
+        Stamps stamps,
+        Long startAt,
+        List<String> analytics) {
+    /** The whole of a mission, once. */
+    public static final ReplayPlan PLAIN =
+            new ReplayPlan(null, null, null, false, List.of(), null, Stamps.ORIGINAL, null, List.of());
+
+    /** The jobs that can run on a replay. */
+    public static final List<String> ANALYTICS = List.of("collision", "presence", "temperature");
+
+    private static final Pattern TOPIC = Pattern.compile("data\\.[A-Za-z0-9._-]{1,240}");
+    private static final Pattern FILE = Pattern.compile("[A-Za-z0-9_-][A-Za-z0-9._-]{0,199}");
+
+    /** A recording that is not in MongoDB: one of the two. */
+    public record Source(String topic, String file) {
+        private static Source read(ObjectNode json) throws RefusedException {
+            RequestMembers members = new RequestMembers(json);
+            Source source = new Source(members.textOrNull("topic"), members.textOrNull("file"));
+            if ((source.topic == null) == (source.file == null)) {
+                throw RequestMembers.wrong("source", "an object with either 'topic' or 'file'");
+            }
+            if (source.topic != null && !TOPIC.matcher(source.topic).matches()) {
+                throw RequestMembers.wrong("topic", "a topic that begins with data.");
+            }
+            if (source.file != null && !FILE.matcher(source.file).matches()) {
+                throw RequestMembers.wrong("file", "the name of a file in the job's --recordings, without a folder");
+            }
+            return source;
+        }
+    }
+
+    /** What the timestamps of records say. */
+    public enum Stamps {
+        /** The original event time, plus an offset that grows at each jump back. */
+        ORIGINAL,
+        /** The time at which the event is played. */
+        NOW;
+
+        String word() {
+            return name().toLowerCase(Locale.ROOT);
+        }
+    }
+
+    public ReplayPlan {
+        devices = List.copyOf(devices);
+        analytics = List.copyOf(analytics);
+    }
+
+    static ReplayPlan read(RequestMembers members) throws RefusedException {
+        Instant from = members.timeOrNull("from");
+        Instant to = members.timeOrNull("to");
+        if (from != null && to != null && !from.isBefore(to)) {
+            throw RequestMembers.wrong("to", "after 'from'");
+        }
+        ObjectNode source = members.objectOrNull("source");
+        Duration maxGap = members.durationOrNull("maxGap");
+        List<String> analytics = members.texts("analytics", Pattern.compile("[a-z]{1,20}"), "analytics jobs");
+        if (!ANALYTICS.containsAll(analytics)) {
+            throw RequestMembers.wrong("analytics", "a list of " + String.join(", ", ANALYTICS));
+        }
+        return new ReplayPlan(
+                source == null ? null : Source.read(source),
+                millis(from),
+                millis(to),
+                members.flag("loop"),
+                members.texts("devices", DeviceGroup.ENTITY_ID, "entity ids"),
+                maxGap == null ? null : Long.valueOf(maxGap.toMillis()),
+                stamps(members),
+                millis(members.timeOrNull("startAt")),
+                analytics.stream().distinct().sorted().toList());
+    }
+
+    private static Stamps stamps(RequestMembers members) throws RefusedException {
+        String word = members.textOrNull("stamps");
+        if (word == null) {
+            return Stamps.ORIGINAL;
+        }
+        for (Stamps stamps : Stamps.values()) {
+            if (stamps.word().equals(word)) {
+                return stamps;
+            }
+        }
+        throw RequestMembers.wrong("stamps", "original or now");
+    }
+
+    private static Long millis(Instant time) {
+        return time == null ? null : Long.valueOf(time.toEpochMilli());
+    }
+
+    void describe(ObjectNode json) {
+        if (source != null) {
+            ObjectNode where = json.putObject("source");
+            DeviceGroup.put(where, "topic", source.topic);
+            DeviceGroup.put(where, "file", source.file);
+        }
+        put(json, "from", from);
+        put(json, "to", to);
+        json.put("loop", loop);
+        put(json, "devices", devices);
+        DeviceGroup.put(
+                json,
+                "maxGap",
+                maxGap == null ? null : Duration.ofMillis(maxGap).toString());
+        if (stamps != Stamps.ORIGINAL) {
+            json.put("stamps", stamps.word());
+        }
+        put(json, "startAt", startAt);
+        put(json, "analytics", analytics);
+    }
+
+    private static void put(ObjectNode json, String member, Long number) {
+        if (number != null) {
+            json.put(member, number);
+        }
+    }
+
+    private static void put(ObjectNode json, String member, List<String> texts) {
+        if (!texts.isEmpty()) {
+            ArrayNode array = json.putArray(member);
+            texts.forEach(array::add);
+        }
+    }
+
+    /** The same between other times. */
+    public ReplayPlan between(long newFrom, long newTo) {
+        return new ReplayPlan(source, newFrom, newTo, loop, devices, maxGap, stamps, startAt, analytics);
+    }
+}

@@ -1,0 +1,145 @@
+package io.furrow.model.control;
+
+import java.util.Locale;
+import java.util.Objects;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * The status of a replay, reported by its player: a record of {@code service.replays.status} under the replay's name.
+ *
+ * @param sequence of the desired replay that was applied last
+ * @param reason why it ended or failed, at most {@value Limits#REASON_LENGTH} characters of it; null if it did not
+ * @param settled whether no restart takes the state back; a replay that is over is reported at once, and again once this holds
+ * @param progress how far it is; null if that is not reported
+ */
+public record ReplayStatus(long sequence, State state, String reason, boolean settled, Progress progress) {
+    private static final String SEQUENCE = "sequence";
+    private static final String STATE = "state";
+    private static final String REASON = "reason";
+    private static final String SETTLED = "settled";
+    private static final String PROGRESS = "progress";
+
+    /** How it is with a replay. */
+    public enum State {
+        RUNNING,
+        PAUSED,
+        ENDED,
+        STOPPED,
+        FAILED;
+
+        /** Whether nothing will come of it any more. */
+        public boolean isOver() {
+            return this == ENDED || this == STOPPED || this == FAILED;
+        }
+
+        /** As the record has it. */
+        public String word() {
+            return name().toLowerCase(Locale.ROOT);
+        }
+    }
+
+    /**
+     * How far a replay is. Counts are those of the epoch.
+     *
+     * @param epoch 0, then one more with each start over
+     * @param position original event time that is reached, epoch ms
+     * @param from event time of the mission's first event, epoch ms
+     * @param to event time of the mission's last event, epoch ms
+     * @param offset ms that record timestamps are ahead of original times
+     * @param latenessMillis by which an event was behind its schedule, the most since the status before
+     * @param slipMillis by which the epoch's schedule was moved, because the recording was away; lateness is that behind the moved one
+     * @param eventsPerSecond since the status before
+     * @param events that were played
+     * @param primes that were played
+     * @param skipped stored documents that hold no event
+     * @param waiting for what the replay stands still, in a sentence; null if it does not
+     */
+    public record Progress(
+            long epoch,
+            long position,
+            long from,
+            long to,
+            long offset,
+            long latenessMillis,
+            long slipMillis,
+            double eventsPerSecond,
+            long events,
+            long primes,
+            long skipped,
+            String waiting) {
+        private static Progress read(JsonNode json) {
+            return new Progress(
+                    json.path("epoch").asLong(),
+                    json.path("position").asLong(),
+                    json.path("from").asLong(),
+                    json.path("to").asLong(),
+                    json.path("offset").asLong(),
+                    json.path("lateness").asLong(),
+                    json.path("slip").asLong(),
+                    json.path("rate").asDouble(),
+                    json.path("events").asLong(),
+                    json.path("primes").asLong(),
+                    json.path("skipped").asLong(),
+                    Limits.reason(json.path("waiting").textValue()));
+        }
+
+        private void describe(ObjectNode json) {
+            json.put("epoch", epoch).put("position", position).put("from", from).put("to", to);
+            json.put("offset", offset).put("lateness", latenessMillis).put("slip", slipMillis);
+            json.put("rate", eventsPerSecond)
+                    .put("events", events)
+                    .put("primes", primes)
+                    .put("skipped", skipped);
+            DeviceGroup.put(json, "waiting", Limits.reason(waiting));
+        }
+    }
+
+    public ReplayStatus {
+        Objects.requireNonNull(state);
+    }
+
+    /**
+     * Reads the value of a record; members of other names are skipped. One that does not say whether it is settled is.
+     *
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
+     */
+    public static ReplayStatus read(byte[] value) throws UnreadableException {
+        JsonNode json = NgsiJson.read(value);
+        JsonNode sequence = json.path(SEQUENCE);
+        if (!sequence.isIntegralNumber() || !sequence.canConvertToLong()) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is no whole number");
+        }
+        for (State state : State.values()) {
+            if (state.word().equals(json.path(STATE).textValue())) {
+                return new ReplayStatus(
+                        sequence.longValue(),
+                        state,
+                        Limits.reason(json.path(REASON).textValue()),
+                        json.path(SETTLED).asBoolean(true),
+                        json.path(PROGRESS).isObject() ? Progress.read(json.path(PROGRESS)) : null);
+            }
+        }
+        throw new UnreadableException(
+                Reason.NOT_AN_EVENT, "'state' of the status is not running, paused, ended, stopped or failed");
+    }
+
+    public byte[] toBytes() {
+        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        json.put(SEQUENCE, sequence).put(STATE, state.word());
+        DeviceGroup.put(json, REASON, Limits.reason(reason));
+        if (state.isOver()) {
+            json.put(SETTLED, settled);
+        }
+        if (progress != null) {
+            progress.describe(json.putObject(PROGRESS));
+        }
+        return NgsiJson.write(json);
+    }
+}

@@ -1,2 +1,0 @@
-/** Commands, templates and devices of missions. */
-package io.furrow.model.control.mission;

@@ -1,2 +1,0 @@
-/** Commands and state of replays. */
-package io.furrow.model.control.replay;

@@ -1,0 +1,31 @@
+package io.furrow.model.control;
+
+import java.nio.charset.StandardCharsets;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import io.furrow.model.ngsi.UnreadableException;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class RecordedMissionTest {
+    @Test
+    void comesBackAsItWasWritten() throws Exception {
+        RecordedMission mission = new RecordedMission("weeding", 1000, 2000);
+
+        assertThat(new String(mission.toBytes(), StandardCharsets.UTF_8))
+                .isEqualTo("{\"mission\":\"weeding\",\"first\":1000,\"last\":2000}");
+        assertThat(RecordedMission.read(mission.toBytes())).isEqualTo(mission);
+    }
+
+    @ParameterizedTest
+    @ValueSource(
+            strings = {"7", "{", "{\"mission\":\"m\",\"first\":1}", "{\"mission\":\"m\",\"first\":1,\"last\":\"2\"}"})
+    void refusesWhatIsNone(String json) {
+        assertThatThrownBy(() -> RecordedMission.read(json.getBytes(StandardCharsets.UTF_8)))
+                .isInstanceOf(UnreadableException.class);
+    }
+}

@@ -1,0 +1,167 @@
+package io.furrow.connect.sink.api;
+
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.Entity;
+
+/**
+ * Merges the changes of a delivery into one update per entity: per attribute the value with the newest event time, the
+ * last one if times are equal, and no value older than the known state of the context broker. A deletion removes all
+ * values that are not newer.
+ */
+final class ChangeCoalescer {
+    private static final Set<String> BROKER_METADATA =
+            Set.of("dateCreated", "dateModified", "previousValue", "actionType");
+
+    private final EntityTimesCache known;
+    private final Map<EntityKey, Pending> entities = new LinkedHashMap<>();
+    private int stale;
+    private int coalesced;
+
+    /** @param known must contain every entity that is added */
+    ChangeCoalescer(EntityTimesCache known) {
+        this.known = known;
+    }
+
+    private static final class Pending {
+        private final EntityTimes known;
+        private final Map<String, Merged> byType = new LinkedHashMap<>(2);
+        private Change deletion;
+        private boolean deletes;
+
+        Pending(EntityTimes known) {
+            this.known = known;
+        }
+
+        long newest() {
+            long newest = deletes ? Change.NO_TIME : known.newest();
+            for (Merged merged : byType.values()) {
+                for (long time : merged.times.values()) {
+                    newest = Math.max(newest, time);
+                }
+            }
+            return newest;
+        }
+
+        long deletedAt() {
+            return Math.max(known.deletedAt(), deletion == null ? Change.NO_TIME : deletion.time());
+        }
+
+        long time(Merged merged, String type, String name) {
+            Long pending = merged.times.get(name);
+            return pending != null ? pending : deletes ? Change.NO_TIME : known.of(type, name);
+        }
+    }
+
+    private static final class Merged {
+        private final Map<String, ObjectNode> attributes = new LinkedHashMap<>();
+        private final Map<String, Long> times = new HashMap<>();
+        private final List<Change> changes = new ArrayList<>(1);
+    }
+
+    void add(Change change) {
+        Pending pending = entities.computeIfAbsent(change.key(), key -> new Pending(known.of(key)));
+        if (change.isDeletion()) {
+            delete(pending, change);
+        } else if (change.time() < pending.deletedAt()) {
+            stale++;
+        } else {
+            merge(pending, change);
+        }
+    }
+
+    private void delete(Pending pending, Change change) {
+        if (change.time() < pending.deletedAt()) {
+            stale++;
+            return;
+        }
+        coalesced += pending.deletion == null ? 0 : 1;
+        if (pending.newest() > change.time()) {
+            pending.byType.values().removeIf(merged -> wiped(merged, change.time()));
+        } else {
+            pending.byType.values().forEach(merged -> coalesced += merged.changes.size());
+            pending.byType.clear();
+            pending.deletes = true;
+        }
+        pending.deletion = change;
+    }
+
+    /** Removes the attributes that are not newer; true if nothing is left. */
+    private boolean wiped(Merged merged, long time) {
+        merged.times.values().removeIf(of -> of <= time);
+        merged.attributes.keySet().retainAll(merged.times.keySet());
+        if (merged.attributes.isEmpty()) {
+            coalesced += merged.changes.size();
+        }
+        return merged.attributes.isEmpty();
+    }
+
+    private void merge(Pending pending, Change change) {
+        String type = change.entity().type();
+        Merged merged = pending.byType.computeIfAbsent(type, any -> new Merged());
+        boolean says = false;
+        boolean bare = true;
+        for (Map.Entry<String, JsonNode> attribute : change.entity().attributes()) {
+            String name = attribute.getKey();
+            if (Entity.BUILT_INS.contains(name)) {
+                continue;
+            }
+            bare = false;
+            if (change.time() >= pending.time(merged, type, name)) {
+                merged.times.put(name, change.time());
+                merged.attributes.put(name, withoutBrokerMetadata(attribute.getValue()));
+                says = true;
+            }
+        }
+        if (says || bare && pending.known.size() == 0) {
+            merged.changes.add(change);
+        } else {
+            stale++;
+            if (merged.changes.isEmpty()) {
+                pending.byType.remove(type);
+            }
+        }
+    }
+
+    /** The plan, in the order in which the entities were first added. */
+    Plan plan() {
+        List<Change> deletions = new ArrayList<>();
+        List<Change> partial = new ArrayList<>();
+        List<Update> updates = new ArrayList<>(entities.size());
+        int merges = 0;
+        for (Map.Entry<EntityKey, Pending> entity : entities.entrySet()) {
+            Pending pending = entity.getValue();
+            if (pending.deletion != null) {
+                (pending.deletes ? deletions : partial).add(pending.deletion);
+            }
+            for (Map.Entry<String, Merged> of : pending.byType.entrySet()) {
+                Merged merged = of.getValue();
+                updates.add(new Update(entity.getKey(), of.getKey(), merged.attributes, merged.times, merged.changes));
+                merges += merged.changes.size() - 1;
+            }
+        }
+        return new Plan(deletions, partial, updates, stale, coalesced + merges);
+    }
+
+    private static ObjectNode withoutBrokerMetadata(JsonNode attribute) {
+        ObjectNode clean = JsonNodeFactory.instance.objectNode();
+        clean.set("type", attribute.get("type"));
+        clean.set("value", attribute.get("value"));
+        ObjectNode metadata = clean.putObject("metadata");
+        attribute.path("metadata").properties().forEach(item -> {
+            if (!BROKER_METADATA.contains(item.getKey())) {
+                metadata.set(item.getKey(), item.getValue());
+            }
+        });
+        return clean;
+    }
+}

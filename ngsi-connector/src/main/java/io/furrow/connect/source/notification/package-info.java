@@ -1,0 +1,2 @@
+/** Translates notifications into records. */
+package io.furrow.connect.source.notification;
