@@ -14,9 +14,9 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.CommandException;
 import io.furrow.cli.field.FieldReport;
 import io.furrow.cli.field.FieldsOptions;
+import io.furrow.cli.option.CommandException;
 import io.furrow.fields.FieldChange;
 import io.furrow.fields.FieldsTopic;
 import io.furrow.fields.ImportOptions;

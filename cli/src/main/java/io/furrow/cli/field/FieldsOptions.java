@@ -9,7 +9,7 @@ import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.KafkaClient;
+import io.furrow.cli.option.KafkaClient;
 import io.furrow.fields.FieldsTopic;
 import io.furrow.model.ngsi.NgsiJson;
 

@@ -16,10 +16,10 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.CommandException;
-import io.furrow.cli.KafkaClient;
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.KafkaClient;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.mission.MissionOptions;

@@ -15,8 +15,8 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.KafkaClient;
 import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.KafkaClient;
 import io.furrow.launcher.LogFile;
 import io.furrow.model.topic.Topics;
 

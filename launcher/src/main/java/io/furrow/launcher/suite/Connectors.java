@@ -15,7 +15,7 @@ import java.util.Properties;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.http.AllowedNames;
 import io.furrow.launcher.RestClient;
 import io.furrow.launcher.Sleep;

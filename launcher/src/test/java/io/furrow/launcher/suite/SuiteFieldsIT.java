@@ -10,7 +10,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.fields.FieldChange;
 import io.furrow.fields.FieldsTopic;

@@ -1,4 +1,4 @@
-package io.furrow.cli;
+package io.furrow.cli.option;
 
 /** A command cannot do what it was asked to; the message is one sentence with the remedy, for the terminal. */
 public final class CommandException extends RuntimeException {

@@ -1,29 +1,24 @@
-package io.furrow.cli.compare.report;
+package io.furrow.cli.compare;
 
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
 import java.util.stream.Collectors;
 
-import io.furrow.cli.compare.Comparison;
-import io.furrow.cli.compare.FoundResults;
-import io.furrow.cli.compare.Match;
 import io.furrow.cli.compare.Match.Verdict;
-import io.furrow.cli.compare.ResultKind;
-import io.furrow.cli.compare.Side;
 
 /** A comparison as lines of text: of each kind how many results are the same, and a line for each that is not. */
-public final class ComparisonTable {
+final class ComparisonTable {
     private static final String ROW = "  %-9s  %-20s  %-12s  %s  %s";
 
     private final int most;
 
     /** @param most lines of each kind */
-    public ComparisonTable(int most) {
+    ComparisonTable(int most) {
         this.most = most;
     }
 
-    public List<String> lines(Comparison comparison) {
+    List<String> lines(Comparison comparison) {
         List<String> lines = new ArrayList<>();
         lines.add("A  " + side(comparison.a()));
         lines.add("B  " + side(comparison.b()));

@@ -1,4 +1,4 @@
-package io.furrow.cli.compare.report;
+package io.furrow.cli.compare;
 
 import java.util.Collection;
 import java.util.List;
@@ -7,23 +7,16 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.cli.compare.Average;
-import io.furrow.cli.compare.Comparison;
-import io.furrow.cli.compare.Encounter;
-import io.furrow.cli.compare.FoundResults;
-import io.furrow.cli.compare.Match;
 import io.furrow.cli.compare.Match.Verdict;
-import io.furrow.cli.compare.ResultKind;
-import io.furrow.cli.compare.Span;
 
 /**
  * A comparison as JSON: {@code {same, a, b, encounters, averages, stays}}, where each kind has the number of those that are the
  * {@code same} and the list of {@code differences}; times in epoch ms, distances in meters.
  */
-public final class ComparisonJson {
+final class ComparisonJson {
     private ComparisonJson() {}
 
-    public static ObjectNode of(Comparison comparison) {
+    static ObjectNode of(Comparison comparison) {
         ObjectNode json = JsonNodeFactory.instance.objectNode().put("same", comparison.isSame());
         json.set("a", side(comparison.a()));
         json.set("b", side(comparison.b()));

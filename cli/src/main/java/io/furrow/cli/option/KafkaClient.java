@@ -1,4 +1,4 @@
-package io.furrow.cli;
+package io.furrow.cli.option;
 
 import java.io.IOException;
 import java.io.Reader;

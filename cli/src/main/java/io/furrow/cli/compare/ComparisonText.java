@@ -1,16 +1,10 @@
-package io.furrow.cli.compare.report;
+package io.furrow.cli.compare;
 
 import java.time.Duration;
 import java.time.Instant;
 import java.util.Collection;
 import java.util.Locale;
 import java.util.TreeSet;
-
-import io.furrow.cli.compare.Average;
-import io.furrow.cli.compare.Change;
-import io.furrow.cli.compare.Encounter;
-import io.furrow.cli.compare.Match;
-import io.furrow.cli.compare.Span;
 
 /** Values of results as people read them. */
 final class ComparisonText {

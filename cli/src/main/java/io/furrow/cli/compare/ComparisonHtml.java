@@ -1,4 +1,4 @@
-package io.furrow.cli.compare.report;
+package io.furrow.cli.compare;
 
 import java.io.IOException;
 import java.io.InputStream;
@@ -16,20 +16,14 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.cli.compare.Average;
-import io.furrow.cli.compare.Comparison;
-import io.furrow.cli.compare.Match;
 import io.furrow.cli.compare.Match.Verdict;
-import io.furrow.cli.compare.ResultKind;
-import io.furrow.cli.compare.Span;
-import io.furrow.cli.compare.Subject;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * A comparison as one HTML file that needs nothing else: uPlot and the data are in it. Each pair, device and field has a lane of A above
  * one of B, averages have two curves. Lanes with differences come first in each kind; beyond {@value #MAX_LANES} they are left out.
  */
-public final class ComparisonHtml {
+final class ComparisonHtml {
     static final int MAX_LANES = 40;
 
     private static final String LIBRARY = "META-INF/resources/webjars/uplot/%s/%s";
@@ -42,7 +36,7 @@ public final class ComparisonHtml {
         this.comparison = comparison;
     }
 
-    public static String of(Comparison comparison) throws IOException {
+    static String of(Comparison comparison) throws IOException {
         Properties library = new Properties();
         library.load(open("META-INF/maven/org.webjars.npm/uplot/pom.properties"));
         String version = library.getProperty("version");

@@ -1,4 +1,4 @@
-package io.furrow.cli.command;
+package io.furrow.cli.option;
 
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ScopeType;
