@@ -26,9 +26,9 @@ import io.furrow.dashboard.Dashboard;
 import io.furrow.dashboard.DashboardSettings;
 import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.page.PageSettings;
-import io.furrow.launcher.LogFile;
 import io.furrow.launcher.option.AccessFlags;
 import io.furrow.launcher.option.TrustedProxyFlags;
+import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.suite.PortCheck;
 import io.furrow.launcher.suite.ServerCheck;
 

@@ -17,7 +17,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.option.HttpUri;
 import io.furrow.cli.option.KafkaClient;
-import io.furrow.launcher.LogFile;
+import io.furrow.launcher.process.LogFile;
 import io.furrow.model.topic.Topics;
 
 /** {@code ./furrow replay analytics}. */

@@ -24,7 +24,7 @@ import io.furrow.control.replay.TopicCleanup;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.kafka.PartStatus;
-import io.furrow.launcher.Sleep;
+import io.furrow.launcher.process.Sleep;
 import io.furrow.provisioner.Provisioner;
 import io.furrow.provisioner.ProvisioningSettings;
 

@@ -1,4 +1,4 @@
-package io.furrow.launcher;
+package io.furrow.launcher.process;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -13,7 +13,7 @@ public final class LogFile {
      * Points the log to the error stream, which a terminal shows and the journal of a service has, unless the JVM was started with another
      * log.
      */
-    static void writeToErrorStream() {
+    public static void writeToErrorStream() {
         if (System.getProperty("furrow.log") == null) {
             writeTo(Path.of("/dev/stderr"));
         }

@@ -1,4 +1,4 @@
-package io.furrow.launcher;
+package io.furrow.launcher.process;
 
 import java.time.Duration;
 

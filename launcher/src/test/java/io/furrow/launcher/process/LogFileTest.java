@@ -1,4 +1,4 @@
-package io.furrow.launcher;
+package io.furrow.launcher.process;
 
 import java.io.BufferedReader;
 import java.io.IOException;
@@ -18,6 +18,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
+
+import io.furrow.launcher.Furrow;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -1,4 +1,4 @@
-package io.furrow.launcher;
+package io.furrow.launcher.command;
 
 import java.io.IOException;
 import java.io.PrintWriter;
@@ -11,6 +11,7 @@ import java.util.concurrent.TimeUnit;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.status.Status;
 import io.furrow.launcher.status.StatusScreen;
 import io.furrow.launcher.suite.RunDirectory;
@@ -18,7 +19,7 @@ import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;
 
 /** A suite at the terminal: started, shown, stopped by Ctrl-C within ten seconds; the JVM ends later where it then stores its classes. */
-public final class Session {
+final class Session {
     private static final Logger LOG = LoggerFactory.getLogger(Session.class);
     private static final Duration STOP_WITHIN = Duration.ofMillis(9_500);
     private static final int STOPPED_BY_INTERRUPT = 130;
@@ -31,12 +32,12 @@ public final class Session {
     private volatile boolean started;
     private volatile StatusScreen screen;
 
-    public Session(PrintWriter out) {
+    Session(PrintWriter out) {
         this.out = out;
     }
 
     /** What runs on top of the suite, for instance simulated devices. */
-    public interface Guest {
+    interface Guest {
         AutoCloseable join(Suite suite) throws Exception;
     }
 
