@@ -1,4 +1,4 @@
-package io.furrow.dashboard;
+package io.furrow.dashboard.http;
 
 import java.io.IOException;
 

@@ -1,10 +1,10 @@
-package io.furrow.dashboard.proxy;
+package io.furrow.dashboard.feed;
 
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.atomic.LongAdder;
 
-import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.http.Problem;
 
 /** What streams did since the dashboard started. Reasons are codes, of which there are few. */
 public final class StreamCounters {

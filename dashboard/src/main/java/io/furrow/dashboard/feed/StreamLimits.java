@@ -1,4 +1,4 @@
-package io.furrow.dashboard.proxy;
+package io.furrow.dashboard.feed;
 
 import java.time.Duration;
 
@@ -16,7 +16,7 @@ import java.time.Duration;
  * @param messagesPerSecond that a socket sends
  * @param primeRecords of known state, at most
  */
-public record ProxyLimits(
+public record StreamLimits(
         int streams,
         int streamsOfClient,
         int tickets,
@@ -29,6 +29,6 @@ public record ProxyLimits(
         int primeRecords) {
     private static final int MEBI = 1024 * 1024;
 
-    public static final ProxyLimits DEFAULT =
-            new ProxyLimits(1_000, 250, 500, Duration.ofSeconds(30), 20_000, 8L * MEBI, MEBI, 64 * 1024, 20, 100_000);
+    public static final StreamLimits DEFAULT =
+            new StreamLimits(1_000, 250, 500, Duration.ofSeconds(30), 20_000, 8L * MEBI, MEBI, 64 * 1024, 20, 100_000);
 }
