@@ -18,11 +18,11 @@ import io.furrow.cli.field.FieldReport;
 import io.furrow.cli.field.FieldsOptions;
 import io.furrow.cli.option.CommandException;
 import io.furrow.fields.FieldChange;
+import io.furrow.fields.FieldFile;
 import io.furrow.fields.FieldsTopic;
 import io.furrow.fields.ImportOptions;
 import io.furrow.fields.ImportedField;
-import io.furrow.fields.file.FieldFile;
-import io.furrow.fields.file.UnusableFileException;
+import io.furrow.fields.UnusableFileException;
 import io.furrow.model.field.FieldVersion;
 
 /** {@code ./furrow fields import}. */

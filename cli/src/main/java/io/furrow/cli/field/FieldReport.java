@@ -16,9 +16,9 @@ import com.fasterxml.jackson.databind.util.RawValue;
 
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.fields.FieldChange;
+import io.furrow.fields.FieldFile;
 import io.furrow.fields.ImportedField;
 import io.furrow.fields.RefusedFeature;
-import io.furrow.fields.file.FieldFile;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 

@@ -19,12 +19,12 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.cli.option.CommandException;
 import io.furrow.fields.FieldChange;
+import io.furrow.fields.FieldFile;
 import io.furrow.fields.FieldsTopic;
 import io.furrow.fields.ImportOptions;
 import io.furrow.fields.ImportedField;
 import io.furrow.fields.RefusedFeature;
-import io.furrow.fields.file.FieldFile;
-import io.furrow.fields.file.UnusableFileException;
+import io.furrow.fields.UnusableFileException;
 import io.furrow.fiware.FiwareStandIn;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;

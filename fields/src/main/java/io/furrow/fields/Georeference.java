@@ -1,4 +1,4 @@
-package io.furrow.fields.file;
+package io.furrow.fields;
 
 import java.util.List;
 import java.util.logging.Level;
@@ -19,8 +19,6 @@ import org.geotools.referencing.operation.transform.ConcatenatedTransform;
 import org.geotools.referencing.operation.transform.IdentityTransform;
 import org.locationtech.jts.geom.Coordinate;
 
-import io.furrow.fields.RefusedFeatureException;
-import io.furrow.fields.Words;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -31,7 +29,7 @@ import io.furrow.model.text.FailureText;
  * @param accuracyMeters of the datum transformation, as specified by EPSG; NaN if unspecified, 0 if the datum does not
  * change
  */
-public record Georeference(String name, MathTransform transform, boolean northFirst, double accuracyMeters) {
+record Georeference(String name, MathTransform transform, boolean northFirst, double accuracyMeters) {
     /** {@code EPSG:25830}, {@code urn:ogc:def:crs:EPSG::25830}, {@code http://www.opengis.net/def/crs/EPSG/0/25830}. */
     private static final Pattern EPSG = Pattern.compile("(?i)(?:.*[:/])?EPSG(?:[:/][^:/]*)?[:/](\\d+)");
 
@@ -113,7 +111,7 @@ public record Georeference(String name, MathTransform transform, boolean northFi
     }
 
     /** @throws RefusedFeatureException if the position is outside of the coordinate system */
-    public Coordinate toWgs84(Coordinate from) throws RefusedFeatureException {
+    Coordinate toWgs84(Coordinate from) throws RefusedFeatureException {
         double[] position = northFirst ? new double[] {from.y, from.x} : new double[] {from.x, from.y};
         try {
             transform.transform(position, 0, position, 0, 1);

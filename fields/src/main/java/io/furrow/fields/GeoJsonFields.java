@@ -1,4 +1,4 @@
-package io.furrow.fields.file;
+package io.furrow.fields;
 
 import java.io.IOException;
 import java.nio.file.Files;
@@ -13,10 +13,6 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.locationtech.jts.algorithm.Orientation;
 import org.locationtech.jts.geom.Coordinate;
 
-import io.furrow.fields.Outline;
-import io.furrow.fields.RefusedFeatureException;
-import io.furrow.fields.Rings;
-import io.furrow.fields.Words;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.Counts;

@@ -1,8 +1,6 @@
-package io.furrow.fields.file;
+package io.furrow.fields;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
-
-import io.furrow.fields.Outline;
 
 /**
  * A feature as read from a file.
@@ -13,4 +11,4 @@ import io.furrow.fields.Outline;
  * @param outline null if {@code fault} says why there is none
  * @param fault why it cannot be imported; null if no fault was found yet
  */
-public record SourceFeature(int number, String id, ObjectNode properties, Outline outline, String fault) {}
+record SourceFeature(int number, String id, ObjectNode properties, Outline outline, String fault) {}

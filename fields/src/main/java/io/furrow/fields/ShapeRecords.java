@@ -1,4 +1,4 @@
-package io.furrow.fields.file;
+package io.furrow.fields;
 
 import java.io.IOException;
 import java.nio.ByteBuffer;
@@ -11,8 +11,6 @@ import java.util.List;
 import org.locationtech.jts.algorithm.Orientation;
 import org.locationtech.jts.geom.Coordinate;
 
-import io.furrow.fields.Outline;
-import io.furrow.fields.Rings;
 import io.furrow.model.text.Counts;
 
 /** Reads the main file of a Shapefile (.shp), as specified by "ESRI Shapefile Technical Description", July 1998. */

@@ -1,4 +1,4 @@
-package io.furrow.fields.file;
+package io.furrow.fields;
 
 import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
@@ -13,10 +13,6 @@ import org.locationtech.jts.geom.LineString;
 import org.locationtech.jts.geom.Polygon;
 import org.locationtech.jts.io.ParseException;
 import org.locationtech.jts.io.WKBReader;
-
-import io.furrow.fields.AreaRepair;
-import io.furrow.fields.Outline;
-import io.furrow.fields.RefusedFeatureException;
 
 /** Reads the binary geometry of a GeoPackage (OGC 12-128, clause 2.1.3): a header followed by well-known binary. */
 final class GeoPackageGeometry {

@@ -1,4 +1,4 @@
-package io.furrow.fields.file;
+package io.furrow.fields;
 
 import java.io.IOException;
 import java.io.InputStream;
@@ -9,15 +9,6 @@ import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
-
-import io.furrow.fields.AreaRepair;
-import io.furrow.fields.EllipsoidArea;
-import io.furrow.fields.FeatureNaming;
-import io.furrow.fields.ImportOptions;
-import io.furrow.fields.ImportedField;
-import io.furrow.fields.MendedArea;
-import io.furrow.fields.RefusedFeature;
-import io.furrow.fields.RefusedFeatureException;
 
 /**
  * The content of a field file: each feature is either imported as a field or rejected with a reason.

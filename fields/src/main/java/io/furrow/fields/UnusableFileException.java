@@ -1,4 +1,4 @@
-package io.furrow.fields.file;
+package io.furrow.fields;
 
 import java.io.IOException;
 import java.nio.file.Path;
@@ -9,7 +9,7 @@ import io.furrow.model.file.FileProblem;
 public final class UnusableFileException extends Exception {
     private static final long serialVersionUID = 1L;
 
-    public UnusableFileException(String message) {
+    UnusableFileException(String message) {
         super(message);
     }
 
