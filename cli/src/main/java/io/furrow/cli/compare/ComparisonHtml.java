@@ -45,7 +45,7 @@ final class ComparisonHtml {
         parts.put("uplot.css", text(LIBRARY.formatted(version, "dist/uPlot.min.css")));
         parts.put("uplot.js", text(LIBRARY.formatted(version, "dist/uPlot.iife.min.js")));
         parts.put("data", new ComparisonHtml(comparison).data());
-        String html = text("io/furrow/cli/compare/report/comparison.html");
+        String html = text("io/furrow/cli/compare/comparison.html");
         for (Map.Entry<String, String> part : parts.entrySet()) {
             html = html.replace("{{" + part.getKey() + "}}", part.getValue());
         }
