@@ -33,7 +33,6 @@ import io.furrow.control.ServiceTopics;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.readiness.Readiness;
-import io.furrow.control.rest.access.ApiAccess;
 import io.furrow.control.rest.access.BearerTokens;
 import io.furrow.control.rest.access.RoleFilter;
 import io.furrow.control.rest.access.TlsListener;

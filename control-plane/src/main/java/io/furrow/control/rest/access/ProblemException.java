@@ -1,11 +1,17 @@
-package io.furrow.control.rest;
+package io.furrow.control.rest.access;
 
-import io.furrow.control.rest.access.Caller;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.ws.rs.core.MediaType;
+import jakarta.ws.rs.core.Response;
+
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** A request that is answered with an error; the message is its {@code reason}. */
 public final class ProblemException extends RuntimeException {
     private static final long serialVersionUID = 1L;
+    private static final int AGAIN_SECONDS = 1;
 
     private final int status;
     private final String error;
@@ -22,7 +28,7 @@ public final class ProblemException extends RuntimeException {
     }
 
     /** Which status an error of a manager has in HTTP: 400 for what is not understood, 404 for what is not there, and so on. */
-    static int statusOf(String code) {
+    private static int statusOf(String code) {
         return switch (code) {
             case "not-json", "not-a-request", "unknown-command", "missing-member", "wrong-member", "illegal-name" ->
                 400;
@@ -61,11 +67,32 @@ public final class ProblemException extends RuntimeException {
                 503, "not-ready", "the control plane has not read its topics yet; ask again in a moment");
     }
 
-    int status() {
-        return status;
+    public String error() {
+        return error;
     }
 
-    String error() {
-        return error;
+    public Response response() {
+        return response(
+                status,
+                CommandResult.of(CommandResult.ERROR)
+                        .with("error", error)
+                        .with("reason", getMessage())
+                        .json());
+    }
+
+    /** What a manager refused. @param error its code @param json with {@code error} and {@code reason} */
+    public static Response response(String error, ObjectNode json) {
+        return response(statusOf(error), json);
+    }
+
+    private static Response response(int status, ObjectNode json) {
+        Response.ResponseBuilder answer =
+                Response.status(status).type(MediaType.APPLICATION_JSON_TYPE).entity(NgsiJson.write(json));
+        if (status == 503) {
+            answer.header("Retry-After", AGAIN_SECONDS);
+        } else if (status == 401) {
+            answer.header("WWW-Authenticate", "Bearer");
+        }
+        return answer.build();
     }
 }

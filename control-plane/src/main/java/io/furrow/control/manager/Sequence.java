@@ -1,4 +1,4 @@
-package io.furrow.control.manager.record;
+package io.furrow.control.manager;
 
 /** Sequence numbers that grow with each desired state, over restarts too, so that a host can tell old from new. */
 public final class Sequence {

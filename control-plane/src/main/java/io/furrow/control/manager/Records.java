@@ -1,4 +1,4 @@
-package io.furrow.control.manager.record;
+package io.furrow.control.manager;
 
 import java.util.function.Consumer;
 

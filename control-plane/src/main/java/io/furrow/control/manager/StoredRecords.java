@@ -1,4 +1,4 @@
-package io.furrow.control.manager.record;
+package io.furrow.control.manager;
 
 import java.util.function.Consumer;
 import java.util.function.Function;
@@ -9,8 +9,6 @@ import org.apache.kafka.streams.state.KeyValueIterator;
 import org.apache.kafka.streams.state.KeyValueStore;
 import org.apache.kafka.streams.state.StoreBuilder;
 import org.apache.kafka.streams.state.Stores;
-
-import io.furrow.control.manager.StateJson;
 
 /**
  * Remembers in a named store. What managers remember is small: the stores are in memory and rebuilt from their changelogs, so

@@ -1,10 +1,10 @@
-package io.furrow.control.manager.record;
+package io.furrow.control.manager;
 
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.Record;
 
 /** Notes on each record where it stood, so that a dead letter of it can say so; what a punctuation made stood nowhere. */
-public final class SourcePositionProcessor extends ContextualProcessor<String, byte[], String, byte[]> {
+final class SourcePositionProcessor extends ContextualProcessor<String, byte[], String, byte[]> {
     @Override
     public void process(Record<String, byte[]> record) {
         boolean stood = context().recordMetadata().isPresent();

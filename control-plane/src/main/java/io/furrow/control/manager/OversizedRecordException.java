@@ -1,9 +1,9 @@
-package io.furrow.control.manager.record;
+package io.furrow.control.manager;
 
 import io.furrow.model.control.Limits;
 
 /** A record would be larger than {@link Limits#RECORD_BYTES}; nothing was written. */
-public final class OversizedRecordException extends RuntimeException {
+final class OversizedRecordException extends RuntimeException {
     private static final long serialVersionUID = 1L;
     private static final int MAX_QUOTE_LENGTH = 80;
 
@@ -13,7 +13,7 @@ public final class OversizedRecordException extends RuntimeException {
     }
 
     /** @param target topic or store that the record is for */
-    public static void check(String target, String key, byte[] value) {
+    static void check(String target, String key, byte[] value) {
         if (size(key, value) > Limits.RECORD_BYTES) {
             throw new OversizedRecordException(target, key, size(key, value));
         }
@@ -24,7 +24,7 @@ public final class OversizedRecordException extends RuntimeException {
     }
 
     /** Bytes of key and value, at most: a character of the key counts as three bytes in UTF-8. */
-    public static long size(String key, byte[] value) {
+    static long size(String key, byte[] value) {
         return (value == null ? 0 : value.length) + (key == null ? 0 : 3L * key.length());
     }
 }

@@ -1,4 +1,4 @@
-package io.furrow.control.manager.record;
+package io.furrow.control.manager;
 
 import java.util.Iterator;
 import java.util.List;
@@ -13,17 +13,17 @@ import org.apache.kafka.streams.state.KeyValueIterator;
 import org.apache.kafka.streams.state.KeyValueStore;
 
 /** A store whose writes are seen by its own reads, and reach the store behind it with {@link #apply}. */
-public final class StagedStore implements KeyValueStore<String, byte[]> {
+final class StagedStore implements KeyValueStore<String, byte[]> {
     private final KeyValueStore<String, byte[]> store;
     /** By key; null for what is deleted. */
     private final Map<String, byte[]> staged = new TreeMap<>();
 
-    public StagedStore(KeyValueStore<String, byte[]> store) {
+    StagedStore(KeyValueStore<String, byte[]> store) {
         this.store = store;
     }
 
     /** @throws OversizedRecordException where a value is larger than a changelog takes */
-    public void check() {
+    void check() {
         staged.forEach((key, value) -> OversizedRecordException.check(store.name(), key, value));
     }
 
@@ -32,7 +32,7 @@ public final class StagedStore implements KeyValueStore<String, byte[]> {
         staged.clear();
     }
 
-    public void discard() {
+    void discard() {
         staged.clear();
     }
 

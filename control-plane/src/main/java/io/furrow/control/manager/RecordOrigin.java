@@ -1,4 +1,4 @@
-package io.furrow.control.manager.record;
+package io.furrow.control.manager;
 
 import java.nio.charset.StandardCharsets;
 import java.util.Optional;
@@ -10,21 +10,21 @@ import org.apache.kafka.streams.processor.api.Record;
 import org.apache.kafka.streams.processor.api.RecordMetadata;
 
 /** Where a record stood before it was repartitioned: a header that stays with it. */
-public record RecordOrigin(String topic, int partition, long offset) {
+record RecordOrigin(String topic, int partition, long offset) {
     private static final String HEADER = "request-origin";
 
     /** That of the record which a processor is given from its topic. */
-    public static RecordOrigin of(ProcessorContext<?, ?> context) {
+    static RecordOrigin of(ProcessorContext<?, ?> context) {
         RecordMetadata at = context.recordMetadata().orElseThrow();
         return new RecordOrigin(at.topic(), at.partition(), at.offset());
     }
 
     /** As noted on a record; empty if it has no such header. */
-    public static Optional<RecordOrigin> of(Record<?, ?> record) {
+    static Optional<RecordOrigin> of(Record<?, ?> record) {
         return of(record.headers());
     }
 
-    public static Optional<RecordOrigin> of(Headers headers) {
+    static Optional<RecordOrigin> of(Headers headers) {
         Header header = headers.lastHeader(HEADER);
         return header == null
                 ? Optional.empty()
@@ -45,7 +45,7 @@ public record RecordOrigin(String topic, int partition, long offset) {
         return topic + "-" + partition;
     }
 
-    public <K, V> Record<K, V> noteOn(Record<K, V> record) {
+    <K, V> Record<K, V> noteOn(Record<K, V> record) {
         record.headers().remove(HEADER);
         record.headers().add(HEADER, toString().getBytes(StandardCharsets.UTF_8));
         return record;

@@ -1,4 +1,4 @@
-package io.furrow.control.alarm;
+package io.furrow.control.alarm.action;
 
 import java.io.IOException;
 import java.time.Clock;
@@ -10,10 +10,6 @@ import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.ThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 
-import io.furrow.control.alarm.action.AlarmDelivery;
-import io.furrow.control.alarm.action.StopFollower;
-import io.furrow.control.alarm.action.StopRobots;
-import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.alarm.watch.DeviceTypes;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.kafka.PartStatus;

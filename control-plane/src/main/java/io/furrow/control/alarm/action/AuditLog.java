@@ -1,4 +1,4 @@
-package io.furrow.control.alarm;
+package io.furrow.control.alarm.action;
 
 import java.time.Duration;
 import java.util.Properties;

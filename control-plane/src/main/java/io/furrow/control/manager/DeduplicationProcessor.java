@@ -1,4 +1,4 @@
-package io.furrow.control.manager.record;
+package io.furrow.control.manager;
 
 import java.util.HashSet;
 import java.util.Set;
@@ -19,7 +19,7 @@ import org.slf4j.LoggerFactory;
  * partitions. <b>Twice</b>: dropped where neither the offset nor the timestamp is new; a topic that was deleted and made again
  * has old offsets, but new timestamps.
  */
-public final class DeduplicationProcessor extends ContextualProcessor<String, byte[], String, byte[]> {
+final class DeduplicationProcessor extends ContextualProcessor<String, byte[], String, byte[]> {
     private static final Logger LOG = LoggerFactory.getLogger(DeduplicationProcessor.class);
 
     private final String store;
@@ -44,7 +44,7 @@ public final class DeduplicationProcessor extends ContextualProcessor<String, by
     }
 
     /** @param store of the positions */
-    public DeduplicationProcessor(String store) {
+    DeduplicationProcessor(String store) {
         this.store = store;
     }
 

@@ -1,22 +1,21 @@
-package io.furrow.control.manager.record;
+package io.furrow.control.manager;
 
 import java.nio.charset.StandardCharsets;
 
 import org.apache.kafka.streams.processor.api.Record;
 
-import io.furrow.control.manager.OutputRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.topic.Topics;
 
 /** Dead letters of the control plane: the original record for {@code <topic>.dead}, with the reason in its headers. */
-public final class DeadLetters {
+final class DeadLetters {
     /** Header {@code dead-stage}. */
-    public static final String STAGE = "control-plane";
+    static final String STAGE = "control-plane";
 
     private DeadLetters() {}
 
-    public static Record<String, OutputRecord> of(
+    static Record<String, OutputRecord> of(
             Record<String, byte[]> record, RecordOrigin origin, Reason reason, String message) {
         OutputRecord outgoing = new OutputRecord(Topics.dead(origin.topic()), record.value());
         Record<String, OutputRecord> dead = new Record<>(record.key(), outgoing, record.timestamp(), record.headers());

@@ -1,8 +1,7 @@
-package io.furrow.control.rest.access;
+package io.furrow.control.rest;
 
 import org.eclipse.jetty.server.Handler;
 
-import io.furrow.control.rest.RestSettings;
 import io.furrow.http.AccessRule;
 import io.furrow.http.OptionNames;
 import io.furrow.http.jetty.AccessHandler;
@@ -10,7 +9,7 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The access rule in front of a port of the REST API. Tokens are no exemption: a page may know one that its reader typed. */
-public final class ApiAccess {
+final class ApiAccess {
     private static final OptionNames OPTIONS = new OptionNames("--allowed-hosts", "--allowed-origins");
 
     private ApiAccess() {}
