@@ -1,11 +1,10 @@
-package io.furrow.bench.analytics.load;
+package io.furrow.bench.analytics;
 
 import java.lang.management.ManagementFactory;
 import java.lang.management.MemoryMXBean;
 import java.util.concurrent.ExecutionException;
 
-import io.furrow.bench.analytics.Figures;
-import io.furrow.bench.analytics.GroupLag;
+import io.furrow.bench.analytics.load.Fleet;
 
 /**
  * What a job has to catch up with: reports on two partitions, of which the second takes longer to read.
@@ -16,7 +15,7 @@ import io.furrow.bench.analytics.GroupLag;
  * @param maxDrift option of the job
  */
 public record Backlog(int devices, int seconds, int padding, String maxDrift) {
-    public static final int POLL_INTERVAL_SECONDS = 5;
+    static final int POLL_INTERVAL_SECONDS = 5;
     private static final double MEBIBYTE = 1 << 20;
     private static final int PARTITIONS = 2;
 
