@@ -38,7 +38,7 @@ final class AtomicContext implements ProcessorContext<String, OutputRecord> {
      * @param <E> what it throws where it is refused
      */
     @FunctionalInterface
-    interface Work<T, E extends Exception> {
+    public interface Work<T, E extends Exception> {
         T run() throws E;
     }
 

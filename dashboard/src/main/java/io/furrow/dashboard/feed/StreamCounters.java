@@ -38,27 +38,27 @@ public final class StreamCounters {
         }
     }
 
-    public void read() {
+    void read() {
         recordsRead.increment();
     }
 
-    void sent(int records) {
+    public void sent(int records) {
         recordsSent.add(records);
     }
 
-    void merged() {
+    public void merged() {
         recordsMerged.increment();
     }
 
-    void written() {
+    public void written() {
         messagesWritten.increment();
     }
 
-    void opened() {
+    public void opened() {
         opened.increment();
     }
 
-    void closed(Closing reason) {
+    public void closed(Closing reason) {
         closed.computeIfAbsent(reason, any -> new LongAdder()).increment();
     }
 
