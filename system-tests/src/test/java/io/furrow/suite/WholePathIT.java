@@ -12,8 +12,8 @@ import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.fields.FieldsTopic;
-import io.furrow.ingest.mission.StoredMissions;
 import io.furrow.launcher.command.DemoFarm;
+import io.furrow.mission.archive.StoredMissions;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.Entity;

@@ -140,7 +140,7 @@ public enum ImageFormat {
         return contentType;
     }
 
-    String extension() {
+    public String extension() {
         return extension;
     }
 

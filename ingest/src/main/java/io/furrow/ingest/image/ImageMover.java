@@ -15,6 +15,7 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.image.store.ImageStore;
 import io.furrow.ingest.image.store.StoredImage;
 import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.mission.image.ImageName;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;

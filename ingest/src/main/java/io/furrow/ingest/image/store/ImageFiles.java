@@ -15,8 +15,8 @@ import org.apache.flink.core.fs.FileSystem.WriteMode;
 import org.apache.flink.core.fs.Path;
 
 import io.furrow.ingest.image.Image;
-import io.furrow.ingest.image.ImageName;
-import io.furrow.ingest.image.Sha256;
+import io.furrow.mission.image.ImageName;
+import io.furrow.mission.image.Sha256;
 
 /**
  * Images as files on a Flink file system. A file appears whole or not at all: it is written under another name and renamed,
@@ -25,9 +25,6 @@ import io.furrow.ingest.image.Sha256;
  * before the call returns: a checkpoint after it may take it for done.
  */
 public final class ImageFiles implements ImageStore {
-    /** Files under way, to be deleted when they are left behind by a process that died. */
-    public static final String UNFINISHED = ".unfinished-";
-
     /** Stores where a rename is a copy and a put shows nothing before it is whole. */
     private static final Set<String> OBJECT_STORES = Set.of("s3", "s3a", "s3n", "s3p", "gs", "oss", "wasb", "wasbs");
 
@@ -52,7 +49,7 @@ public final class ImageFiles implements ImageStore {
     /** Writes an image unless it is there already. */
     @Override
     public StoredImage store(ImageName name, Image image) throws IOException {
-        String first = root + "/" + name.path(image.format());
+        String first = root + "/" + name.path(image.format().extension());
         String url = switch (found(path(first), image)) {
             case NOTHING -> write(first, image);
             case THE_SAME -> named(first);
@@ -67,7 +64,7 @@ public final class ImageFiles implements ImageStore {
     }
 
     private String storeBeside(ImageName name, Image image) throws IOException {
-        String second = root + "/" + name.path(image.format(), image.sha256());
+        String second = root + "/" + name.path(image.format().extension(), image.sha256());
         Found found = found(path(second), image);
         if (found == Found.ANOTHER) {
             files.delete(path(second), false); // nothing but a damaged file of the same image can have its hash
@@ -104,7 +101,7 @@ public final class ImageFiles implements ImageStore {
             put(target, image.bytes(), WriteMode.OVERWRITE);
             return url;
         }
-        Path unfinished = new Path(target.getParent(), UNFINISHED + UUID.randomUUID());
+        Path unfinished = new Path(target.getParent(), ImageName.UNFINISHED + UUID.randomUUID());
         put(unfinished, image.bytes(), WriteMode.NO_OVERWRITE);
         if (!files.rename(unfinished, target)) {
             files.delete(unfinished, false);

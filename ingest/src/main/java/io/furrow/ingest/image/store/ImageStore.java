@@ -3,8 +3,8 @@ package io.furrow.ingest.image.store;
 import java.io.IOException;
 
 import io.furrow.ingest.image.Image;
-import io.furrow.ingest.image.ImageName;
 import io.furrow.ingest.image.ImageSettings;
+import io.furrow.mission.image.ImageName;
 
 /** Where images go. */
 public interface ImageStore {
@@ -22,7 +22,7 @@ public interface ImageStore {
             case ALL -> ImageFiles.in(root);
             case FOR_OTHERS -> ImageFiles.in(root)::storeByHash;
             case BY_OTHERS ->
-                (name, image) -> StoredImage.of(root + "/" + name.path(image.format(), image.sha256()), image);
+                (name, image) -> StoredImage.of(root + "/" + name.path(image.format().extension(), image.sha256()), image);
         };
     }
 }

@@ -17,11 +17,11 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.ingest.image.Image;
-import io.furrow.ingest.image.ImageName;
 import io.furrow.ingest.image.ImageSettings;
 import io.furrow.ingest.image.Pictures;
 import io.furrow.ingest.image.RecordingFiles;
 import io.furrow.ingest.image.Storing;
+import io.furrow.mission.image.ImageName;
 import io.furrow.model.event.FiwareScope;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -1,4 +1,4 @@
-package io.furrow.ingest.image;
+package io.furrow.mission.image;
 
 import java.nio.charset.StandardCharsets;
 import java.time.Instant;
@@ -19,6 +19,9 @@ import io.furrow.model.event.FiwareScope;
  * @param file without the extension
  */
 public record ImageName(String folder, String file) {
+    /** Files under way, to be deleted when they are left behind by a process that died. */
+    public static final String UNFINISHED = ".unfinished-";
+
     /** A file name holds at most 255 bytes: the part, the time, a hash and the mark of a file under way must fit in. */
     private static final int MAX_LENGTH = 120;
 
@@ -49,17 +52,17 @@ public record ImageName(String folder, String file) {
     }
 
     /** {@code <folder>/<file>.<extension>}. */
-    public String path(ImageFormat format) {
-        return folder + "/" + file + "." + format.extension();
+    public String path(String extension) {
+        return folder + "/" + file + "." + extension;
     }
 
     /** The name of an image whose first name is taken by another one: the same entity, the same millisecond. */
-    public String path(ImageFormat format, String sha256) {
-        return folder + "/" + file + "-" + sha256 + "." + format.extension();
+    public String path(String extension, String sha256) {
+        return folder + "/" + file + "-" + sha256 + "." + extension;
     }
 
     /** The time in a file's name. */
-    static Instant time(String digits) {
+    public static Instant time(String digits) {
         return TIME.parse(digits, Instant::from);
     }
 

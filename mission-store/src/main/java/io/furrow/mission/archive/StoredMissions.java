@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission.archive;
 
 import java.io.BufferedReader;
 import java.io.IOException;
@@ -25,6 +25,8 @@ import org.bson.RawBsonDocument;
 
 import io.furrow.mission.EventOrder;
 import io.furrow.mission.StoredEvent;
+import io.furrow.mission.bulk.BulkSender;
+import io.furrow.mission.bulk.EventDocument;
 import io.furrow.mission.file.ArchiveLine;
 import io.furrow.mission.mongo.EventDocumentCodec;
 import io.furrow.mission.mongo.MissionCollections;
@@ -73,6 +75,8 @@ public final class StoredMissions implements AutoCloseable {
             Instant last,
             List<String> indexes,
             Duration retention) {}
+
+    private record Document(String collection, String id, byte[] bson) implements EventDocument {}
 
     /** All that hold an event, in alphabetical order. */
     public List<Summary> all() {
@@ -155,9 +159,9 @@ public final class StoredMissions implements AutoCloseable {
      */
     public long importFrom(String mission, InputStream in, String source, LongConsumer told)
             throws IOException, InterruptedException {
-        try (BulkSender sender = new BulkSender(collections, WAITS, ignored -> {})) {
+        try (BulkSender<EventDocument> sender = new BulkSender<>(collections, WAITS, ignored -> {})) {
             String collection = collection(mission);
-            List<MissionDocument> bulk = new ArrayList<>(BATCH);
+            List<EventDocument> bulk = new ArrayList<>(BATCH);
             BufferedReader lines = new BufferedReader(new InputStreamReader(in, StandardCharsets.UTF_8));
             long count = 0;
             for (String line = lines.readLine(); line != null; line = lines.readLine()) {
@@ -175,18 +179,18 @@ public final class StoredMissions implements AutoCloseable {
         }
     }
 
-    private static MissionDocument document(String collection, String line, String where) throws IOException {
+    private static EventDocument document(String collection, String line, String where) throws IOException {
         try {
             StoredEvent event = ArchiveLine.read(line);
-            return new MissionDocument(collection, event.id(), EventDocumentCodec.write(event), null);
+            return new Document(collection, event.id(), EventDocumentCodec.write(event));
         } catch (UnreadableException e) {
             throw new IOException(where + " is no event: " + e.getMessage(), e);
         }
     }
 
-    private static void send(BulkSender sender, List<MissionDocument> bulk, String source)
+    private static void send(BulkSender<EventDocument> sender, List<EventDocument> bulk, String source)
             throws IOException, InterruptedException {
-        for (BulkSender.Refusal refusal : sender.send(bulk)) {
+        for (BulkSender.Refusal<EventDocument> refusal : sender.send(bulk)) {
             throw new IOException("MongoDB refuses event %s of %s: %s"
                     .formatted(refusal.document().id(), source, refusal.reason()));
         }

@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission.bulk;
 
 import java.util.Set;
 import java.util.regex.Pattern;

@@ -1,9 +1,8 @@
-package io.furrow.ingest.image;
+package io.furrow.cli.command;
 
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.FileTime;
@@ -18,7 +17,7 @@ import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine;
 
 import io.furrow.flink.job.JobCommandLine;
-import io.furrow.ingest.image.store.ImageFiles;
+import io.furrow.mission.image.ImageName;
 import io.furrow.model.event.FiwareScope;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -45,7 +44,7 @@ class PurgeImagesTest {
 
     @Test
     void deletesWhatIsOldAndEmptyFoldersAndNothingElse() throws Exception {
-        long bytes = Pictures.png(1).length + Pictures.png(2).length + Pictures.png(3).length + 1L;
+        long bytes = 1 + 2 + 3 + 1L;
         assertThat(run("--older-than", "30d")).isEqualTo(String.format("Deleted 4 files, %d bytes; kept 4.%n", bytes));
 
         assertThat(everything())
@@ -71,12 +70,11 @@ class PurgeImagesTest {
         assertThat(said(folder.toString(), "--older-than", "0s")).contains("--older-than must be positive");
     }
 
-    private String store(String entity, long time, int seed) throws Exception {
-        Image image = Image.of(Pictures.base64(Pictures.png(seed)).getBytes(StandardCharsets.US_ASCII), 1_000_000);
-        String url = ImageFiles.in("file://" + folder)
-                .store(ImageName.of(FiwareScope.DEFAULT, "north", "m", entity, time), image)
-                .url();
-        return folder.relativize(Path.of(java.net.URI.create(url))).toString();
+    private String store(String entity, long time, int bytes) throws Exception {
+        String name = ImageName.of(FiwareScope.DEFAULT, "north", "m", entity, time).path("png");
+        Files.createDirectories(folder.resolve(name).getParent());
+        Files.write(folder.resolve(name), new byte[bytes]);
+        return name;
     }
 
     private void write(String name, Instant modified) throws IOException {

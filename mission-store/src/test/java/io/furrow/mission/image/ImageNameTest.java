@@ -1,4 +1,4 @@
-package io.furrow.ingest.image;
+package io.furrow.mission.image;
 
 import java.util.HashMap;
 import java.util.Map;
@@ -13,12 +13,14 @@ import io.furrow.model.event.FiwareScope;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ImageNameTest {
+    private static final long TIME = 1_700_000_000_123L;
+
     @Test
     void namesAFileByDomainMissionEntityAndTimeInUtc() {
         ImageName name = ImageName.of(FiwareScope.DEFAULT, "north", "weeding", "Camera-1", 1_700_000_000_123L);
 
-        assertThat(name.path(ImageFormat.PNG)).isEqualTo("north/weeding/Camera-1/Camera-1_20231114221320123.png");
-        assertThat(name.path(ImageFormat.JPEG, "abc"))
+        assertThat(name.path("png")).isEqualTo("north/weeding/Camera-1/Camera-1_20231114221320123.png");
+        assertThat(name.path("jpg", "abc"))
                 .isEqualTo("north/weeding/Camera-1/Camera-1_20231114221320123-abc.jpg");
     }
 
@@ -30,7 +32,7 @@ class ImageNameTest {
                     '',   /,      d/m/c
                     """)
     void keepsTenantsAndServicePathsApart(String tenant, String path, String folder) {
-        assertThat(ImageName.of(new FiwareScope(tenant, path), "d", "m", "c", Pictures.TIME)
+        assertThat(ImageName.of(new FiwareScope(tenant, path), "d", "m", "c", TIME)
                         .folder())
                 .isEqualTo(folder);
     }
@@ -66,9 +68,9 @@ class ImageNameTest {
 
     @Test
     void fitsIntoAFileNameHoweverLongTheEntityId() {
-        ImageName name = ImageName.of(FiwareScope.DEFAULT, "d", "m", "c".repeat(120), Pictures.TIME);
+        ImageName name = ImageName.of(FiwareScope.DEFAULT, "d", "m", "c".repeat(120), TIME);
 
-        assertThat(name.path(ImageFormat.JPEG, "f".repeat(64)).replaceAll(".*/", ""))
+        assertThat(name.path("jpg", "f".repeat(64)).replaceAll(".*/", ""))
                 .hasSizeLessThanOrEqualTo(255);
     }
 

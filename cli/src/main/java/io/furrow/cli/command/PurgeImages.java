@@ -1,4 +1,4 @@
-package io.furrow.ingest.image;
+package io.furrow.cli.command;
 
 import java.io.FileNotFoundException;
 import java.io.IOException;
@@ -22,7 +22,7 @@ import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
 import io.furrow.flink.job.FileSystemOptions;
-import io.furrow.ingest.image.store.ImageFiles;
+import io.furrow.mission.image.ImageName;
 import io.furrow.model.text.Counts;
 import io.furrow.model.text.FailureText;
 
@@ -35,7 +35,7 @@ import io.furrow.model.text.FailureText;
         description =
                 "Deletes images that are older than an age, by the event time in their names, and what writers that "
                         + "died left behind. Other files are left alone.")
-public final class PurgeImages implements Callable<Integer> {
+final class PurgeImages implements Callable<Integer> {
     private static final Pattern IMAGE = Pattern.compile(".+_(\\d{17})(-[0-9a-f]{64})?\\.(png|jpg)");
     /** No write takes that long. */
     private static final Duration UNFINISHED_AGE = Duration.ofHours(1);
@@ -118,7 +118,7 @@ public final class PurgeImages implements Callable<Integer> {
 
     private boolean isOld(FileStatus file) {
         String name = file.getPath().getName();
-        if (name.startsWith(ImageFiles.UNFINISHED)) {
+        if (name.startsWith(ImageName.UNFINISHED)) {
             return Instant.ofEpochMilli(file.getModificationTime()).isBefore(now.minus(UNFINISHED_AGE));
         }
         Matcher image = IMAGE.matcher(name);

@@ -1,4 +1,4 @@
-package io.furrow.ingest.image.store;
+package io.furrow.mission.image;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -7,14 +7,13 @@ import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.ingest.image.ImageFormat;
-import io.furrow.ingest.image.ImageName;
-import io.furrow.ingest.image.Pictures;
 import io.furrow.model.event.FiwareScope;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ImageUsageTest {
+    private static final long TIME = 1_700_000_000_123L;
+
     @TempDir
     Path folder;
 
@@ -22,9 +21,9 @@ class ImageUsageTest {
     void addsUpWhatAllTenantsAndServicePathsHaveOfAMission() throws Exception {
         for (FiwareScope scope :
                 List.of(FiwareScope.DEFAULT, new FiwareScope("farm", "/"), new FiwareScope("farm", "/north"))) {
-            write(ImageName.of(scope, "north", "weeding", "c", Pictures.TIME));
+            write(ImageName.of(scope, "north", "weeding", "c", TIME));
         }
-        write(ImageName.of(new FiwareScope("farm", "/"), "north", "", "c", Pictures.TIME));
+        write(ImageName.of(new FiwareScope("farm", "/"), "north", "", "c", TIME));
 
         assertThat(ImageUsage.of(new org.apache.flink.core.fs.Path("file://" + folder)))
                 .containsExactlyInAnyOrder(
@@ -32,7 +31,7 @@ class ImageUsageTest {
     }
 
     private void write(ImageName name) throws Exception {
-        Path file = folder.resolve(name.path(ImageFormat.PNG));
+        Path file = folder.resolve(name.path("png"));
         Files.createDirectories(file.getParent());
         Files.write(file, new byte[10]);
     }

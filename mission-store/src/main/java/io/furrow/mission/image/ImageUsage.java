@@ -1,4 +1,4 @@
-package io.furrow.ingest.image.store;
+package io.furrow.mission.image;
 
 import java.io.FileNotFoundException;
 import java.io.IOException;
@@ -10,8 +10,6 @@ import java.util.regex.Pattern;
 import org.apache.flink.core.fs.FileStatus;
 import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.Path;
-
-import io.furrow.ingest.image.ImageName;
 
 /**
  * The images of one domain and mission, of all tenants, that a folder holds at this moment.

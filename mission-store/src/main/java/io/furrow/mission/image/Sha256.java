@@ -1,4 +1,4 @@
-package io.furrow.ingest.image;
+package io.furrow.mission.image;
 
 import java.security.MessageDigest;
 import java.security.NoSuchAlgorithmException;

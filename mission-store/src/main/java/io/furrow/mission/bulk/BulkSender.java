@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission.bulk;
 
 import java.io.IOException;
 import java.util.ArrayList;
@@ -43,7 +43,7 @@ import io.furrow.mission.mongo.MongoAccess;
  * found and given back, the rest is written; while the server is unavailable the rest is tried again. What it does not take for a
  * reason that is not known to be the document's is tried again for long, before it counts as refused.
  */
-final class BulkSender implements AutoCloseable {
+public final class BulkSender<D extends EventDocument> implements AutoCloseable {
     private static final BulkWriteOptions UNORDERED = new BulkWriteOptions().ordered(false);
     /** A server that breaks off as often at the same documents, and answers in between, does so because of them. */
     private static final int BREAKS = 3;
@@ -66,44 +66,44 @@ final class BulkSender implements AutoCloseable {
     private final ExecutorService threads = threads();
 
     /** @param retried is called with how many documents are sent once more */
-    BulkSender(MissionCollections collections, MongoAccess.Waits waits, LongConsumer retried) {
+    public BulkSender(MissionCollections collections, MongoAccess.Waits waits, LongConsumer retried) {
         this.collections = collections;
         this.waits = waits;
         this.retried = retried;
     }
 
     /** A document that the server does not take, and why. */
-    record Refusal(MissionDocument document, String reason) {}
+    public record Refusal<D extends EventDocument>(D document, String reason) {}
 
     /**
      * Returns when the server has every document that it takes.
      *
      * @throws IOException if it was unavailable too long, or takes nothing under these settings
      */
-    List<Refusal> send(List<MissionDocument> documents) throws IOException, InterruptedException {
-        Map<String, List<MissionDocument>> byCollection = new LinkedHashMap<>();
-        for (MissionDocument document : documents) {
+    public List<Refusal<D>> send(List<D> documents) throws IOException, InterruptedException {
+        Map<String, List<D>> byCollection = new LinkedHashMap<>();
+        for (D document : documents) {
             byCollection
                     .computeIfAbsent(document.collection(), ignored -> new ArrayList<>())
                     .add(document);
         }
         Doubt doubt = new Doubt(waits.unknown(), learned); // one for all: a checkpoint waits for them together
-        List<Refusal> refused = send(byCollection, doubt);
+        List<Refusal<D>> refused = send(byCollection, doubt);
         judge(byCollection.keySet(), documents.size(), refused.size(), doubt);
         return refused;
     }
 
-    private List<Refusal> send(Map<String, List<MissionDocument>> byCollection, Doubt doubt)
+    private List<Refusal<D>> send(Map<String, List<D>> byCollection, Doubt doubt)
             throws IOException, InterruptedException {
-        List<Future<List<Refusal>>> answers = new ArrayList<>();
+        List<Future<List<Refusal<D>>>> answers = new ArrayList<>();
         byCollection.forEach((collection, documents) -> answers.add(threads.submit(() -> {
-            List<Refusal> refused = new ArrayList<>();
+            List<Refusal<D>> refused = new ArrayList<>();
             send(collection, documents, doubt, refused);
             return refused;
         })));
-        List<Refusal> refused = new ArrayList<>();
+        List<Refusal<D>> refused = new ArrayList<>();
         try {
-            for (Future<List<Refusal>> answer : answers) {
+            for (Future<List<Refusal<D>>> answer : answers) {
                 refused.addAll(answer.get());
             }
             return refused;
@@ -131,10 +131,10 @@ final class BulkSender implements AutoCloseable {
         }
     }
 
-    private void send(String collection, List<MissionDocument> documents, Doubt doubt, List<Refusal> refused)
+    private void send(String collection, List<D> documents, Doubt doubt, List<Refusal<D>> refused)
             throws IOException, InterruptedException {
         RetryTimer left = new RetryTimer(waits.away());
-        List<MissionDocument> open = documents;
+        List<D> open = documents;
         int breaks = 0;
         while (!open.isEmpty()) {
             boolean prepared = false;
@@ -144,7 +144,7 @@ final class BulkSender implements AutoCloseable {
                 target.bulkWrite(upserts(open), UNORDERED);
                 return;
             } catch (MongoBulkWriteException e) {
-                Answer answer = read(e, open, doubt, refused);
+                Answer<D> answer = read(e, open, doubt, refused);
                 boolean progressed = answer.open().size() < open.size();
                 open = answer.open();
                 if (!open.isEmpty()) {
@@ -210,10 +210,10 @@ final class BulkSender implements AutoCloseable {
 
     /** One of several was refused, and with it all: halves are tried until it stands alone. */
     private void findRefused(
-            String collection, List<MissionDocument> documents, Exception why, Doubt doubt, List<Refusal> refused)
+            String collection, List<D> documents, Exception why, Doubt doubt, List<Refusal<D>> refused)
             throws IOException, InterruptedException {
         if (documents.size() == 1) {
-            refused.add(new Refusal(documents.get(0), why.getMessage()));
+            refused.add(new Refusal<>(documents.get(0), why.getMessage()));
             return;
         }
         int half = documents.size() / 2;
@@ -227,17 +227,17 @@ final class BulkSender implements AutoCloseable {
      * @param open worth another attempt
      * @param isAway whether some of it is so because the server is unavailable
      */
-    private record Answer(List<MissionDocument> open, boolean isAway) {}
+    private record Answer<D>(List<D> open, boolean isAway) {}
 
     /** Where the write concern was not met, all is worth another attempt. */
-    private Answer read(MongoBulkWriteException e, List<MissionDocument> sent, Doubt doubt, List<Refusal> refused)
+    private Answer<D> read(MongoBulkWriteException e, List<D> sent, Doubt doubt, List<Refusal<D>> refused)
             throws IOException {
         boolean unsure = e.getWriteConcernError() != null;
         boolean away = unsure;
         boolean attempted = false;
-        List<MissionDocument> open = new ArrayList<>(unsure ? sent : List.of());
+        List<D> open = new ArrayList<>(unsure ? sent : List.of());
         for (BulkWriteError error : e.getWriteErrors()) {
-            MissionDocument document = sent.get(error.getIndex());
+            D document = sent.get(error.getIndex());
             MongoFailure failure = MongoFailure.of(error.getCode(), error.getMessage());
             if (failure == MongoFailure.SETTING) {
                 throw wrongSetting(e);
@@ -251,7 +251,7 @@ final class BulkSender implements AutoCloseable {
                 doubt.giveUp(error.getCode());
             }
             if (givenUp || failure == MongoFailure.REFUSED) {
-                refused.add(new Refusal(document, error.getMessage()));
+                refused.add(new Refusal<>(document, error.getMessage()));
                 open.remove(document);
             } else {
                 away |= failure == MongoFailure.AWAY;
@@ -260,7 +260,7 @@ final class BulkSender implements AutoCloseable {
                 }
             }
         }
-        return new Answer(open, away);
+        return new Answer<>(open, away);
     }
 
     private void doubt(String collection, int code, String message, Doubt doubt) {
@@ -281,9 +281,9 @@ final class BulkSender implements AutoCloseable {
                 e);
     }
 
-    private static List<WriteModel<RawBsonDocument>> upserts(List<MissionDocument> documents) {
+    private static List<WriteModel<RawBsonDocument>> upserts(List<? extends EventDocument> documents) {
         List<WriteModel<RawBsonDocument>> upserts = new ArrayList<>(documents.size());
-        for (MissionDocument document : documents) {
+        for (EventDocument document : documents) {
             upserts.add(new ReplaceOneModel<>(
                     Filters.eq(EventDocumentCodec.ID, document.id()), new RawBsonDocument(document.bson()), UPSERT));
         }

@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission.archive;
 
 import java.io.BufferedOutputStream;
 import java.io.FilterOutputStream;
