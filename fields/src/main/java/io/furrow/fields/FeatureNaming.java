@@ -11,6 +11,8 @@ import com.fasterxml.jackson.databind.node.MissingNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.field.FieldVersion;
+import io.furrow.model.field.ImportOptions;
+import io.furrow.model.field.UnusableFileException;
 
 /** Derives the id, name and domain of a field from the attributes of its feature. */
 final class FeatureNaming {

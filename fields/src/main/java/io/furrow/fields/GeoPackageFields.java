@@ -13,6 +13,7 @@ import java.util.List;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.field.UnusableFileException;
 import io.furrow.model.text.FailureText;
 
 /**

@@ -19,6 +19,7 @@ import org.geotools.referencing.operation.transform.ConcatenatedTransform;
 import org.geotools.referencing.operation.transform.IdentityTransform;
 import org.locationtech.jts.geom.Coordinate;
 
+import io.furrow.model.field.UnusableFileException;
 import io.furrow.model.text.FailureText;
 
 /**

@@ -11,6 +11,7 @@ import java.util.List;
 import org.locationtech.jts.algorithm.Orientation;
 import org.locationtech.jts.geom.Coordinate;
 
+import io.furrow.model.field.UnusableFileException;
 import io.furrow.model.text.Counts;
 
 /** Reads the main file of a Shapefile (.shp), as specified by "ESRI Shapefile Technical Description", July 1998. */

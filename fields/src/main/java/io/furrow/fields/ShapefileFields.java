@@ -20,6 +20,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.linuxense.javadbf.DBFException;
 import com.linuxense.javadbf.DBFReader;
 
+import io.furrow.model.field.UnusableFileException;
 import io.furrow.model.text.FailureText;
 
 /**

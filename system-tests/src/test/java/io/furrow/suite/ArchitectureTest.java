@@ -42,9 +42,9 @@ class ArchitectureTest {
                     io.furrow.analytics  | io.furrow.model, io.furrow.flink
                     io.furrow.replay     | io.furrow.model, io.furrow.kafka, io.furrow.flink, io.furrow.mission
                     io.furrow.kafka      | io.furrow.model
-                    io.furrow.fields     | io.furrow.model, io.furrow.kafka
+                    io.furrow.fields     | io.furrow.model
                     io.furrow.provisioner | io.furrow.model, io.furrow.kafka
-                    io.furrow.control    | io.furrow.model, io.furrow.http, io.furrow.kafka, io.furrow.mission, io.furrow.fields
+                    io.furrow.control    | io.furrow.model, io.furrow.http, io.furrow.kafka, io.furrow.mission
                     io.furrow.dashboard  | io.furrow.model, io.furrow.http, io.furrow.kafka
                     io.furrow.fiware     | io.furrow.model, io.furrow.http
                     io.furrow.simulators | io.furrow.model, io.furrow.kafka

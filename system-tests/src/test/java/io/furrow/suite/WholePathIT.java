@@ -11,7 +11,7 @@ import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.fields.FieldsTopic;
+import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.launcher.command.DemoFarm;
 import io.furrow.mission.archive.StoredMissions;
 import io.furrow.model.event.HeaderNames;

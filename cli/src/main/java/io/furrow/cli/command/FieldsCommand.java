@@ -21,7 +21,7 @@ import io.furrow.cli.field.FieldReport;
 import io.furrow.cli.field.FieldsOptions;
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.CommandGroup;
-import io.furrow.fields.FieldChange;
+import io.furrow.kafka.field.FieldChange;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 

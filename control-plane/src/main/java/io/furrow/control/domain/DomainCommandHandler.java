@@ -7,7 +7,7 @@ import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.Records;
 import io.furrow.control.manager.Sequence;
-import io.furrow.fields.FieldEdit;
+import io.furrow.kafka.field.FieldEdit;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.ErrorCode;

@@ -12,9 +12,9 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.cli.option.CommandException;
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.fields.FieldChange;
-import io.furrow.fields.FieldsTopic;
 import io.furrow.http.AllowedNames;
+import io.furrow.kafka.field.FieldChange;
+import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 

@@ -1,4 +1,4 @@
-package io.furrow.fields;
+package io.furrow.model.field;
 
 import java.time.Instant;
 

@@ -1,4 +1,4 @@
-package io.furrow.fields;
+package io.furrow.model.field;
 
 /**
  * A feature that was rejected.

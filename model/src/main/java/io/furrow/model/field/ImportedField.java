@@ -1,8 +1,6 @@
-package io.furrow.fields;
+package io.furrow.model.field;
 
 import java.util.List;
-
-import io.furrow.model.field.FieldVersion;
 
 /**
  * A feature that became a field.
@@ -10,7 +8,8 @@ import io.furrow.model.field.FieldVersion;
  * @param number of the feature in the file, from 1
  * @param hectares on the ellipsoid
  * @param notes repairs, as text; empty if none
- * @param edgeErrorMeters see {@link MendedArea}
+ * @param edgeErrorMeters maximum deviation of an edge that is straight in the file from the straight edge in longitude and
+ *     latitude
  */
 public record ImportedField(
         int number, FieldVersion version, double hectares, List<String> notes, double edgeErrorMeters) {}

@@ -1,4 +1,4 @@
-package io.furrow.fields;
+package io.furrow.kafka.field;
 
 import java.util.List;
 

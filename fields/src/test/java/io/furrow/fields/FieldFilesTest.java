@@ -19,6 +19,10 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
+import io.furrow.model.field.FieldFile;
+import io.furrow.model.field.ImportOptions;
+import io.furrow.model.field.ImportedField;
+import io.furrow.model.field.UnusableFileException;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -26,7 +30,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
 /** Files made by GDAL, see {@code make.sh} beside them: its positions are what ours are compared with. */
-public class FieldFileTest {
+public class FieldFilesTest {
     public static final ImportOptions PLAIN = new ImportOptions(null, null, null, null, null, Instant.EPOCH);
     private static final double METERS_PER_DEGREE = 111_195;
 
@@ -57,7 +61,7 @@ public class FieldFileTest {
         "geojson-23030.geojson,  farm.geojson,    15",
     })
     void putsFieldsWhereGdalPutsThem(String file, String expected, double meters) throws Exception {
-        FieldFile read = FieldFile.read(resource(file), named("code"));
+        FieldFile read = FieldFiles.read(resource(file), named("code"));
 
         assertThat(read.refused()).isEmpty();
         assertThat(read.fields()).extracting(field -> field.version().id()).containsExactly("north-1", "south-2");
@@ -80,7 +84,7 @@ public class FieldFileTest {
     /** By pyproj 3.4.1: Geod(ellps="WGS84").polygon_area_perimeter of the rings. */
     @Test
     void knowsTheAreaOnTheEllipsoid() throws Exception {
-        FieldFile read = FieldFile.read(resource("shapefile-25830.shp"), named("code"));
+        FieldFile read = FieldFiles.read(resource("shapefile-25830.shp"), named("code"));
 
         assertThat(read.fields().get(0).hectares()).isCloseTo(4.908080321, within(1e-4));
         assertThat(read.fields().get(1).hectares()).isCloseTo(1.604647905, within(1e-4));
@@ -92,7 +96,7 @@ public class FieldFileTest {
     @CsvSource({"shapefile-25830.shp", "shapefile-4326.shp", "geopackage-25830.gpkg", "farm.geojson"})
     void takesNamesAndAttributes(String file) throws Exception {
         ImportOptions options = new ImportOptions(null, null, "code", null, null, Instant.ofEpochMilli(7));
-        FieldFile read = FieldFile.read(resource(file), options);
+        FieldFile read = FieldFiles.read(resource(file), options);
 
         ImportedField north = read.fields().get(0);
         assertThat(north.version().key()).isEqualTo("north-1@1970-01-01T00:00:00.007Z");
@@ -102,14 +106,14 @@ public class FieldFileTest {
         assertThat(north.version().properties().path("crop").asText()).isEqualTo("maize");
 
         ImportOptions chosen = new ImportOptions(null, null, "code", "crop", "other", Instant.EPOCH);
-        ImportedField renamed = FieldFile.read(resource(file), chosen).fields().get(0);
+        ImportedField renamed = FieldFiles.read(resource(file), chosen).fields().get(0);
         assertThat(renamed.version().name()).isEqualTo("maize");
         assertThat(renamed.version().domain()).isEqualTo("other");
     }
 
     @Test
     void saysThatHeightsAreLeftOut() throws Exception {
-        FieldFile read = FieldFile.read(resource("shapefile-heights.shp"), named("code"));
+        FieldFile read = FieldFiles.read(resource("shapefile-heights.shp"), named("code"));
 
         assertThat(read.fields()).allSatisfy(field -> assertThat(field.notes()).containsExactly("left out heights"));
     }
@@ -118,11 +122,11 @@ public class FieldFileTest {
     void choosesALayer() throws Exception {
         Path file = resource("geopackage-layers.gpkg");
 
-        assertThatThrownBy(() -> FieldFile.read(file, PLAIN))
+        assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
                 .isInstanceOf(UnusableFileException.class)
                 .hasMessageContaining("[fields, more]")
                 .hasMessageContaining("--layer");
-        FieldFile more = FieldFile.read(file, new ImportOptions("more", null, "code", null, null, Instant.EPOCH));
+        FieldFile more = FieldFiles.read(file, new ImportOptions("more", null, "code", null, null, Instant.EPOCH));
         assertThat(more.crs()).contains("UTM zone 30N");
         assertThat(more.fields()).hasSize(2);
     }
@@ -132,16 +136,16 @@ public class FieldFileTest {
         Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("bare.SHP"));
         Files.copy(resource("shapefile-25830.dbf"), folder.resolve("bare.DBF"));
 
-        assertThatThrownBy(() -> FieldFile.read(shp, named("code")))
+        assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
                 .isInstanceOf(UnusableFileException.class)
                 .hasMessageContaining("--crs EPSG:25830");
         for (String crs :
                 List.of("EPSG:25830", "urn:ogc:def:crs:EPSG::25830", "http://www.opengis.net/def/crs/EPSG/0/25830")) {
             ImportOptions options = new ImportOptions(null, crs, "code", null, null, Instant.EPOCH);
-            assertThat(FieldFile.read(shp, options).fields()).hasSize(2);
+            assertThat(FieldFiles.read(shp, options).fields()).hasSize(2);
         }
         ImportOptions wrong = new ImportOptions(null, "EPSG:99999", "code", null, null, Instant.EPOCH);
-        assertThatThrownBy(() -> FieldFile.read(shp, wrong))
+        assertThatThrownBy(() -> FieldFiles.read(shp, wrong))
                 .hasMessageContaining("'EPSG:99999' is not a known coordinate system");
     }
 
@@ -198,7 +202,7 @@ public class FieldFileTest {
             Files.writeString(folder.resolve("coded.cpg"), cpg.replace('¶', '\n'));
         }
 
-        FieldFile read = FieldFile.read(shp, named("code"));
+        FieldFile read = FieldFiles.read(shp, named("code"));
 
         assertThat(read.fields().get(0).version().name()).isEqualTo(name);
         if (assumed == null) {
@@ -213,7 +217,7 @@ public class FieldFileTest {
     void saysWhatToDoWithAFeaturePerLine() throws Exception {
         Path file = Files.writeString(folder.resolve("x.geojsonl"), "{\"type\":\"Feature\"}\n{\"type\":\"Feature\"}\n");
 
-        assertThatThrownBy(() -> FieldFile.read(file, PLAIN))
+        assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
                 .isInstanceOf(UnusableFileException.class)
                 .hasMessageEndingWith(
                         "is not JSON (more than one JSON document at line 2, column 1); put the features into one FeatureCollection");
@@ -225,7 +229,7 @@ public class FieldFileTest {
         Files.copy(resource("shapefile-25830.dbf"), folder.resolve("coded.dbf"));
         Files.writeString(folder.resolve("coded.cpg"), "Klingon");
 
-        assertThatThrownBy(() -> FieldFile.read(shp, named("code")))
+        assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
                 .isInstanceOf(UnusableFileException.class)
                 .hasMessageContaining("names the unknown code page 'Klingon'; write into it");
     }
@@ -240,7 +244,7 @@ public class FieldFileTest {
                 folder.resolve("north.prj"),
                 prj.replaceFirst("]\\s*$", ",AXIS[\"Northing\",NORTH],AXIS[\"Easting\",EAST]]"));
 
-        FieldFile read = FieldFile.read(shp, named("code"));
+        FieldFile read = FieldFiles.read(shp, named("code"));
 
         double[] corner = corners(read.fields().get(0).version().geometry()).get(0);
         assertThat(apart(corner, new double[] {-3.4840, 40.3130})).isLessThan(400);
@@ -257,7 +261,7 @@ public class FieldFileTest {
         Files.copy(resource("shapefile-25830.dbf"), folder.resolve("lost.dbf"));
         Files.writeString(folder.resolve("lost.prj"), prj);
 
-        assertThatThrownBy(() -> FieldFile.read(shp, named("code")))
+        assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
                 .isInstanceOf(UnusableFileException.class)
                 .hasMessageContaining("is not a known coordinate system")
                 .hasMessageContaining("--crs");
@@ -271,7 +275,7 @@ public class FieldFileTest {
             statement.execute("PRAGMA journal_mode=WAL");
             statement.execute("UPDATE fields SET name = 'changed'");
 
-            assertThat(FieldFile.read(file, PLAIN).fields())
+            assertThat(FieldFiles.read(file, PLAIN).fields())
                     .allSatisfy(field -> assertThat(field.version().name()).isEqualTo("changed"));
         }
     }
@@ -281,7 +285,7 @@ public class FieldFileTest {
         Path file = Files.writeString(
                 folder.resolve("marked.geojson"), "\ufeff" + Files.readString(resource("farm.geojson")));
 
-        assertThat(FieldFile.read(file, PLAIN).fields()).isNotEmpty();
+        assertThat(FieldFiles.read(file, PLAIN).fields()).isNotEmpty();
     }
 
     @Test
@@ -289,23 +293,23 @@ public class FieldFileTest {
         assertUnusable("x", "neither GeoJSON nor a Shapefile");
         assertUnusable("{", "is not JSON");
         assertUnusable("{\"type\": \"Topology\"}", "not a GeoJSON FeatureCollection");
-        assertThatThrownBy(() -> FieldFile.read(folder.resolve("missing"), PLAIN))
+        assertThatThrownBy(() -> FieldFiles.read(folder.resolve("missing"), PLAIN))
                 .hasMessageContaining("cannot be read");
-        assertThatThrownBy(() -> FieldFile.read(resource("farm.geojson"), named("cod")))
+        assertThatThrownBy(() -> FieldFiles.read(resource("farm.geojson"), named("cod")))
                 .hasMessageContaining("--id-property cod: no feature of")
                 .hasMessageContaining("[Domain, code, crop, height, name]");
         byte[] shp = Files.readAllBytes(resource("shapefile-25830.shp"));
         Path broken = Files.write(folder.resolve("broken.shp"), Arrays.copyOf(shp, shp.length - 40));
-        assertThatThrownBy(() -> FieldFile.read(broken, PLAIN)).hasMessageContaining("is truncated in record 2");
+        assertThatThrownBy(() -> FieldFiles.read(broken, PLAIN)).hasMessageContaining("is truncated in record 2");
         Path gpkg = Files.write(
                 folder.resolve("broken.gpkg"),
                 Arrays.copyOf(Files.readAllBytes(resource("geopackage-25830.gpkg")), 3000));
-        assertThatThrownBy(() -> FieldFile.read(gpkg, PLAIN)).hasMessageContaining("is not a readable GeoPackage");
+        assertThatThrownBy(() -> FieldFiles.read(gpkg, PLAIN)).hasMessageContaining("is not a readable GeoPackage");
     }
 
     private void assertUnusable(String content, String message) throws IOException {
         Path file = Files.writeString(folder.resolve("file"), content, StandardCharsets.UTF_8);
-        assertThatThrownBy(() -> FieldFile.read(file, PLAIN))
+        assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
                 .isInstanceOf(UnusableFileException.class)
                 .hasMessageContaining(message);
     }
@@ -315,7 +319,7 @@ public class FieldFileTest {
     }
 
     static Path resource(String name) {
-        return Path.of(FieldFileTest.class.getResource(name).getPath());
+        return Path.of(FieldFilesTest.class.getResource(name).getPath());
     }
 
     private static double apart(double[] one, double[] other) {

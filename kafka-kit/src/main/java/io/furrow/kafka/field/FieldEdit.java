@@ -1,4 +1,4 @@
-package io.furrow.fields;
+package io.furrow.kafka.field;
 
 import java.time.Instant;
 import java.util.ArrayList;
@@ -21,6 +21,7 @@ import io.furrow.model.field.FieldVersion;
  */
 public record FieldEdit(List<FieldVersion> written, List<String> removed) {
     private static final int MAX_NAMED = 20;
+    private static final int MAX_QUOTE_LENGTH = 60;
 
     /**
      * Ends a field. Versions that begin later are taken back: else the field would come back with them.
@@ -86,7 +87,7 @@ public record FieldEdit(List<FieldVersion> written, List<String> removed) {
                 ErrorCode.UNKNOWN_FIELD,
                 "there is no field '%s'; there %s"
                         .formatted(
-                                Words.shortened(id),
+                                id.length() <= MAX_QUOTE_LENGTH ? id : id.substring(0, MAX_QUOTE_LENGTH) + "…",
                                 ids.isEmpty()
                                         ? "is none"
                                         : "are: " + String.join(", ", ids.subList(0, Math.min(MAX_NAMED, ids.size())))

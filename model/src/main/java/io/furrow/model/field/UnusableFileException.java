@@ -1,4 +1,4 @@
-package io.furrow.fields;
+package io.furrow.model.field;
 
 import java.io.IOException;
 import java.nio.file.Path;
@@ -9,15 +9,15 @@ import io.furrow.model.file.FileProblem;
 public final class UnusableFileException extends Exception {
     private static final long serialVersionUID = 1L;
 
-    UnusableFileException(String message) {
+    public UnusableFileException(String message) {
         super(message);
     }
 
-    UnusableFileException(Path file, IOException cause) {
+    public UnusableFileException(Path file, IOException cause) {
         super("%s cannot be read: %s; name a readable file".formatted(file, FileProblem.of(cause)), cause);
     }
 
-    UnusableFileException(String message, Throwable cause) {
+    public UnusableFileException(String message, Throwable cause) {
         super(message, cause);
     }
 }

@@ -10,20 +10,17 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 
-/**
- * The content of a field file: each feature is either imported as a field or rejected with a reason.
- *
- * @param crs name of the coordinate system that the file is in
- * @param accuracyMeters of the transformation to WGS 84, as specified by EPSG; NaN if unspecified
- * @param notes remarks on the file as a whole
- */
-public record FieldFile(
-        String crs,
-        double accuracyMeters,
-        List<ImportedField> fields,
-        List<RefusedFeature> refused,
-        List<String> notes) {
+import io.furrow.model.field.FieldFile;
+import io.furrow.model.field.ImportOptions;
+import io.furrow.model.field.ImportedField;
+import io.furrow.model.field.RefusedFeature;
+import io.furrow.model.field.UnusableFileException;
+
+/** Reads the fields of files: GeoJSON, Shapefiles and GeoPackages, in any coordinate system that GeoTools knows. */
+public final class FieldFiles {
     private static final int FIRST_BYTES = 16;
+
+    private FieldFiles() {}
 
     /** Reads GeoJSON, a Shapefile or a GeoPackage, detected by the first bytes. */
     public static FieldFile read(Path file, ImportOptions options) throws UnusableFileException {
