@@ -71,7 +71,9 @@ class PurgeImagesTest {
     }
 
     private String store(String entity, long time, int bytes) throws Exception {
-        String name = ImageName.of(FiwareScope.DEFAULT, "north", "m", entity, time).path("png");
+        ImageName image = ImageName.of(FiwareScope.DEFAULT, "north", "m", entity, time);
+        boolean taken = Files.exists(folder.resolve(image.path("png")));
+        String name = taken ? image.path("png", "a".repeat(64)) : image.path("png");
         Files.createDirectories(folder.resolve(name).getParent());
         Files.write(folder.resolve(name), new byte[bytes]);
         return name;

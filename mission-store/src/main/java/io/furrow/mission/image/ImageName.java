@@ -47,7 +47,7 @@ public record ImageName(String folder, String file) {
     }
 
     /** Whether a folder is that of a tenant or service path, with the folders of domains in it. */
-    public static boolean isScope(String folder) {
+    static boolean isScope(String folder) {
         return folder.startsWith(TENANT) || folder.startsWith(SERVICE_PATH);
     }
 
