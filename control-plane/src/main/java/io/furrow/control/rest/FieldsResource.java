@@ -218,8 +218,7 @@ public final class FieldsResource {
         return new ProblemException(503, "kafka-away", cause.getMessage());
     }
 
-    private FieldFile read(byte[] bytes, String domain, MultivaluedMap<String, String> options)
-            throws IOException {
+    private FieldFile read(byte[] bytes, String domain, MultivaluedMap<String, String> options) throws IOException {
         Path folder = Files.createTempDirectory("furrow-fields");
         Path file = folder.resolve("fields");
         try {

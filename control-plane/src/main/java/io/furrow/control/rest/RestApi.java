@@ -94,8 +94,8 @@ public final class RestApi implements AutoCloseable {
      * @throws IOException if the topics cannot be prepared, the farm has another secret, tokens or certificate cannot be
      *     read, or the port is taken
      */
-    public static RestApi start(
-            ControlSettings control, RestSettings rest, Readiness readiness, FieldReader fields) throws IOException {
+    public static RestApi start(ControlSettings control, RestSettings rest, Readiness readiness, FieldReader fields)
+            throws IOException {
         rest.check();
         BearerTokens tokens = rest.tokens() == null ? null : BearerTokens.read(rest.tokens());
         TlsListener tls = rest.certificate() == null ? null : TlsListener.open(rest.certificate());

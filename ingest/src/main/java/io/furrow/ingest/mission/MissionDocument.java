@@ -9,5 +9,4 @@ import io.furrow.mission.bulk.EventDocument;
  * @param bson all of it, {@code _id} included
  * @param event what it was made of, for the dead letter if the server refuses it
  */
-public record MissionDocument(String collection, String id, byte[] bson, MissionEvent event)
-        implements EventDocument {}
+public record MissionDocument(String collection, String id, byte[] bson, MissionEvent event) implements EventDocument {}

@@ -168,7 +168,8 @@ class AnyMongoTest {
     }
 
     private List<BulkSender.Refusal<MissionDocument>> send(List<MissionDocument> documents) throws Exception {
-        return new BulkSender<MissionDocument>(collections, MongoAccess.Waits.of(Duration.ofSeconds(5)), ignored -> {}).send(documents);
+        return new BulkSender<MissionDocument>(collections, MongoAccess.Waits.of(Duration.ofSeconds(5)), ignored -> {})
+                .send(documents);
     }
 
     private static byte[] exported(StoredMissions missions, String name) throws IOException {

@@ -104,7 +104,8 @@ class BulkSenderTest {
                 .get("mission_m")
                 .createIndex(Indexes.ascending("Temperature.value"), new IndexOptions().unique(true));
 
-        List<BulkSender.Refusal<MissionDocument>> refused = sender().send(documents(1, 60)); // 40 different temperatures
+        List<BulkSender.Refusal<MissionDocument>> refused =
+                sender().send(documents(1, 60)); // 40 different temperatures
 
         assertThat(ids()).hasSize(40);
         assertThat(refused).hasSize(20).allSatisfy(refusal -> {

@@ -245,7 +245,8 @@ class MissionArchiveTest {
         for (MissionEvent event : events) {
             documents.add(ComposeDocuments.compose(event));
         }
-        assertThat(new BulkSender<MissionDocument>(collections, MongoAccess.Waits.of(Duration.ofSeconds(5)), ignored -> {})
+        assertThat(new BulkSender<MissionDocument>(
+                                collections, MongoAccess.Waits.of(Duration.ofSeconds(5)), ignored -> {})
                         .send(documents))
                 .isEmpty();
     }

@@ -209,8 +209,7 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
     }
 
     /** One of several was refused, and with it all: halves are tried until it stands alone. */
-    private void findRefused(
-            String collection, List<D> documents, Exception why, Doubt doubt, List<Refusal<D>> refused)
+    private void findRefused(String collection, List<D> documents, Exception why, Doubt doubt, List<Refusal<D>> refused)
             throws IOException, InterruptedException {
         if (documents.size() == 1) {
             refused.add(new Refusal<>(documents.get(0), why.getMessage()));

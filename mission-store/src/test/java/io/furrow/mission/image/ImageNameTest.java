@@ -20,8 +20,7 @@ class ImageNameTest {
         ImageName name = ImageName.of(FiwareScope.DEFAULT, "north", "weeding", "Camera-1", 1_700_000_000_123L);
 
         assertThat(name.path("png")).isEqualTo("north/weeding/Camera-1/Camera-1_20231114221320123.png");
-        assertThat(name.path("jpg", "abc"))
-                .isEqualTo("north/weeding/Camera-1/Camera-1_20231114221320123-abc.jpg");
+        assertThat(name.path("jpg", "abc")).isEqualTo("north/weeding/Camera-1/Camera-1_20231114221320123-abc.jpg");
     }
 
     @ParameterizedTest
@@ -70,8 +69,7 @@ class ImageNameTest {
     void fitsIntoAFileNameHoweverLongTheEntityId() {
         ImageName name = ImageName.of(FiwareScope.DEFAULT, "d", "m", "c".repeat(120), TIME);
 
-        assertThat(name.path("jpg", "f".repeat(64)).replaceAll(".*/", ""))
-                .hasSizeLessThanOrEqualTo(255);
+        assertThat(name.path("jpg", "f".repeat(64)).replaceAll(".*/", "")).hasSizeLessThanOrEqualTo(255);
     }
 
     @Test

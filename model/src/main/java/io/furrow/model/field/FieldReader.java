@@ -6,7 +6,8 @@ import java.nio.file.Path;
 public interface FieldReader {
     /** For a process without these libraries. */
     FieldReader NONE = (file, options) -> {
-        throw new UnusableFileException("no field files are read here; import %s with ./furrow fields import".formatted(file));
+        throw new UnusableFileException(
+                "no field files are read here; import %s with ./furrow fields import".formatted(file));
     };
 
     /** @throws UnusableFileException if the file cannot be read at all */

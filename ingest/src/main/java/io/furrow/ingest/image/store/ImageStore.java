@@ -22,7 +22,8 @@ public interface ImageStore {
             case ALL -> ImageFiles.in(root);
             case FOR_OTHERS -> ImageFiles.in(root)::storeByHash;
             case BY_OTHERS ->
-                (name, image) -> StoredImage.of(root + "/" + name.path(image.format().extension(), image.sha256()), image);
+                (name, image) ->
+                        StoredImage.of(root + "/" + name.path(image.format().extension(), image.sha256()), image);
         };
     }
 }
