@@ -15,6 +15,7 @@ import io.furrow.cli.control.DeviceCommand;
 import io.furrow.cli.control.DomainCommand;
 import io.furrow.cli.control.ReplayCommand;
 import io.furrow.cli.control.TemplateCommand;
+import io.furrow.cli.option.CommandException;
 import io.furrow.flink.job.JobCommandLine;
 
 /** The commands that start nothing: they use the control plane, Kafka and stored missions wherever these run. */

@@ -29,7 +29,7 @@ import picocli.CommandLine.Model.CommandSpec;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.embedded.FreePort;
-import io.furrow.ingest.mission.StoredMissions;
+import io.furrow.mission.archive.StoredMissions;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static java.nio.charset.StandardCharsets.UTF_8;

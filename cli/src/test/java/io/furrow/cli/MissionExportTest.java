@@ -13,7 +13,7 @@ import picocli.CommandLine;
 import picocli.CommandLine.Model.CommandSpec;
 
 import io.furrow.embedded.EmbeddedMongo;
-import io.furrow.ingest.mission.StoredMissions;
+import io.furrow.mission.archive.StoredMissions;
 import io.furrow.mission.marker.Marker;
 import io.furrow.mission.marker.Markers;
 import io.furrow.mission.mongo.MongoAccess;

@@ -8,7 +8,7 @@ import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.Topology;
 
 import io.furrow.control.domain.DomainManager;
-import io.furrow.control.manager.record.StoredRecords;
+import io.furrow.control.manager.StoredRecords;
 import io.furrow.control.mission.MissionManager;
 import io.furrow.control.mission.MissionOptions;
 import io.furrow.control.replay.ReplayManager;

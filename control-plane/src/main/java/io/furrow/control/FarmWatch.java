@@ -6,7 +6,7 @@ import java.util.Properties;
 
 import org.apache.kafka.streams.StreamsConfig;
 
-import io.furrow.control.alarm.AlarmActions;
+import io.furrow.control.alarm.action.AlarmActions;
 import io.furrow.kafka.PartStatus;
 
 /**

@@ -16,6 +16,7 @@ import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.util.Callback;
 
+import io.furrow.dashboard.http.Problem;
 import io.furrow.model.text.FailureText;
 
 /**

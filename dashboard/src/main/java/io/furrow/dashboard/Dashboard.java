@@ -28,6 +28,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.dashboard.auth.ProxyHeaders;
 import io.furrow.dashboard.auth.Users;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.dashboard.image.ImageIndex;
 import io.furrow.dashboard.image.ImageServlet;
 import io.furrow.dashboard.page.ConfigServlet;

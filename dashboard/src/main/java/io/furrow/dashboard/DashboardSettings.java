@@ -4,9 +4,9 @@ import java.net.URI;
 import java.util.Properties;
 
 import io.furrow.dashboard.auth.TrustedProxy;
+import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.page.PageSettings;
-import io.furrow.dashboard.proxy.ProxyLimits;
 import io.furrow.http.AllowedNames;
 
 /**
@@ -23,7 +23,7 @@ public record DashboardSettings(
         Properties client,
         URI controlPlane,
         TopicRules rules,
-        ProxyLimits limits,
+        StreamLimits limits,
         AllowedNames allowed,
         PageSettings page,
         TrustedProxy proxy) {
@@ -35,7 +35,7 @@ public record DashboardSettings(
                 client,
                 controlPlane,
                 TopicRules.DEFAULT,
-                ProxyLimits.DEFAULT,
+                StreamLimits.DEFAULT,
                 AllowedNames.NONE,
                 PageSettings.DEFAULT,
                 null);
@@ -49,7 +49,7 @@ public record DashboardSettings(
         return new DashboardSettings(host, port, client, controlPlane, topics, limits, allowed, page, proxy);
     }
 
-    public DashboardSettings withLimits(ProxyLimits of) {
+    public DashboardSettings withLimits(StreamLimits of) {
         return new DashboardSettings(host, port, client, controlPlane, rules, of, allowed, page, proxy);
     }
 

@@ -33,6 +33,7 @@ import org.apache.kafka.clients.consumer.OffsetAndMetadata;
 import org.apache.kafka.common.TopicPartition;
 
 import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.dashboard.proxy.TopicStreams;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;

@@ -16,6 +16,8 @@ import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.util.Callback;
 
+import io.furrow.dashboard.http.Problem;
+
 /**
  * Runs requests that may wait for Kafka or the control plane on threads of their own, so that the server's threads
  * stay free for all others. At most {@value #THREADS} are answered at once and {@value #WAITING} wait; more are

@@ -33,7 +33,7 @@ import io.furrow.control.ControlSettings;
 import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
-import io.furrow.dashboard.proxy.ProxyLimits;
+import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
@@ -181,9 +181,9 @@ abstract class DashboardFixture {
                 .toList();
     }
 
-    static ProxyLimits limits(int waiting, int streams) {
-        ProxyLimits usual = ProxyLimits.DEFAULT;
-        return new ProxyLimits(
+    static StreamLimits limits(int waiting, int streams) {
+        StreamLimits usual = StreamLimits.DEFAULT;
+        return new StreamLimits(
                 streams,
                 streams,
                 3,

@@ -12,8 +12,8 @@ import java.util.stream.IntStream;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.feed.TopicRules;
-import io.furrow.dashboard.proxy.ProxyLimits;
 import io.furrow.http.AllowedNames;
 import io.furrow.model.topic.Topics;
 
@@ -114,9 +114,9 @@ class DashboardRefusalsIT extends DashboardFixture {
     @Tag("full")
     @Test
     void forgetsATicketThatIsOld() throws Exception {
-        ProxyLimits usual = ProxyLimits.DEFAULT;
+        StreamLimits usual = StreamLimits.DEFAULT;
         restart(settings()
-                .withLimits(new ProxyLimits(
+                .withLimits(new StreamLimits(
                         10, 10, 3, Duration.ofMillis(1), 100, 1_000_000, 10_000, 1_000, 5, usual.primeRecords())));
         List<URI> old = new ArrayList<>();
         for (int i : IntStream.range(0, 5).toArray()) {

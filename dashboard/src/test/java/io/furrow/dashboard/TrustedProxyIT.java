@@ -29,7 +29,7 @@ import io.furrow.control.rest.RestSettings;
 import io.furrow.dashboard.auth.AddressRange;
 import io.furrow.dashboard.auth.Role;
 import io.furrow.dashboard.auth.TrustedProxy;
-import io.furrow.dashboard.proxy.ProxyLimits;
+import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
@@ -102,9 +102,9 @@ class TrustedProxyIT {
     }
 
     private void start(URI controlPlane, String proxy, String token) throws Exception {
-        ProxyLimits usual = ProxyLimits.DEFAULT;
+        StreamLimits usual = StreamLimits.DEFAULT;
         dashboard = Dashboard.start(DashboardSettings.of(0, client(), controlPlane)
-                .withLimits(new ProxyLimits(
+                .withLimits(new StreamLimits(
                         10, 10, 3, usual.ticketLife(), 100, 1_000_000, 10_000, 10_000, 5, usual.primeRecords()))
                 .withProxy(new TrustedProxy(
                         List.of(AddressRange.parse(proxy)),

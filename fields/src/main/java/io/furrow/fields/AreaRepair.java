@@ -12,7 +12,6 @@ import org.locationtech.jts.geom.util.GeometryFixer;
 import org.locationtech.jts.operation.valid.IsValidOp;
 import org.locationtech.jts.operation.valid.TopologyValidationError;
 
-import io.furrow.fields.file.Georeference;
 import io.furrow.model.text.Counts;
 
 /**
@@ -20,7 +19,7 @@ import io.furrow.model.text.Counts;
  * corners that are not numbers, repeated corners, open rings, heights, rings without area, rings that cross themselves
  * or each other (repaired by JTS' {@code GeometryFixer}), the antimeridian. Edges are not densified.
  */
-public final class AreaRepair {
+final class AreaRepair {
     private static final GeometryFactory SHAPES = new GeometryFactory();
     private static final double METERS_PER_DEGREE = 6_371_000 * Math.PI / 180;
 
@@ -37,11 +36,11 @@ public final class AreaRepair {
         this.georeference = georeference;
     }
 
-    public static MendedArea repair(Outline outline, Georeference georeference) throws RefusedFeatureException {
+    static MendedArea repair(Outline outline, Georeference georeference) throws RefusedFeatureException {
         return new AreaRepair(georeference).mended(outline);
     }
 
-    public static String closed(int rings) {
+    static String closed(int rings) {
         return "closed " + Counts.of(rings, "ring");
     }
 

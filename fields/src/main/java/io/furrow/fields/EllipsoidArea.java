@@ -8,7 +8,7 @@ import org.locationtech.jts.geom.Geometry;
  * Computes areas on the WGS 84 ellipsoid, exact for edges that are straight in the cylindrical equal-area projection
  * (Snyder, Map Projections, 1987, 3-12 and 10-14, 10-15).
  */
-public final class EllipsoidArea {
+final class EllipsoidArea {
     private static final double A = 6_378_137;
     private static final double E2 = 0.00669437999014;
     private static final double E = Math.sqrt(E2);
@@ -16,7 +16,7 @@ public final class EllipsoidArea {
 
     private EllipsoidArea() {}
 
-    public static double hectares(Geometry area) {
+    static double hectares(Geometry area) {
         Geometry projected = area.copy();
         projected.apply(new EqualArea());
         return projected.getArea() / SQUARE_METERS_PER_HECTARE;

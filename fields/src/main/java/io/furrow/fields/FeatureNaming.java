@@ -10,12 +10,12 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.MissingNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fields.file.SourceFeature;
-import io.furrow.fields.file.UnusableFileException;
 import io.furrow.model.field.FieldVersion;
+import io.furrow.model.field.ImportOptions;
+import io.furrow.model.field.UnusableFileException;
 
 /** Derives the id, name and domain of a field from the attributes of its feature. */
-public final class FeatureNaming {
+final class FeatureNaming {
     private static final String ID = "id";
     private static final String NAME = "name";
     private static final String DOMAIN = "Domain";
@@ -30,7 +30,7 @@ public final class FeatureNaming {
     }
 
     /** @throws UnusableFileException if an option names an attribute that no feature has */
-    public static FeatureNaming of(Path file, List<SourceFeature> features, ImportOptions options)
+    static FeatureNaming of(Path file, List<SourceFeature> features, ImportOptions options)
             throws UnusableFileException {
         Set<String> attributes = new TreeSet<>();
         features.forEach(feature -> feature.properties().fieldNames().forEachRemaining(attributes::add));
@@ -48,7 +48,7 @@ public final class FeatureNaming {
     }
 
     /** Returns the id as found, for messages; empty if there is none. */
-    public String called(SourceFeature feature) {
+    String called(SourceFeature feature) {
         if (options.idProperty() == null && feature.id() != null) {
             return feature.id();
         }
@@ -56,7 +56,7 @@ public final class FeatureNaming {
     }
 
     /** @throws RefusedFeatureException if there is no id, or one that the context broker would reject */
-    public String id(SourceFeature feature) throws RefusedFeatureException {
+    String id(SourceFeature feature) throws RefusedFeatureException {
         String id = called(feature);
         if (id.isEmpty()) {
             throw new RefusedFeatureException(
@@ -70,7 +70,7 @@ public final class FeatureNaming {
         return id;
     }
 
-    public FieldVersion version(SourceFeature feature, ObjectNode geometry) throws RefusedFeatureException {
+    FieldVersion version(SourceFeature feature, ObjectNode geometry) throws RefusedFeatureException {
         ObjectNode properties = JsonNodeFactory.instance.objectNode();
         put(properties, NAME, text(value(feature, options.nameProperty() == null ? NAME : options.nameProperty())));
         put(properties, DOMAIN, options.domain() == null ? text(value(feature, DOMAIN)) : options.domain());

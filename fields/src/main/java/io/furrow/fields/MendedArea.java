@@ -12,4 +12,4 @@ import org.locationtech.jts.geom.Geometry;
  * @param edgeErrorMeters maximum deviation of an edge that is straight in the file from the straight edge in longitude
  * and latitude (measured at the middle of each edge, where it is greatest)
  */
-public record MendedArea(Geometry area, List<String> notes, double edgeErrorMeters) {}
+record MendedArea(Geometry area, List<String> notes, double edgeErrorMeters) {}

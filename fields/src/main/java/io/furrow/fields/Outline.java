@@ -11,7 +11,7 @@ import org.locationtech.jts.geom.Coordinate;
  * @param polygons coordinates in the file's coordinate system, x = easting or longitude
  * @param notes repairs made while reading it, as text
  */
-public record Outline(List<List<List<Coordinate>>> polygons, List<String> notes) {
-    public static final String HEIGHTS_LEFT_OUT = "left out heights";
-    public static final String MEASURES_LEFT_OUT = "left out measures";
+record Outline(List<List<List<Coordinate>>> polygons, List<String> notes) {
+    static final String HEIGHTS_LEFT_OUT = "left out heights";
+    static final String MEASURES_LEFT_OUT = "left out measures";
 }

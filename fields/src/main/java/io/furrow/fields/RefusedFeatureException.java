@@ -1,10 +1,10 @@
 package io.furrow.fields;
 
 /** Thrown if a single feature cannot be imported; the message is the reason. */
-public final class RefusedFeatureException extends Exception {
+final class RefusedFeatureException extends Exception {
     private static final long serialVersionUID = 1L;
 
-    public RefusedFeatureException(String reason) {
+    RefusedFeatureException(String reason) {
         super(reason);
     }
 }

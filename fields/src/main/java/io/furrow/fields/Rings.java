@@ -8,17 +8,17 @@ import org.locationtech.jts.geom.Coordinate;
 import org.locationtech.jts.geom.Location;
 
 /** Helpers for rings of coordinates, closed or open. */
-public final class Rings {
+final class Rings {
     private static final int SMALLEST = 4;
 
     private Rings() {}
 
     /** Whether the ring has at least three corners. */
-    public static boolean isArea(List<Coordinate> ring) {
+    static boolean isArea(List<Coordinate> ring) {
         return closed(ring).length >= SMALLEST;
     }
 
-    public static Coordinate[] closed(List<Coordinate> ring) {
+    static Coordinate[] closed(List<Coordinate> ring) {
         List<Coordinate> closed = new ArrayList<>(ring);
         if (!isClosed(ring)) {
             closed.add(ring.get(0).copy());
@@ -34,7 +34,7 @@ public final class Rings {
      * Builds polygons from nested rings of any orientation: a ring inside an even number of others is a shell, a ring
      * inside an odd number is a hole of the innermost shell around it.
      */
-    public static List<List<List<Coordinate>>> nested(List<List<Coordinate>> rings) {
+    static List<List<List<Coordinate>>> nested(List<List<Coordinate>> rings) {
         int[] depth = new int[rings.size()];
         for (int ring = 0; ring < rings.size(); ring++) {
             for (int other = 0; other < rings.size(); other++) {

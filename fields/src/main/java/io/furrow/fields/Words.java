@@ -3,12 +3,12 @@ package io.furrow.fields;
 import java.util.Locale;
 
 /** Formats parts of notes and reasons. */
-public final class Words {
+final class Words {
     private static final int MAX_LENGTH = 60;
 
     private Words() {}
 
-    public static String shortened(Object value) {
+    static String shortened(Object value) {
         String text = String.valueOf(value);
         return text.length() <= MAX_LENGTH ? text : text.substring(0, MAX_LENGTH) + "…";
     }

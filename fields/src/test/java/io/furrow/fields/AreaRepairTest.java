@@ -8,8 +8,8 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-import io.furrow.fields.file.FieldFile;
-import io.furrow.fields.file.FieldFileTest;
+import io.furrow.model.field.FieldFile;
+import io.furrow.model.field.ImportedField;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
@@ -44,7 +44,7 @@ class AreaRepairTest {
         } else {
             assertThat(field.notes()).anySatisfy(one -> assertThat(one).startsWith(note));
         }
-        assertThat(FieldFileTest.corners(field.version().geometry()))
+        assertThat(FieldFilesTest.corners(field.version().geometry()))
                 .isNotEmpty()
                 .allSatisfy(corner -> assertThat(corner[0]).isBetween(-180.0, 180.0));
     }
@@ -111,7 +111,7 @@ class AreaRepairTest {
               {"type": "Feature", "id": "d", "geometry": null}]}\
             """.formatted(area));
 
-        FieldFile read = FieldFile.read(file, FieldFileTest.PLAIN);
+        FieldFile read = FieldFiles.read(file, FieldFilesTest.PLAIN);
 
         assertThat(read.fields()).extracting(field -> field.version().id()).containsExactly("a", "7");
         assertThat(read.refused())
@@ -127,6 +127,6 @@ class AreaRepairTest {
     private FieldFile read(String type, String coordinates) throws Exception {
         String json = "{\"type\": \"Feature\", \"id\": \"a\", \"geometry\": {\"type\": \"%s\", \"coordinates\": %s}}";
         Path file = Files.writeString(folder.resolve("one.geojson"), json.formatted(type, coordinates));
-        return FieldFile.read(file, FieldFileTest.PLAIN);
+        return FieldFiles.read(file, FieldFilesTest.PLAIN);
     }
 }

@@ -8,9 +8,9 @@ import java.nio.charset.StandardCharsets;
 import org.apache.flink.core.fs.Path;
 
 import io.furrow.embedded.EmbeddedMongo;
-import io.furrow.ingest.mission.MissionArchive;
-import io.furrow.ingest.mission.MissionFiles;
-import io.furrow.ingest.mission.StoredMissions;
+import io.furrow.mission.archive.MissionArchive;
+import io.furrow.mission.archive.MissionFiles;
+import io.furrow.mission.archive.StoredMissions;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

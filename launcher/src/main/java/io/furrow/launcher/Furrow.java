@@ -16,6 +16,7 @@ import io.furrow.launcher.command.InitCommand;
 import io.furrow.launcher.command.ScenarioCommand;
 import io.furrow.launcher.command.SecretCommand;
 import io.furrow.launcher.command.UpCommand;
+import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.replay.AnalyticsCommand;
 import io.furrow.simulators.host.DeviceHostCommand;
 

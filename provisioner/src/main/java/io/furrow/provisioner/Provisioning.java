@@ -60,7 +60,7 @@ final class Provisioning {
         this.agent = new AgentClient(settings.agent());
         this.registrations = new Registrations(settings.secret());
         this.secret = settings.secret();
-        this.accounts = new DeviceAccounts(settings);
+        this.accounts = new DeviceAccounts(settings.accounts(), settings.secret(), settings.gateways());
         this.forgets = settings.forgets();
         this.desired = desired;
         this.nanos = nanos;

@@ -5,7 +5,7 @@ import java.io.PrintWriter;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 
-import io.furrow.launcher.Progress;
+import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;

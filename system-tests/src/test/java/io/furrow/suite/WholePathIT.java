@@ -11,9 +11,9 @@ import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.fields.FieldsTopic;
-import io.furrow.ingest.mission.StoredMissions;
+import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.launcher.command.DemoFarm;
+import io.furrow.mission.archive.StoredMissions;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.Entity;

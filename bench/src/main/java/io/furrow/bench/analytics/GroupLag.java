@@ -15,7 +15,7 @@ import org.apache.kafka.common.TopicPartition;
 import io.furrow.bench.analytics.load.FleetTopic;
 
 /** How many records of a topic the consumer group of a job has not committed, which it does at each checkpoint. */
-public final class GroupLag implements AutoCloseable {
+final class GroupLag implements AutoCloseable {
     private final Admin admin;
     private final String topic;
     private final String group;
@@ -34,7 +34,7 @@ public final class GroupLag implements AutoCloseable {
     }
 
     /** Records of a partition that the group has committed; 0 before it has. */
-    public long committed(int partition) throws InterruptedException, ExecutionException {
+    long committed(int partition) throws InterruptedException, ExecutionException {
         OffsetAndMetadata offset = admin.listConsumerGroupOffsets(group)
                 .partitionsToOffsetAndMetadata()
                 .get()

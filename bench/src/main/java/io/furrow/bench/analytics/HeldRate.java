@@ -17,7 +17,7 @@ public record HeldRate(int devices, double side, double sentPerSecond, double fo
     private static final double GROWTH = 0.01;
 
     /** The least of each time between two checkpoints: right after one is done, so that they do not swing with them. */
-    public List<Long> troughs() {
+    List<Long> troughs() {
         List<Long> troughs = new ArrayList<>();
         int step = TopicMeasurement.CHECKPOINTS_SECONDS;
         for (int from = 0; from + step <= lags.size(); from += step) {
@@ -27,7 +27,7 @@ public record HeldRate(int devices, double side, double sentPerSecond, double fo
     }
 
     /** Records per second by which the lag grows: a straight line through the troughs, by least squares. */
-    public double slope() {
+    double slope() {
         List<Long> troughs = troughs();
         double meanIndex = (troughs.size() - 1) / 2.0;
         double meanLag = troughs.stream().mapToLong(Long::longValue).average().orElse(0);

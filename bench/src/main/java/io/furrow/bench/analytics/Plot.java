@@ -6,7 +6,7 @@ import java.util.Locale;
 import java.util.function.ToDoubleFunction;
 
 /** A plot of lines over two logarithmic axes, as SVG. */
-public final class Plot {
+final class Plot {
     private static final int WIDTH = 720;
     private static final int HEIGHT = 420;
     private static final int LEFT = 80;
@@ -20,19 +20,19 @@ public final class Plot {
 
     private record Line(String name, List<double[]> points) {}
 
-    public Plot(String title, String horizontal) {
+    Plot(String title, String horizontal) {
         this.title = title;
         this.horizontal = horizontal;
     }
 
     /** Points with positive coordinates, in the order of the first. */
-    public void line(String name, List<double[]> points) {
+    void line(String name, List<double[]> points) {
         if (!points.isEmpty()) {
             lines.add(new Line(name, points));
         }
     }
 
-    public String svg() {
+    String svg() {
         StringBuilder svg = new StringBuilder(
                 "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" font-family=\"sans-serif\" font-size=\"12\">%n"
                         .formatted(WIDTH, HEIGHT));

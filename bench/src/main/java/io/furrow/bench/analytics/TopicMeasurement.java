@@ -11,7 +11,6 @@ import com.sun.management.OperatingSystemMXBean;
 
 import io.furrow.analytics.collision.CollisionJob;
 import io.furrow.analytics.collision.CollisionOptions;
-import io.furrow.bench.analytics.load.Backlog;
 import io.furrow.bench.analytics.load.CrowdedFleet;
 import io.furrow.bench.analytics.load.Fleet;
 import io.furrow.bench.analytics.load.FleetTopic;

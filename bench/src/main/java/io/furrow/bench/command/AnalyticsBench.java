@@ -26,8 +26,8 @@ import io.furrow.bench.analytics.load.CollisionPlan;
 import io.furrow.bench.ingest.IngestMeasurement.Cluster;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.launcher.LogFile;
-import io.furrow.launcher.Progress;
+import io.furrow.launcher.process.LogFile;
+import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.suite.Closeables;
 import io.furrow.launcher.suite.RunDirectory;
 

@@ -4,9 +4,9 @@ import java.util.List;
 
 import picocli.CommandLine.Option;
 
+import io.furrow.bench.analytics.Backlog;
 import io.furrow.bench.analytics.Figures;
 import io.furrow.bench.analytics.TopicMeasurement;
-import io.furrow.bench.analytics.load.Backlog;
 
 /** The part BACKLOG of {@link AnalyticsBench}: a job that was unavailable. */
 final class BacklogLoad {

@@ -7,8 +7,8 @@ import java.util.Properties;
 
 import io.furrow.embedded.EmbeddedConnect;
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.launcher.LogFile;
-import io.furrow.launcher.Progress;
+import io.furrow.launcher.process.LogFile;
+import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.suite.Closeables;
 import io.furrow.launcher.suite.Connectors;
 import io.furrow.launcher.suite.KafkaAccess;

@@ -31,7 +31,7 @@ import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.flink.job.Delivery;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.launcher.Furrow;
-import io.furrow.launcher.Progress;
+import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;

@@ -21,7 +21,7 @@ import io.furrow.bench.component.Component;
 import io.furrow.bench.component.Component.Rates;
 import io.furrow.bench.component.ComponentResults;
 import io.furrow.bench.whole.Checkout;
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.model.ngsi.NgsiJson;
 

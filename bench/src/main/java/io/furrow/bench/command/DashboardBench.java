@@ -5,7 +5,7 @@ import java.util.concurrent.Callable;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
 
 /** {@code ./furrow bench dashboard}, which the script runs itself: the class path of this command has no driver of a browser. */

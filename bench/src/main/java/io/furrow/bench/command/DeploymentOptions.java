@@ -13,8 +13,8 @@ import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
 import io.furrow.bench.evaluation.Target;
-import io.furrow.launcher.RestClient;
 import io.furrow.launcher.option.FiwareOptions;
+import io.furrow.launcher.process.RestClient;
 import io.furrow.simulators.device.FleetSettings;
 
 /** A suite that runs already, as {@code ./furrow up} or as separate servers. */

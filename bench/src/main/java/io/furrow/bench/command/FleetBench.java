@@ -18,7 +18,7 @@ import io.furrow.bench.fleet.FleetReport;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMqtt;
-import io.furrow.launcher.LogFile;
+import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.suite.Closeables;
 import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.model.device.FarmSecret;

@@ -16,7 +16,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.bench.mission.MissionStart;
 import io.furrow.cli.option.HelpOption;
-import io.furrow.launcher.Progress;
+import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;

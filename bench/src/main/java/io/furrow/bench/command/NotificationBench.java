@@ -27,7 +27,7 @@ import io.furrow.bench.notifications.NotificationRun;
 import io.furrow.bench.notifications.SuiteLoad;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.embedded.FreePort;
-import io.furrow.launcher.Progress;
+import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;

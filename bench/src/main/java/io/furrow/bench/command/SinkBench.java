@@ -24,7 +24,7 @@ import io.furrow.bench.sink.SinkRun;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
-import io.furrow.launcher.Progress;
+import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.suite.Connectors;
 import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.model.ngsi.NgsiJson;

@@ -20,7 +20,7 @@ import io.furrow.bench.evaluation.Sweep.Point;
 import io.furrow.bench.load.LoadMeasurement;
 import io.furrow.bench.load.LoadReport;
 import io.furrow.bench.whole.ThreadTimes;
-import io.furrow.launcher.Progress;
+import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;

@@ -8,8 +8,8 @@ import java.util.stream.StreamSupport;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.cli.CommandException;
-import io.furrow.launcher.RestClient;
+import io.furrow.cli.option.CommandException;
+import io.furrow.launcher.process.RestClient;
 import io.furrow.simulators.device.FleetSettings;
 
 /** The NGSI source's own subscription several times, so that the context broker notifies of each change as often; undone at the end. */

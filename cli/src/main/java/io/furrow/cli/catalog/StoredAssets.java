@@ -9,8 +9,8 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.mongodb.MongoException;
 import org.apache.flink.core.fs.Path;
 
-import io.furrow.ingest.image.ImageUsage;
-import io.furrow.ingest.mission.StoredMissions;
+import io.furrow.mission.archive.StoredMissions;
+import io.furrow.mission.image.ImageUsage;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;

@@ -17,11 +17,11 @@ import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.CommandException;
 import io.furrow.cli.catalog.Catalog;
 import io.furrow.cli.catalog.CatalogTable;
 import io.furrow.cli.catalog.StoredAssets;
 import io.furrow.cli.catalog.StoredTable;
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.model.ngsi.NgsiJson;

@@ -14,10 +14,10 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.CommandException;
-import io.furrow.cli.KafkaClient;
 import io.furrow.cli.dead.Redrive;
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
+import io.furrow.cli.option.KafkaClient;
 import io.furrow.model.text.Counts;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;

@@ -15,12 +15,13 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.TypeConversionException;
 
-import io.furrow.cli.CommandException;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.field.FieldReport;
 import io.furrow.cli.field.FieldsOptions;
-import io.furrow.fields.FieldChange;
+import io.furrow.cli.option.CommandException;
+import io.furrow.cli.option.CommandGroup;
+import io.furrow.kafka.field.FieldChange;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 

@@ -14,16 +14,17 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.CommandException;
 import io.furrow.cli.field.FieldReport;
 import io.furrow.cli.field.FieldsOptions;
-import io.furrow.fields.FieldChange;
-import io.furrow.fields.FieldsTopic;
-import io.furrow.fields.ImportOptions;
-import io.furrow.fields.ImportedField;
-import io.furrow.fields.file.FieldFile;
-import io.furrow.fields.file.UnusableFileException;
+import io.furrow.cli.option.CommandException;
+import io.furrow.fields.FieldFiles;
+import io.furrow.kafka.field.FieldChange;
+import io.furrow.kafka.field.FieldsTopic;
+import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.FieldVersion;
+import io.furrow.model.field.ImportOptions;
+import io.furrow.model.field.ImportedField;
+import io.furrow.model.field.UnusableFileException;
 
 /** {@code ./furrow fields import}. */
 @Command(
@@ -117,7 +118,7 @@ final class FieldsImportCommand implements Callable<Integer> {
 
     private FieldFile read() {
         try {
-            return FieldFile.read(file, new ImportOptions(layer, crs, idProperty, nameProperty, domain, validFrom));
+            return FieldFiles.read(file, new ImportOptions(layer, crs, idProperty, nameProperty, domain, validFrom));
         } catch (UnusableFileException e) {
             throw new CommandException(e.getMessage(), e);
         }

@@ -4,7 +4,6 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 
 import io.furrow.cli.option.HelpOption;
-import io.furrow.ingest.image.PurgeImages;
 
 /** {@code ./furrow images}. */
 @Command(

@@ -11,9 +11,9 @@ import java.util.Set;
  * @param suspects devices that were left out
  * @param quality {@code robust} or {@code unverified}
  */
-public record Average(Subject subject, long start, long end, double mean, Set<String> suspects, String quality)
+record Average(Subject subject, long start, long end, double mean, Set<String> suspects, String quality)
         implements Span {
-    public Average {
+    Average {
         suspects = Set.copyOf(suspects);
     }
 
@@ -23,7 +23,7 @@ public record Average(Subject subject, long start, long end, double mean, Set<St
     }
 
     /** Whether it says that nothing was reported. */
-    public boolean isEmpty() {
+    boolean isEmpty() {
         return Double.isNaN(mean);
     }
 

@@ -7,4 +7,4 @@ package io.furrow.cli.compare;
  * @param a number, text, or set of texts; null if it has none
  * @param b likewise
  */
-public record Change(String member, Object a, Object b) {}
+record Change(String member, Object a, Object b) {}

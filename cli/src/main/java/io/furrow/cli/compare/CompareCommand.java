@@ -17,10 +17,7 @@ import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.KafkaClient;
-import io.furrow.cli.compare.report.ComparisonHtml;
-import io.furrow.cli.compare.report.ComparisonJson;
-import io.furrow.cli.compare.report.ComparisonTable;
+import io.furrow.cli.option.KafkaClient;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.time.Instants;
 

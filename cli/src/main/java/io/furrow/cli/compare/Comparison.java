@@ -11,7 +11,7 @@ import io.furrow.cli.compare.Match.Verdict;
  *
  * @param matches by kind, in the order of time
  */
-public record Comparison(FoundResults a, FoundResults b, TimeRange range, Map<ResultKind, List<Match>> matches) {
+record Comparison(FoundResults a, FoundResults b, TimeRange range, Map<ResultKind, List<Match>> matches) {
     /** Compares what lies within a range. */
     static Comparison of(FoundResults a, FoundResults b, TimeRange range) {
         boolean oneScope = a.scopes() <= 1 && b.scopes() <= 1;
@@ -43,24 +43,24 @@ public record Comparison(FoundResults a, FoundResults b, TimeRange range, Map<Re
                 .toList();
     }
 
-    public boolean isSame() {
+    boolean isSame() {
         return matches.values().stream().flatMap(List::stream).allMatch(match -> match.verdict() == Verdict.SAME);
     }
 
-    public long count(ResultKind kind, Verdict verdict) {
+    long count(ResultKind kind, Verdict verdict) {
         return matches.get(kind).stream()
                 .filter(match -> match.verdict() == verdict)
                 .count();
     }
 
-    public List<Match> differences(ResultKind kind) {
+    List<Match> differences(ResultKind kind) {
         return matches.get(kind).stream()
                 .filter(match -> match.verdict() != Verdict.SAME)
                 .toList();
     }
 
     /** Whether neither side has a topic of it. */
-    public boolean isUnknown(ResultKind kind) {
+    boolean isUnknown(ResultKind kind) {
         return a.missing().contains(kind) && b.missing().contains(kind);
     }
 }

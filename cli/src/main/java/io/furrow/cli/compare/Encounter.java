@@ -6,7 +6,7 @@ package io.furrow.cli.compare;
  * @param end when it ended, or of an open one the newest time that was emitted
  * @param closest meters
  */
-public record Encounter(Subject subject, long start, long end, boolean isOpen, double closest) implements Span {
+record Encounter(Subject subject, long start, long end, boolean isOpen, double closest) implements Span {
     /** Both with one more record of the same encounter. */
     Encounter and(Encounter more) {
         return new Encounter(

@@ -13,8 +13,8 @@ import java.util.Set;
  * @param spans results by kind
  * @param missing kinds whose topic is not there: nothing was found, or the job never ran
  */
-public record FoundResults(String name, long epoch, Map<ResultKind, List<Span>> spans, Set<ResultKind> missing) {
-    public FoundResults {
+record FoundResults(String name, long epoch, Map<ResultKind, List<Span>> spans, Set<ResultKind> missing) {
+    FoundResults {
         Map<ResultKind, List<Span>> all = new EnumMap<>(ResultKind.class);
         for (ResultKind kind : ResultKind.values()) {
             all.put(kind, List.copyOf(spans.getOrDefault(kind, List.of())));

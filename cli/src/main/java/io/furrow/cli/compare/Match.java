@@ -9,8 +9,8 @@ import java.util.List;
  * @param b null if only A has it
  * @param changes empty if both are the same, or one is missing
  */
-public record Match(Span a, Span b, List<Change> changes) {
-    public enum Verdict {
+record Match(Span a, Span b, List<Change> changes) {
+    enum Verdict {
         SAME("same"),
         CHANGED("changed"),
         ONLY_A("only in A"),
@@ -22,16 +22,16 @@ public record Match(Span a, Span b, List<Change> changes) {
             this.word = word;
         }
 
-        public String word() {
+        String word() {
             return word;
         }
     }
 
-    public Match {
+    Match {
         changes = List.copyOf(changes);
     }
 
-    public Verdict verdict() {
+    Verdict verdict() {
         if (a == null) {
             return Verdict.ONLY_B;
         } else if (b == null) {
@@ -41,11 +41,11 @@ public record Match(Span a, Span b, List<Change> changes) {
     }
 
     /** That of A, else that of B. */
-    public Span either() {
+    Span either() {
         return a == null ? b : a;
     }
 
-    public Subject subject() {
+    Subject subject() {
         return either().subject();
     }
 

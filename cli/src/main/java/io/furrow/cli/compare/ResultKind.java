@@ -3,7 +3,7 @@ package io.furrow.cli.compare;
 import io.furrow.model.topic.Topics;
 
 /** What analytics finds: the topic of the live results, and what one result is called. */
-public enum ResultKind {
+enum ResultKind {
     ENCOUNTERS(Topics.COLLISION, "encounters"),
     AVERAGES(Topics.TEMPERATURE, "averages"),
     STAYS(Topics.PRESENCE, "stays");
@@ -22,7 +22,7 @@ public enum ResultKind {
     }
 
     /** As tables and JSON have it, for instance {@code encounters}. */
-    public String word() {
+    String word() {
         return word;
     }
 }

@@ -12,8 +12,8 @@ import io.furrow.model.topic.Topics;
  * @param name as tables call it
  * @param topic of the replay; null of live results
  */
-public record Side(String name, String topic) {
-    public static final String LIVE = "live";
+record Side(String name, String topic) {
+    static final String LIVE = "live";
 
     private static final Pattern NAME = Pattern.compile("([A-Za-z0-9_-]{1,64})\\.([0-9a-f]{8})");
 

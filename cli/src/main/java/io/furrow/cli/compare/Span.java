@@ -1,7 +1,7 @@
 package io.furrow.cli.compare;
 
 /** A result that holds for a while, or for a window. Times are original event times, epoch ms. */
-public sealed interface Span permits Encounter, Stay, Average {
+sealed interface Span permits Encounter, Stay, Average {
     /** Its subject: only results with the same subject are compared. */
     Subject subject();
 

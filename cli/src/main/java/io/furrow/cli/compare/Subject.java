@@ -6,7 +6,7 @@ package io.furrow.cli.compare;
  * @param scope tenant and service path
  * @param name for instance both devices of a pair, or a field and the attribute that was averaged
  */
-public record Subject(String scope, String name) implements Comparable<Subject> {
+record Subject(String scope, String name) implements Comparable<Subject> {
     /** The same whatever the tenant is, where there is only one. */
     Subject anyScope() {
         return new Subject("", name);

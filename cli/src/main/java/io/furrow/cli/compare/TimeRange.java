@@ -6,9 +6,9 @@ package io.furrow.cli.compare;
  * @param from epoch ms
  * @param to epoch ms, after the last instant
  */
-public record TimeRange(long from, long to) {
+record TimeRange(long from, long to) {
     /** All that there is. */
-    public static final TimeRange ALL = new TimeRange(Long.MIN_VALUE, Long.MAX_VALUE);
+    static final TimeRange ALL = new TimeRange(Long.MIN_VALUE, Long.MAX_VALUE);
 
     boolean overlaps(Span span) {
         return span.start() < to && (span.end() >= from || span.isOpen());
@@ -19,11 +19,11 @@ public record TimeRange(long from, long to) {
         return window.start() >= from && window.end() <= to;
     }
 
-    public long start(Span span) {
+    long start(Span span) {
         return Math.max(span.start(), from);
     }
 
-    public long end(Span span) {
+    long end(Span span) {
         return Math.min(span.end(), to);
     }
 }

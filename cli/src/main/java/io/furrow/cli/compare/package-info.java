@@ -1,2 +1,2 @@
-/** How what analytics found in one skip events differs from what it found in another: reads, matches, shows. */
+/** Compares what analytics found in two replays, or in a replay and live: reads, matches and shows the results. */
 package io.furrow.cli.compare;

@@ -11,10 +11,10 @@ import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 
-import io.furrow.cli.command.CommandGroup;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.option.CommandGroup;
 
 /** {@code ./furrow alarm}. */
 @Command(

@@ -12,11 +12,11 @@ import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 
-import io.furrow.cli.command.CommandGroup;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.JsonFile;
+import io.furrow.cli.option.CommandGroup;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow domain}. */

@@ -9,11 +9,11 @@ import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 
-import io.furrow.cli.command.CommandGroup;
 import io.furrow.cli.compare.CompareCommand;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.option.CommandGroup;
 
 /** {@code ./furrow replay}. */
 @Command(

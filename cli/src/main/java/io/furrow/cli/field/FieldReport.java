@@ -15,11 +15,11 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.util.RawValue;
 
 import io.furrow.cli.control.table.ControlTable;
-import io.furrow.fields.FieldChange;
-import io.furrow.fields.ImportedField;
-import io.furrow.fields.RefusedFeature;
-import io.furrow.fields.file.FieldFile;
+import io.furrow.kafka.field.FieldChange;
+import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.FieldVersion;
+import io.furrow.model.field.ImportedField;
+import io.furrow.model.field.RefusedFeature;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** What an import did, field by field, and what it did not; lists of fields too. */

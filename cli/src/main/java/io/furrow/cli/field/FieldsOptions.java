@@ -9,8 +9,8 @@ import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.KafkaClient;
-import io.furrow.fields.FieldsTopic;
+import io.furrow.cli.option.KafkaClient;
+import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Where the topic of fields is, for commands that read or write it themselves, and how they print. */

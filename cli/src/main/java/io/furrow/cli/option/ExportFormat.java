@@ -8,10 +8,10 @@ import java.util.function.LongConsumer;
 
 import org.apache.flink.core.fs.Path;
 
-import io.furrow.ingest.mission.MissionFiles;
-import io.furrow.ingest.mission.StoredMissions;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.archive.MissionFiles;
+import io.furrow.mission.archive.StoredMissions;
 import io.furrow.mission.export.Exported;
 import io.furrow.mission.export.GeoJsonExport;
 import io.furrow.mission.export.McapExport;

@@ -23,8 +23,8 @@ import picocli.CommandLine.Model.CommandSpec;
 import io.furrow.cli.Commands;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
-import io.furrow.fields.FieldEdit;
-import io.furrow.fields.FieldsTopic;
+import io.furrow.kafka.field.FieldEdit;
+import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 

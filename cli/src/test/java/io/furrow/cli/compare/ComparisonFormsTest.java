@@ -5,9 +5,6 @@ import java.nio.charset.StandardCharsets;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.cli.compare.report.ComparisonHtml;
-import io.furrow.cli.compare.report.ComparisonJson;
-import io.furrow.cli.compare.report.ComparisonTable;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static io.furrow.cli.compare.FoundRecords.T0;

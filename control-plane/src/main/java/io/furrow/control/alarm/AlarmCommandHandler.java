@@ -11,7 +11,7 @@ import java.util.function.Predicate;
 
 import io.furrow.control.manager.CommandHandler;
 import io.furrow.control.manager.EventPublisher;
-import io.furrow.control.manager.record.Sequence;
+import io.furrow.control.manager.Sequence;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.CommandResult;

@@ -1,7 +1,7 @@
 package io.furrow.control.alarm;
 
 /** An event in the life of an existing alarm. */
-public sealed interface AlarmEvent {
+sealed interface AlarmEvent {
     /**
      * The cause was observed again.
      *

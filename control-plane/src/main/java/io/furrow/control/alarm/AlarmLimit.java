@@ -10,7 +10,7 @@ import java.util.Objects;
 import java.util.Set;
 import java.util.TreeMap;
 
-import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.Records;
 import io.furrow.model.control.AlarmKind;
 
 /**

@@ -16,8 +16,8 @@ import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ManagerTopic;
 import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.RequestLog;
-import io.furrow.control.manager.record.Sequence;
-import io.furrow.control.manager.record.StoredRecords;
+import io.furrow.control.manager.Sequence;
+import io.furrow.control.manager.StoredRecords;
 import io.furrow.model.control.AlarmCommand;
 
 /**

@@ -1,6 +1,6 @@
 package io.furrow.control.alarm;
 
-import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.Records;
 
 /**
  * The stores of the alarm manager.

@@ -1,2 +1,2 @@
-/** Alarms: causes, life cycle, delivery by webhook, and automatic actions. */
+/** Alarms: their causes and life cycle. */
 package io.furrow.control.alarm;

@@ -1,7 +1,7 @@
 package io.furrow.control.context;
 
 import io.furrow.control.domain.Domain;
-import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.Records;
 import io.furrow.control.mission.Mission;
 import io.furrow.control.mission.MissionStatus;
 

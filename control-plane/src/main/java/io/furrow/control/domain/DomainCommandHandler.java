@@ -5,9 +5,9 @@ import java.util.function.Supplier;
 
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.record.Records;
-import io.furrow.control.manager.record.Sequence;
-import io.furrow.fields.FieldEdit;
+import io.furrow.control.manager.Records;
+import io.furrow.control.manager.Sequence;
+import io.furrow.kafka.field.FieldEdit;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.ErrorCode;

@@ -6,23 +6,23 @@ import java.util.function.Consumer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.Records;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** The devices of {@code service.devices} that are desired to run now. Unreadable records are skipped. */
-public final class DesiredDevices {
+final class DesiredDevices {
     private static final Logger LOG = LoggerFactory.getLogger(DesiredDevices.class);
 
     private final Records<byte[]> records;
 
     /** @param records the values of the topic by their keys */
-    public DesiredDevices(Records<byte[]> records) {
+    DesiredDevices(Records<byte[]> records) {
         this.records = records;
     }
 
     /** Returns the device of a key; empty if none is desired or no longer. */
-    public Optional<DesiredDevice> of(String key) {
+    Optional<DesiredDevice> of(String key) {
         byte[] value = records.get(key);
         return value == null ? Optional.empty() : running(value);
     }

@@ -8,7 +8,7 @@ import java.util.Optional;
 import java.util.Set;
 
 import io.furrow.control.manager.EventPublisher;
-import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.Records;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.topic.Topics;
 

@@ -14,7 +14,7 @@ import io.furrow.model.device.DesiredDevice;
  */
 public record HealthOptions(int periods, Duration period, double missionShare) {
     /** Minimum number of silent devices of a silent mission. */
-    public static final int MIN_OF_MISSION = 3;
+    static final int MIN_OF_MISSION = 3;
 
     /** Three periods, a default period of one minute, half of a mission. */
     public static final HealthOptions DEFAULT = new HealthOptions(3, Duration.ofMinutes(1), 0.5);

@@ -19,14 +19,14 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.control.alarm.AlarmManager;
 import io.furrow.control.manager.EventPublisher;
+import io.furrow.control.manager.GlobalStoreProcessor;
 import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ObserverProcessor;
 import io.furrow.control.manager.ObserverProcessor.Observer;
 import io.furrow.control.manager.OutputRecord;
+import io.furrow.control.manager.Records;
 import io.furrow.control.manager.StateJson;
-import io.furrow.control.manager.record.GlobalStoreProcessor;
-import io.furrow.control.manager.record.Records;
-import io.furrow.control.manager.record.StoredRecords;
+import io.furrow.control.manager.StoredRecords;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;

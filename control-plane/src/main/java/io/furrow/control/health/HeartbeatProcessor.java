@@ -9,8 +9,8 @@ import org.apache.kafka.streams.processor.api.Record;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.control.manager.RecordScope;
 import io.furrow.control.manager.StateJson;
-import io.furrow.control.manager.record.RecordScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;

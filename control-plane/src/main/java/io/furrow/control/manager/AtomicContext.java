@@ -21,15 +21,12 @@ import org.apache.kafka.streams.processor.api.Record;
 import org.apache.kafka.streams.processor.api.RecordMetadata;
 import org.apache.kafka.streams.state.KeyValueStore;
 
-import io.furrow.control.manager.record.OversizedRecordException;
-import io.furrow.control.manager.record.StagedStore;
-
 /**
  * The context of a processor whose writes, to its stores and to the next processors, take effect together or not at all: within
  * {@link #call} they are staged, and applied when that returns. What throws has changed nothing, and no record larger than
  * {@code Limits.RECORD_BYTES} is written, so that neither can end the thread. Its stores are key-value stores of texts and bytes.
  */
-public final class AtomicContext implements ProcessorContext<String, OutputRecord> {
+final class AtomicContext implements ProcessorContext<String, OutputRecord> {
     private final ProcessorContext<String, OutputRecord> context;
     private final Map<String, StagedStore> stores = new LinkedHashMap<>();
     private final List<Record<String, OutputRecord>> staged = new ArrayList<>();
@@ -45,7 +42,7 @@ public final class AtomicContext implements ProcessorContext<String, OutputRecor
         T run() throws E;
     }
 
-    public AtomicContext(ProcessorContext<String, OutputRecord> context) {
+    AtomicContext(ProcessorContext<String, OutputRecord> context) {
         this.context = context;
     }
 

@@ -13,9 +13,6 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.control.audit.AuditEntry;
-import io.furrow.control.manager.record.DeadLetters;
-import io.furrow.control.manager.record.OversizedRecordException;
-import io.furrow.control.manager.record.RecordOrigin;
 import io.furrow.model.control.Command;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;

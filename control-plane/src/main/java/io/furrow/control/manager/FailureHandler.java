@@ -20,8 +20,6 @@ import org.apache.kafka.streams.errors.ProductionExceptionHandler;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.control.manager.record.DeadLetters;
-import io.furrow.control.manager.record.RecordOrigin;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RequestExcerpt;
 import io.furrow.model.event.DeadLetter;

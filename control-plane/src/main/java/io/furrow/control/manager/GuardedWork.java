@@ -5,9 +5,6 @@ import org.apache.kafka.streams.processor.api.Record;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.control.manager.record.DeadLetters;
-import io.furrow.control.manager.record.OversizedRecordException;
-import io.furrow.control.manager.record.RecordOrigin;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;

@@ -11,12 +11,6 @@ import org.apache.kafka.streams.kstream.KStream;
 import org.apache.kafka.streams.kstream.Named;
 import org.apache.kafka.streams.kstream.Repartitioned;
 
-import io.furrow.control.manager.record.DeadLetters;
-import io.furrow.control.manager.record.DeduplicationProcessor;
-import io.furrow.control.manager.record.OversizedRecordException;
-import io.furrow.control.manager.record.RecordOrigin;
-import io.furrow.control.manager.record.SourcePositionProcessor;
-import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.model.control.Limits;
 import io.furrow.model.ngsi.Reason;
 

@@ -1,6 +1,5 @@
 package io.furrow.control.manager;
 
-import io.furrow.control.manager.record.Records;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 

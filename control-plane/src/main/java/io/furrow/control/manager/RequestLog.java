@@ -31,7 +31,7 @@ public final class RequestLog {
     private final long remembered;
     private final TreeMap<Long, Integer> countByWindow = new TreeMap<>();
 
-    public RequestLog(ProcessorContext<?, ?> context, String name, Duration remembered) {
+    RequestLog(ProcessorContext<?, ?> context, String name, Duration remembered) {
         this.store = context.getStateStore(name);
         this.remembered = remembered.toMillis();
         try (KeyValueIterator<Windowed<String>, byte[]> all = store.all()) {

@@ -6,7 +6,6 @@ import org.apache.kafka.common.header.Header;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.Record;
 
-import io.furrow.control.manager.record.RecordOrigin;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.Received;
 import io.furrow.model.control.RequestExcerpt;

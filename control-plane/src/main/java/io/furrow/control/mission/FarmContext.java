@@ -3,7 +3,7 @@ package io.furrow.control.mission;
 import java.util.function.Predicate;
 
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.record.Sequence;
+import io.furrow.control.manager.Sequence;
 
 /**
  * What missions share with domains.

@@ -8,7 +8,7 @@ import io.furrow.control.domain.DomainMissions;
 import io.furrow.control.health.DeviceHealth;
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.record.Sequence;
+import io.furrow.control.manager.Sequence;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
@@ -21,7 +21,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
 /** Grants or refuses what is asked of missions, and takes them through their life. What is refused has changed nothing. */
-public final class MissionCommandHandler implements DomainMissions {
+final class MissionCommandHandler implements DomainMissions {
     private final MissionRecords records;
     private final Predicate<String> isDomain;
     private final TemplateStore templates;
@@ -47,12 +47,12 @@ public final class MissionCommandHandler implements DomainMissions {
         this.outbox = outbox;
     }
 
-    public TemplateStore templates() {
+    TemplateStore templates() {
         return templates;
     }
 
     /** @param now epoch ms */
-    public CommandResult answer(MissionCommand command, long now) throws RefusedException {
+    CommandResult answer(MissionCommand command, long now) throws RefusedException {
         if (command instanceof MissionCommand.Create create) {
             return create(create, now);
         } else if (command instanceof MissionCommand.Start start) {
@@ -201,7 +201,7 @@ public final class MissionCommandHandler implements DomainMissions {
      * Takes the status of a device from its host or the provisioner, unless the device or the state is no longer desired. A real
      * device has no host, and one that reports is up whatever else is said.
      */
-    public void reported(String key, DeviceStatus told, long now) {
+    void reported(String key, DeviceStatus told, long now) {
         DeviceState known = records.devices().get(key);
         if (known == null || told.sequence() < known.device().version().sequence()) {
             return;
@@ -214,7 +214,7 @@ public final class MissionCommandHandler implements DomainMissions {
     }
 
     /** Takes the health of a device: a real one is up by its first report since it was asked for. */
-    public void reported(String key, DeviceHealth health, long now) {
+    void reported(String key, DeviceHealth health, long now) {
         DeviceState known = records.devices().get(key);
         boolean isUp = known != null
                 && !known.confirmed()
@@ -228,7 +228,7 @@ public final class MissionCommandHandler implements DomainMissions {
     }
 
     /** Takes what is known of the connection of a device: why a real one has not reported yet. */
-    public void reported(String key, DeviceConnection connection, long now) {
+    void reported(String key, DeviceConnection connection, long now) {
         DeviceState known = records.devices().get(key);
         if (known != null && !known.device().simulated()) {
             DeviceState next = known.connected(connection);
@@ -258,7 +258,7 @@ public final class MissionCommandHandler implements DomainMissions {
     }
 
     /** What waits for no one but the time, mission by mission: start dates, durations, devices that are late. */
-    public List<Runnable> due(long now) {
+    List<Runnable> due(long now) {
         List<Runnable> steps = new ArrayList<>();
         records.statuses().forEach(status -> {
             boolean ends = status.ends() != null && status.ends() <= now;
@@ -270,7 +270,7 @@ public final class MissionCommandHandler implements DomainMissions {
     }
 
     /** The next devices of each mission of which some are still to be written. */
-    public List<Runnable> pending(long now) {
+    List<Runnable> pending(long now) {
         List<Runnable> steps = new ArrayList<>();
         records.rollouts().forEach(rollout -> steps.add(() -> advance(rollout, now)));
         return steps;

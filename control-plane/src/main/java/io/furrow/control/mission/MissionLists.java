@@ -8,8 +8,8 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.record.Records;
-import io.furrow.control.manager.record.Sequence;
+import io.furrow.control.manager.Records;
+import io.furrow.control.manager.Sequence;
 import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;

@@ -1,6 +1,6 @@
 package io.furrow.control.mission;
 
-import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.Records;
 import io.furrow.model.control.MissionTemplate;
 
 /**

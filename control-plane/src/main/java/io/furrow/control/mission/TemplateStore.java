@@ -8,16 +8,16 @@ import java.util.List;
 
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.Records;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.topic.Topics;
 
 /** The templates, version by version. A version never changes, and its number is never given again. */
-public final class TemplateStore {
+final class TemplateStore {
     /** The mission of the thesis: one moving camera, three thermometers and one robot. */
-    public static final String DEMO = "thesis-demo";
+    static final String DEMO = "thesis-demo";
 
     private final Records<MissionTemplate> templates;
     private final Records<Versions> versions;
@@ -30,7 +30,7 @@ public final class TemplateStore {
      * @param last the number given last
      * @param kept those that were not deleted, ascending
      */
-    public record Versions(int last, List<Integer> kept) {}
+    record Versions(int last, List<Integer> kept) {}
 
     /**
      * @param templates by {@link MissionTemplate#key()}
@@ -45,7 +45,7 @@ public final class TemplateStore {
     }
 
     /** Puts {@link #DEMO} there where it never was. */
-    public void stock() {
+    void stock() {
         if (versions.get(DEMO) == null) {
             try {
                 save(demo());

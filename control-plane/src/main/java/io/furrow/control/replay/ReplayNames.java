@@ -4,7 +4,7 @@ import java.util.List;
 import java.util.UUID;
 import java.util.function.Supplier;
 
-import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.Records;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;

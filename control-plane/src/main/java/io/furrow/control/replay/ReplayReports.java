@@ -3,7 +3,7 @@ package io.furrow.control.replay;
 import java.util.ArrayList;
 import java.util.List;
 
-import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.Records;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;

@@ -25,6 +25,7 @@ import jakarta.ws.rs.core.Response;
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.alarm.Severity;
 import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;

@@ -18,6 +18,7 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 import jakarta.ws.rs.core.UriInfo;
 
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.view.AuditHistory;
 import io.furrow.control.rest.view.AuditedEntry;
 import io.furrow.control.rest.view.ServiceView;

@@ -20,6 +20,7 @@ import jakarta.ws.rs.core.Context;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.ngsi.NgsiJson;

@@ -32,6 +32,7 @@ import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.device.RefusedCommandException;
 import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.DesiredDevices;

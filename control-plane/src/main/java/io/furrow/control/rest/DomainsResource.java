@@ -22,6 +22,7 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.ServiceView;

@@ -32,21 +32,23 @@ import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
-import io.furrow.fields.FieldChange;
-import io.furrow.fields.FieldEdit;
-import io.furrow.fields.FieldsTopic;
-import io.furrow.fields.ImportOptions;
-import io.furrow.fields.ImportedField;
-import io.furrow.fields.RefusedFeature;
-import io.furrow.fields.file.FieldFile;
-import io.furrow.fields.file.UnusableFileException;
+import io.furrow.kafka.field.FieldChange;
+import io.furrow.kafka.field.FieldEdit;
+import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.RequestMembers;
+import io.furrow.model.field.FieldFile;
+import io.furrow.model.field.FieldReader;
 import io.furrow.model.field.FieldVersion;
+import io.furrow.model.field.ImportOptions;
+import io.furrow.model.field.ImportedField;
+import io.furrow.model.field.RefusedFeature;
+import io.furrow.model.field.UnusableFileException;
 import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
 
@@ -67,14 +69,16 @@ public final class FieldsResource {
 
     private final FieldsTopic topic;
     private final CommandClient managers;
+    private final FieldReader reader;
     /** Files are read whole, and what is changed is read before: one at a time. */
     private final Semaphore free = new Semaphore(1);
     /** Each reads the whole topic. */
     private final Semaphore readers = new Semaphore(READERS);
 
-    FieldsResource(Properties client, CommandClient managers) {
+    FieldsResource(Properties client, CommandClient managers, FieldReader reader) {
         this.topic = new FieldsTopic(client);
         this.managers = managers;
+        this.reader = reader;
     }
 
     /**
@@ -214,13 +218,12 @@ public final class FieldsResource {
         return new ProblemException(503, "kafka-away", cause.getMessage());
     }
 
-    private static FieldFile read(byte[] bytes, String domain, MultivaluedMap<String, String> options)
-            throws IOException {
+    private FieldFile read(byte[] bytes, String domain, MultivaluedMap<String, String> options) throws IOException {
         Path folder = Files.createTempDirectory("furrow-fields");
         Path file = folder.resolve("fields");
         try {
             Files.write(file, bytes);
-            return FieldFile.read(
+            return reader.read(
                     file,
                     new ImportOptions(
                             options.getFirst("layer"),

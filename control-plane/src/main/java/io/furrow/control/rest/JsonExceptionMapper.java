@@ -9,6 +9,8 @@ import jakarta.ws.rs.ext.ExceptionMapper;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.control.rest.access.ProblemException;
+
 /** Every error as JSON with {@code error} and {@code reason}. */
 public final class JsonExceptionMapper implements ExceptionMapper<Throwable> {
     private static final Logger LOG = LoggerFactory.getLogger(JsonExceptionMapper.class);
@@ -18,21 +20,19 @@ public final class JsonExceptionMapper implements ExceptionMapper<Throwable> {
         Throwable cause =
                 failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
         if (cause instanceof ProblemException problem) {
-            return JsonResponses.problem(problem);
+            return problem.response();
         }
         if (cause instanceof WebApplicationException refused) {
             Response.StatusType status = refused.getResponse().getStatusInfo();
             String code = status.getReasonPhrase().toLowerCase(Locale.ROOT).replace(' ', '-');
-            Response answer =
-                    JsonResponses.problem(new ProblemException(status.getStatusCode(), code, sentence(status)));
+            Response answer = new ProblemException(status.getStatusCode(), code, sentence(status)).response();
             String allowed = refused.getResponse().getHeaderString("Allow");
             return allowed == null
                     ? answer
                     : Response.fromResponse(answer).header("Allow", allowed).build();
         }
         LOG.error("a request to the REST API failed", cause);
-        return JsonResponses.problem(
-                new ProblemException(500, "internal-error", "the request failed; the log says why"));
+        return new ProblemException(500, "internal-error", "the request failed; the log says why").response();
     }
 
     private static String sentence(Response.StatusType status) {

@@ -6,17 +6,15 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 import jakarta.ws.rs.core.UriBuilder;
 
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Answers in JSON. */
-public final class JsonResponses {
-    private static final int AGAIN_SECONDS = 1;
-
+final class JsonResponses {
     private JsonResponses() {}
 
     static Response ok(JsonNode json) {
@@ -36,7 +34,7 @@ public final class JsonResponses {
     /** What a manager answered. @param success the status in HTTP of what is no error */
     static Response of(io.furrow.model.control.CommandResult answer, int success) {
         return answer.error()
-                .map(error -> problem(ProblemException.statusOf(error), answer.json()))
+                .map(error -> ProblemException.response(error, answer.json()))
                 .orElseGet(() -> json(success, answer.json()).build());
     }
 
@@ -49,24 +47,5 @@ public final class JsonResponses {
                 .segment(answer.json().path(member).asText())
                 .build();
         return json(201, answer.json()).location(location).build();
-    }
-
-    public static Response problem(ProblemException problem) {
-        ObjectNode json = io.furrow.model.control.CommandResult.of(io.furrow.model.control.CommandResult.ERROR)
-                .with("error", problem.error())
-                .with("reason", problem.getMessage())
-                .json();
-        return problem(problem.status(), json);
-    }
-
-    /** @param json with {@code error} and {@code reason} */
-    static Response problem(int status, ObjectNode json) {
-        Response.ResponseBuilder answer = json(status, json);
-        if (status == 503) {
-            answer.header("Retry-After", AGAIN_SECONDS);
-        } else if (status == 401) {
-            answer.header("WWW-Authenticate", "Bearer");
-        }
-        return answer.build();
     }
 }

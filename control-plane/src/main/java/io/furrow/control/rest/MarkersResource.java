@@ -27,6 +27,7 @@ import jakarta.ws.rs.core.UriBuilder;
 
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.MarkerStore;
 import io.furrow.mission.RecordingException;

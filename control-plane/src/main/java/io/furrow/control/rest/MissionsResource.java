@@ -25,6 +25,7 @@ import jakarta.ws.rs.core.Response;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.DesiredDevices;

@@ -33,7 +33,6 @@ import io.furrow.control.ServiceTopics;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.readiness.Readiness;
-import io.furrow.control.rest.access.ApiAccess;
 import io.furrow.control.rest.access.BearerTokens;
 import io.furrow.control.rest.access.RoleFilter;
 import io.furrow.control.rest.access.TlsListener;
@@ -46,6 +45,7 @@ import io.furrow.control.rest.view.ReplayFeeds;
 import io.furrow.control.rest.view.ReplayView;
 import io.furrow.control.rest.view.ServiceReader;
 import io.furrow.control.rest.view.ServiceView;
+import io.furrow.model.field.FieldReader;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -81,14 +81,21 @@ public final class RestApi implements AutoCloseable {
         view.listen(feeds);
     }
 
+    /** Starts an API that reads no field files. @throws IOException as the other start */
+    public static RestApi start(ControlSettings control, RestSettings rest, Readiness readiness) throws IOException {
+        return start(control, rest, readiness, FieldReader.NONE);
+    }
+
     /**
      * Prepares the topics and listens; until they are read, requests are answered with 503.
      *
      * @param readiness of this process, to which the API adds itself
+     * @param fields reads the files that are sent to it
      * @throws IOException if the topics cannot be prepared, the farm has another secret, tokens or certificate cannot be
      *     read, or the port is taken
      */
-    public static RestApi start(ControlSettings control, RestSettings rest, Readiness readiness) throws IOException {
+    public static RestApi start(ControlSettings control, RestSettings rest, Readiness readiness, FieldReader fields)
+            throws IOException {
         rest.check();
         BearerTokens tokens = rest.tokens() == null ? null : BearerTokens.read(rest.tokens());
         TlsListener tls = rest.certificate() == null ? null : TlsListener.open(rest.certificate());
@@ -96,7 +103,7 @@ public final class RestApi implements AutoCloseable {
         RestApi api = new RestApi(control, rest, readiness);
         try {
             readiness.warn(new Warnings(rest.secret(), tokens, tls));
-            api.listen(rest, tls, api.resources(control, rest, readiness, tokens));
+            api.listen(rest, tls, api.resources(control, rest, readiness, tokens, fields));
         } catch (IOException e) {
             api.close();
             throw e;
@@ -121,7 +128,8 @@ public final class RestApi implements AutoCloseable {
     }
 
     private ResourceConfig resources(
-            ControlSettings control, RestSettings rest, Readiness readiness, BearerTokens tokens) throws IOException {
+            ControlSettings control, RestSettings rest, Readiness readiness, BearerTokens tokens, FieldReader fields)
+            throws IOException {
         readiness.require(reader::status);
         DeviceCommands commands = rest.contextBroker() == null
                 ? null
@@ -142,7 +150,7 @@ public final class RestApi implements AutoCloseable {
                 new RecordingsResource(view, events, threads),
                 new MarkersResource(markers, managers),
                 new AlarmsResource(view, managers),
-                new FieldsResource(control.client(), managers),
+                new FieldsResource(control.client(), managers, fields),
                 new AuditResource(view, control.client()),
                 new CallerResource(),
                 new HealthResource(readiness, metrics));

@@ -9,8 +9,8 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.control.manager.KeptOutbox;
 import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.Sequence;
 import io.furrow.control.manager.StateJson;
-import io.furrow.control.manager.record.Sequence;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.ErrorCode;

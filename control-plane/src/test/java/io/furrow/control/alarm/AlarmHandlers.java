@@ -2,7 +2,7 @@ package io.furrow.control.alarm;
 
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.MapRecords;
-import io.furrow.control.manager.record.Sequence;
+import io.furrow.control.manager.Sequence;
 
 /** Alarms without Kafka. */
 public final class AlarmHandlers {

@@ -15,8 +15,8 @@ import org.junit.jupiter.api.TestReporter;
 
 import io.furrow.control.manager.KeptOutbox;
 import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.Sequence;
 import io.furrow.control.manager.StateJson;
-import io.furrow.control.manager.record.Sequence;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.RefusedException;

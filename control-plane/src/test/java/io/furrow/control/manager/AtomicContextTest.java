@@ -6,9 +6,6 @@ import java.util.List;
 import org.apache.kafka.streams.processor.api.Record;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.manager.record.OversizedRecordException;
-import io.furrow.control.manager.record.Records;
-import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.model.control.Limits;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -22,7 +22,6 @@ import org.apache.kafka.streams.test.TestRecord;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.manager.record.SourcePositionProcessor;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.topic.Topics;

@@ -6,8 +6,6 @@ import java.util.TreeMap;
 import java.util.function.Consumer;
 import java.util.function.Function;
 
-import io.furrow.control.manager.record.Records;
-
 /** Remembers in the form in which stores do, so that what a store could not give back is not given back here either. */
 public final class MapRecords<T> implements Records<T> {
     private final Map<String, byte[]> bytes = new TreeMap<>();

@@ -9,9 +9,6 @@ import org.apache.kafka.streams.processor.api.MockProcessorContext;
 import org.apache.kafka.streams.state.KeyValueIterator;
 import org.apache.kafka.streams.state.KeyValueStore;
 
-import io.furrow.control.manager.record.Records;
-import io.furrow.control.manager.record.StoredRecords;
-
 /** The stores of a processor without Kafka, written as managers write them: as a whole or not at all. */
 public final class TestStores {
     private final Map<String, KeyValueStore<String, byte[]>> stores = new LinkedHashMap<>();

@@ -16,6 +16,7 @@ import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.readiness.Readiness;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.fields.FieldFiles;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.FarmSecret;
 
@@ -44,7 +45,7 @@ public final class RunningApi implements AutoCloseable {
                 .withTimeout(Duration.ofSeconds(30));
         Readiness readiness = new Readiness(Clock.systemUTC());
         readiness.require(plane::status);
-        api = RestApi.start(settings(), rest, readiness);
+        api = RestApi.start(settings(), rest, readiness, FieldFiles::read);
         client = new ApiClient(api.uri(), null);
         await().atMost(TIMEOUT).until(() -> client.send("GET", "/ready", null).statusCode() == 200);
     }

@@ -12,7 +12,7 @@ import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.util.Callback;
 
-import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.http.Problem;
 
 /**
  * Removes the headers by which users are named from every request. Where a {@link TrustedProxy} sent it and names a user, those that

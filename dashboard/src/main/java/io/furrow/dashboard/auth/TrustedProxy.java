@@ -8,7 +8,7 @@ import java.util.Objects;
 import java.util.regex.Pattern;
 import java.util.stream.Stream;
 
-import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.http.Problem;
 
 /**
  * A proxy in front of the dashboard that signs users in, with OpenID Connect for instance, and names them in headers. The headers of

@@ -16,7 +16,7 @@ import java.util.function.LongSupplier;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;

@@ -15,8 +15,7 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.errors.TimeoutException;
 import org.apache.kafka.common.header.Header;
 
-import io.furrow.dashboard.Problem;
-import io.furrow.dashboard.proxy.ProxyLimits;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -37,11 +36,11 @@ public final class KnownState {
     private static final String KIND = "replay-kind";
 
     private final Properties client;
-    private final ProxyLimits limits;
+    private final StreamLimits limits;
     private final Predicate<String> compacted;
 
     /** @param compacted whether a topic is */
-    public KnownState(Properties client, ProxyLimits limits, Predicate<String> compacted) {
+    public KnownState(Properties client, StreamLimits limits, Predicate<String> compacted) {
         this.client = client;
         this.limits = limits;
         this.compacted = compacted;

@@ -18,8 +18,6 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.dashboard.proxy.ProxyLimits;
-import io.furrow.dashboard.proxy.StreamCounters;
 import io.furrow.model.text.FailureText;
 
 /** The one consumer of a topic, from its end on, for all streams of it; on a thread of its own. */
@@ -30,7 +28,7 @@ public final class TopicFeed implements AutoCloseable {
     private static final long NEW_PARTITIONS_MILLIS = 10_000;
 
     private final String topic;
-    private final ProxyLimits limits;
+    private final StreamLimits limits;
     private final StreamCounters counters;
     private final KafkaConsumer<byte[], byte[]> consumer;
     private final Set<Stream> streams = new CopyOnWriteArraySet<>();
@@ -53,7 +51,7 @@ public final class TopicFeed implements AutoCloseable {
         boolean isClosed();
     }
 
-    TopicFeed(String topic, Properties client, ProxyLimits limits, StreamCounters counters) {
+    TopicFeed(String topic, Properties client, StreamLimits limits, StreamCounters counters) {
         this.topic = topic;
         this.counters = counters;
         this.limits = limits;

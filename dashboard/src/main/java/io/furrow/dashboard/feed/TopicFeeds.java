@@ -21,9 +21,7 @@ import org.apache.kafka.common.config.TopicConfig;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.dashboard.Problem;
-import io.furrow.dashboard.proxy.ProxyLimits;
-import io.furrow.dashboard.proxy.StreamCounters;
+import io.furrow.dashboard.http.Problem;
 
 /** The feeds of the topics that have streams; a topic without one is not read. */
 public final class TopicFeeds implements AutoCloseable {
@@ -36,7 +34,7 @@ public final class TopicFeeds implements AutoCloseable {
     private static final long COUNTED_FOR_NANOS = TimeUnit.SECONDS.toNanos(1);
 
     private final Properties client;
-    private final ProxyLimits limits;
+    private final StreamLimits limits;
     private final StreamCounters counters;
     private final Admin admin;
     private final Map<String, TopicFeed> feeds = new HashMap<>();
@@ -45,7 +43,7 @@ public final class TopicFeeds implements AutoCloseable {
     private volatile long lastAnswer = System.nanoTime();
     private boolean closed;
 
-    public TopicFeeds(Properties client, ProxyLimits limits, StreamCounters counters) {
+    public TopicFeeds(Properties client, StreamLimits limits, StreamCounters counters) {
         this.client = client;
         this.limits = limits;
         this.counters = counters;

@@ -15,9 +15,9 @@ import jakarta.servlet.http.HttpServlet;
 import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 
-import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.auth.Users;
+import io.furrow.dashboard.http.Problem;
 
 /**
  * {@code GET /api/images/<sha256>}: a stored image that {@code data.images} names. Only files below the folders that the dashboard was given

@@ -22,7 +22,7 @@ import org.eclipse.jetty.util.Callback;
 import org.eclipse.jetty.util.resource.Resource;
 import org.eclipse.jetty.util.resource.ResourceFactory;
 
-import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.model.file.FileProblem;
 
 /**

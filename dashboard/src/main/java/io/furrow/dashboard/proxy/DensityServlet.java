@@ -12,9 +12,9 @@ import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 import org.apache.kafka.clients.admin.Admin;
 
-import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.feed.TopicDensity;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 

@@ -13,7 +13,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.feed.FeedRecord;
-import io.furrow.dashboard.proxy.StreamCounters.Closing;
+import io.furrow.dashboard.feed.StreamCounters.Closing;
 
 /** Server-sent events of a topic; writes when the connection takes more, and never waits for it. */
 final class EventStream implements OpenStream, WriteListener, AsyncListener {

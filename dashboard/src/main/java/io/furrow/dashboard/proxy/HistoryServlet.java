@@ -14,10 +14,10 @@ import org.apache.kafka.common.KafkaException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.feed.FeedRecord;
 import io.furrow.dashboard.feed.TopicHistory;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.model.text.FailureText;
 
 /** {@code GET /api/history/<topic>}: what a topic holds of a stretch of time. At most {@value #AT_ONCE} are read at once. */

@@ -9,6 +9,8 @@ import java.util.Map;
 import java.util.Queue;
 
 import io.furrow.dashboard.feed.FeedRecord;
+import io.furrow.dashboard.feed.StreamCounters;
+import io.furrow.dashboard.feed.StreamLimits;
 
 /**
  * What waits to be sent on one stream, within bounds. What is offered before the known state is there waits behind it. Frames are
@@ -18,7 +20,7 @@ final class Outbox {
     private static final int FRAME_CHARS = 256 * 1024;
 
     private final StreamRequest request;
-    private final ProxyLimits limits;
+    private final StreamLimits limits;
     private final StreamCounters counters;
     private final Queue<FeedRecord> known = new ArrayDeque<>();
     private final Queue<FeedRecord> all = new ArrayDeque<>();
@@ -29,7 +31,7 @@ final class Outbox {
     private boolean priming;
     private boolean overflown;
 
-    Outbox(StreamRequest request, ProxyLimits limits, StreamCounters counters) {
+    Outbox(StreamRequest request, StreamLimits limits, StreamCounters counters) {
         this.request = request;
         this.limits = limits;
         this.counters = counters;

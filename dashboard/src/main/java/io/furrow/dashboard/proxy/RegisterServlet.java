@@ -7,9 +7,9 @@ import jakarta.servlet.http.HttpServlet;
 import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 
-import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.auth.User;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code GET /api/register/<topic>}: the path of a socket that may be opened once. */

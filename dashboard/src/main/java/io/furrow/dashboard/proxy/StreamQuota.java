@@ -3,15 +3,16 @@ package io.furrow.dashboard.proxy;
 import java.util.HashMap;
 import java.util.Map;
 
-import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.feed.StreamLimits;
+import io.furrow.dashboard.http.Problem;
 
 /** How many streams are open, of all clients and of each. */
 final class StreamQuota {
-    private final ProxyLimits limits;
+    private final StreamLimits limits;
     private final Map<String, Integer> ofClients = new HashMap<>();
     private int all;
 
-    StreamQuota(ProxyLimits limits) {
+    StreamQuota(StreamLimits limits) {
         this.limits = limits;
     }
 

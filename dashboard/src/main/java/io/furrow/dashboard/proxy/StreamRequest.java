@@ -5,8 +5,8 @@ import java.util.regex.Pattern;
 
 import jakarta.servlet.http.HttpServletRequest;
 
-import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.feed.TopicRules;
+import io.furrow.dashboard.http.Problem;
 
 /**
  * What a client wants of a topic.

@@ -7,8 +7,8 @@ import jakarta.servlet.http.HttpServlet;
 import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 
-import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.http.Problem;
 
 /** {@code GET /api/stream/<topic>}: a topic as server-sent events, each with the records of a frame. */
 public final class StreamServlet extends HttpServlet {

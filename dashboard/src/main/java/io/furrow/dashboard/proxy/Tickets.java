@@ -7,9 +7,10 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.function.LongSupplier;
 
-import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.auth.User;
+import io.furrow.dashboard.feed.StreamLimits;
+import io.furrow.dashboard.http.Problem;
 
 /** Permissions to open one socket, each used once: a browser cannot send a token with a socket, and a path shows in logs. */
 final class Tickets {
@@ -18,7 +19,7 @@ final class Tickets {
     private final SecureRandom random = new SecureRandom();
     private final Map<String, Ticket> open = new LinkedHashMap<>();
     private final Map<String, Integer> ofClients = new LinkedHashMap<>();
-    private final ProxyLimits limits;
+    private final StreamLimits limits;
     private final LongSupplier nanos;
 
     /**
@@ -30,7 +31,7 @@ final class Tickets {
         }
     }
 
-    Tickets(ProxyLimits limits, LongSupplier nanos) {
+    Tickets(StreamLimits limits, LongSupplier nanos) {
         this.limits = limits;
         this.nanos = nanos;
     }

@@ -9,11 +9,12 @@ import org.eclipse.jetty.websocket.api.Session;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.auth.User;
 import io.furrow.dashboard.feed.FeedRecord;
-import io.furrow.dashboard.proxy.StreamCounters.Closing;
+import io.furrow.dashboard.feed.StreamCounters.Closing;
+import io.furrow.dashboard.feed.StreamLimits;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** One socket: the records of its topic go out, what comes in is written to it. */
@@ -32,7 +33,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
 
     private final TopicStreams streams;
     private final Tickets.Ticket ticket;
-    private final ProxyLimits limits;
+    private final StreamLimits limits;
     private final Outbox outbox;
     private final long openedAt = System.nanoTime();
     private volatile User user;
@@ -45,7 +46,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     private long second;
     private int messages;
 
-    TopicSocket(TopicStreams streams, Tickets.Ticket ticket, ProxyLimits limits) {
+    TopicSocket(TopicStreams streams, Tickets.Ticket ticket, StreamLimits limits) {
         this.streams = streams;
         this.ticket = ticket;
         this.user = ticket.user();

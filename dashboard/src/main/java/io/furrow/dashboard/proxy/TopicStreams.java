@@ -18,13 +18,15 @@ import org.apache.kafka.common.KafkaException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Users;
 import io.furrow.dashboard.feed.FeedRecord;
 import io.furrow.dashboard.feed.KnownState;
 import io.furrow.dashboard.feed.KnownStateReader;
+import io.furrow.dashboard.feed.StreamCounters;
+import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.feed.TopicFeeds;
 import io.furrow.dashboard.feed.TopicRules;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.model.text.FailureText;
 
 /** All streams of a server, over sockets and as events: begins and ends them, and looks after them meanwhile. */
@@ -47,7 +49,7 @@ public final class TopicStreams implements AutoCloseable {
     private final StreamQuota quota;
     private final Tickets tickets;
     private final TopicRules rules;
-    private final ProxyLimits limits;
+    private final StreamLimits limits;
     private final Set<OpenStream> streams = ConcurrentHashMap.newKeySet();
     private final StreamCounters counters = new StreamCounters();
     /** Of two threads: one may wait for the control plane while the other pings. */
@@ -56,7 +58,7 @@ public final class TopicStreams implements AutoCloseable {
     private final ExecutorService beginners = Executors.newFixedThreadPool(BEGINNERS, daemon("streams-begin"));
     private final ExecutorService endings = Executors.newSingleThreadExecutor(daemon("streams-end"));
 
-    public TopicStreams(Properties client, TopicRules rules, ProxyLimits limits, Users users) {
+    public TopicStreams(Properties client, TopicRules rules, StreamLimits limits, Users users) {
         this.feeds = new TopicFeeds(client, limits, counters);
         this.known = new KnownStateReader(new KnownState(client, limits, feeds::isCompacted)::read);
         this.writer = new TopicWriter(client, rules);
@@ -122,7 +124,7 @@ public final class TopicStreams implements AutoCloseable {
         return rules;
     }
 
-    ProxyLimits limits() {
+    StreamLimits limits() {
         return limits;
     }
 

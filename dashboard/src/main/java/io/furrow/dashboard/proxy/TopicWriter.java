@@ -14,10 +14,10 @@ import org.apache.kafka.clients.producer.RecordMetadata;
 import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
-import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Role;
 import io.furrow.dashboard.auth.User;
 import io.furrow.dashboard.feed.TopicRules;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.model.control.AdminCommands;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;

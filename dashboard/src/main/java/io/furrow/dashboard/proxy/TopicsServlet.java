@@ -10,8 +10,8 @@ import jakarta.servlet.http.HttpServlet;
 import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 
-import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code GET /api/topics}: the topics that there are and may be read, by name, and how many records were written to each. */

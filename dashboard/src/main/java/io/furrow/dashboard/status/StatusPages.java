@@ -10,7 +10,7 @@ import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.util.Callback;
 
-import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.http.Problem;
 import io.furrow.dashboard.proxy.TopicStreams;
 import io.furrow.model.ngsi.NgsiJson;
 

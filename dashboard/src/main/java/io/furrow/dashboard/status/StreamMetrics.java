@@ -12,7 +12,7 @@ import io.prometheus.metrics.model.snapshots.GaugeSnapshot.GaugeDataPointSnapsho
 import io.prometheus.metrics.model.snapshots.Labels;
 import io.prometheus.metrics.model.snapshots.MetricSnapshots;
 
-import io.furrow.dashboard.proxy.StreamCounters;
+import io.furrow.dashboard.feed.StreamCounters;
 import io.furrow.dashboard.proxy.TopicStreams;
 
 /** What streams are and did, in the text format of Prometheus. Neither topics nor users are labels: the page needs no token. */

@@ -7,6 +7,8 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.dashboard.feed.FeedRecord;
+import io.furrow.dashboard.feed.StreamCounters;
+import io.furrow.dashboard.feed.StreamLimits;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -14,8 +16,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 class OutboxTest {
     private static final String VALVE = "{\"id\":\"pb-13\",\"type\":\"Valve\"}";
     private static final String PUMP = "{\"id\":\"pb-13\",\"type\":\"Pump\"}";
-    private static final ProxyLimits FEW =
-            new ProxyLimits(1, 1, 1, Duration.ofSeconds(1), 3, 10_000, 1_000, 1_000, 1, 1_000);
+    private static final StreamLimits FEW =
+            new StreamLimits(1, 1, 1, Duration.ofSeconds(1), 3, 10_000, 1_000, 1_000, 1, 1_000);
 
     private static FeedRecord record(String key, String value, long sequence) {
         return new FeedRecord(

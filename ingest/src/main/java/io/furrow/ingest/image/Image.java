@@ -1,5 +1,6 @@
 package io.furrow.ingest.image;
 
+import io.furrow.mission.image.Sha256;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 

@@ -14,6 +14,9 @@ import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.FileSystem.WriteMode;
 import org.apache.flink.core.fs.Path;
 
+import io.furrow.mission.image.ImageName;
+import io.furrow.mission.image.Sha256;
+
 /**
  * Images as files on a Flink file system. A file appears whole or not at all: it is written under another name and renamed,
  * on object stores put at once. What was written once is not written again; what is there under a name and is another image
@@ -21,9 +24,6 @@ import org.apache.flink.core.fs.Path;
  * before the call returns: a checkpoint after it may take it for done.
  */
 final class ImageFiles implements ImageStore {
-    /** Files under way, to be deleted when they are left behind by a process that died. */
-    static final String UNFINISHED = ".unfinished-";
-
     /** Stores where a rename is a copy and a put shows nothing before it is whole. */
     private static final Set<String> OBJECT_STORES = Set.of("s3", "s3a", "s3n", "s3p", "gs", "oss", "wasb", "wasbs");
 
@@ -48,7 +48,7 @@ final class ImageFiles implements ImageStore {
     /** Writes an image unless it is there already. */
     @Override
     public StoredImage store(ImageName name, Image image) throws IOException {
-        String first = root + "/" + name.path(image.format());
+        String first = root + "/" + name.path(image.format().extension());
         String url = switch (found(path(first), image)) {
             case NOTHING -> write(first, image);
             case THE_SAME -> named(first);
@@ -63,7 +63,7 @@ final class ImageFiles implements ImageStore {
     }
 
     private String storeBeside(ImageName name, Image image) throws IOException {
-        String second = root + "/" + name.path(image.format(), image.sha256());
+        String second = root + "/" + name.path(image.format().extension(), image.sha256());
         Found found = found(path(second), image);
         if (found == Found.ANOTHER) {
             files.delete(path(second), false); // nothing but a damaged file of the same image can have its hash
@@ -100,7 +100,7 @@ final class ImageFiles implements ImageStore {
             put(target, image.bytes(), WriteMode.OVERWRITE);
             return url;
         }
-        Path unfinished = new Path(target.getParent(), UNFINISHED + UUID.randomUUID());
+        Path unfinished = new Path(target.getParent(), ImageName.UNFINISHED + UUID.randomUUID());
         put(unfinished, image.bytes(), WriteMode.NO_OVERWRITE);
         if (!files.rename(unfinished, target)) {
             files.delete(unfinished, false);

@@ -140,7 +140,7 @@ enum ImageFormat {
         return contentType;
     }
 
-    String extension() {
+    public String extension() {
         return extension;
     }
 

@@ -13,6 +13,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.mission.image.ImageName;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;

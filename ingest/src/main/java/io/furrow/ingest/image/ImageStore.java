@@ -2,6 +2,8 @@ package io.furrow.ingest.image;
 
 import java.io.IOException;
 
+import io.furrow.mission.image.ImageName;
+
 /** Where images go. */
 interface ImageStore {
     /**
@@ -18,7 +20,8 @@ interface ImageStore {
             case ALL -> ImageFiles.in(root);
             case FOR_OTHERS -> ImageFiles.in(root)::storeByHash;
             case BY_OTHERS ->
-                (name, image) -> StoredImage.of(root + "/" + name.path(image.format(), image.sha256()), image);
+                (name, image) ->
+                        StoredImage.of(root + "/" + name.path(image.format().extension(), image.sha256()), image);
         };
     }
 }

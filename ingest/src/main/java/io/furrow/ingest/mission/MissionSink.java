@@ -15,6 +15,7 @@ import org.apache.flink.metrics.groups.UnregisteredMetricsGroup;
 import org.apache.flink.util.IOUtils;
 
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.mission.bulk.BulkSender;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
@@ -47,7 +48,7 @@ public final class MissionSink implements Sink<MissionDocument> {
         MongoClient client = access.open();
         MissionCollections collections = new MissionCollections(client, Retention.FOR_EVER, Clock.systemUTC());
         return new MissionWriter(
-                new BulkSender(collections, access.waits(), ignored -> {}),
+                new BulkSender<>(collections, access.waits(), ignored -> {}),
                 deadLetters,
                 client,
                 UnregisteredMetricsGroup.createSinkWriterMetricGroup());
@@ -66,7 +67,7 @@ public final class MissionSink implements Sink<MissionDocument> {
                 opened.add(ExpiredDocumentsPurger.start(access, retention));
             }
             return new MissionWriter(
-                    new BulkSender(collections, access.waits(), retried::inc),
+                    new BulkSender<>(collections, access.waits(), retried::inc),
                     dead,
                     () -> IOUtils.closeAll(opened),
                     context.metricGroup());

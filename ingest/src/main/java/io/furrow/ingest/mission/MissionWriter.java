@@ -18,6 +18,7 @@ import org.apache.flink.metrics.groups.SinkWriterMetricGroup;
 
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.mission.bulk.BulkSender;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -33,7 +34,7 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
     /** Gathered for so long before it is sent to a server that is waiting for it: each bulk has a disk of the server's synced. */
     private static final long GATHERING_NANOS = Duration.ofMillis(100).toNanos();
 
-    private final BulkSender sender;
+    private final BulkSender<MissionDocument> sender;
     private final SinkWriter<TopicRecord> deadLetters;
     private final AutoCloseable connection;
     private final ExecutorService thread = Executors.newSingleThreadExecutor(MissionWriter::named);
@@ -44,11 +45,11 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
     private long gatheredBytes;
     private long gatheredSince;
     private List<MissionDocument> sent = List.of();
-    private Future<List<BulkSender.Refusal>> underWay = CompletableFuture.completedFuture(List.of());
+    private Future<List<BulkSender.Refusal<MissionDocument>>> underWay = CompletableFuture.completedFuture(List.of());
 
     /** @param connection is closed with the writer */
     MissionWriter(
-            BulkSender sender,
+            BulkSender<MissionDocument> sender,
             SinkWriter<TopicRecord> deadLetters,
             AutoCloseable connection,
             SinkWriterMetricGroup metrics) {
@@ -94,14 +95,14 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
     }
 
     private void awaitUnderWay() throws IOException, InterruptedException {
-        Future<List<BulkSender.Refusal>> answer = underWay;
+        Future<List<BulkSender.Refusal<MissionDocument>>> answer = underWay;
         List<MissionDocument> bulk = sent;
         underWay = CompletableFuture.completedFuture(List.of());
         sent = List.of();
         try {
-            List<BulkSender.Refusal> refused = answer.get();
+            List<BulkSender.Refusal<MissionDocument>> refused = answer.get();
             Set<MissionDocument> notWritten = Collections.newSetFromMap(new IdentityHashMap<>());
-            for (BulkSender.Refusal refusal : refused) {
+            for (BulkSender.Refusal<MissionDocument> refusal : refused) {
                 notWritten.add(refusal.document());
                 setAside(refusal);
             }
@@ -117,7 +118,7 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
         }
     }
 
-    private void setAside(BulkSender.Refusal refusal) throws IOException, InterruptedException {
+    private void setAside(BulkSender.Refusal<MissionDocument> refusal) throws IOException, InterruptedException {
         documents.refused(refusal.document());
         UnreadableException why = new UnreadableException(Reason.REFUSED, refusal.reason());
         TopicRecord record = refusal.document().event().record();

@@ -1,2 +1,2 @@
-/** Every event of a mission as a document in MongoDB, and as a line of an archive. */
+/** Every event of a mission as a document in MongoDB. */
 package io.furrow.ingest.mission;

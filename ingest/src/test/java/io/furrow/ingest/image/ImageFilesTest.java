@@ -16,6 +16,7 @@ import org.apache.flink.core.fs.LimitedConnectionsFileSystem;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.mission.image.ImageName;
 import io.furrow.model.event.FiwareScope;
 
 import static org.assertj.core.api.Assertions.assertThat;

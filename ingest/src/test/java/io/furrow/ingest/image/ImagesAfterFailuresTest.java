@@ -27,6 +27,7 @@ import picocli.CommandLine.Mixin;
 
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.mission.image.ImageName;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -21,6 +21,8 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.mission.archive.StoredMissions;
+import io.furrow.mission.bulk.BulkSender;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
@@ -165,8 +167,9 @@ class AnyMongoTest {
         return documents;
     }
 
-    private List<BulkSender.Refusal> send(List<MissionDocument> documents) throws Exception {
-        return new BulkSender(collections, MongoAccess.Waits.of(Duration.ofSeconds(5)), ignored -> {}).send(documents);
+    private List<BulkSender.Refusal<MissionDocument>> send(List<MissionDocument> documents) throws Exception {
+        return new BulkSender<MissionDocument>(collections, MongoAccess.Waits.of(Duration.ofSeconds(5)), ignored -> {})
+                .send(documents);
     }
 
     private static byte[] exported(StoredMissions missions, String name) throws IOException {

@@ -23,6 +23,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.mission.bulk.BulkSender;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
@@ -103,7 +104,8 @@ class BulkSenderTest {
                 .get("mission_m")
                 .createIndex(Indexes.ascending("Temperature.value"), new IndexOptions().unique(true));
 
-        List<BulkSender.Refusal> refused = sender().send(documents(1, 60)); // 40 different temperatures
+        List<BulkSender.Refusal<MissionDocument>> refused =
+                sender().send(documents(1, 60)); // 40 different temperatures
 
         assertThat(ids()).hasSize(40);
         assertThat(refused).hasSize(20).allSatisfy(refusal -> {
@@ -120,7 +122,7 @@ class BulkSenderTest {
                 new MissionDocument("mission_m", "unfit", new byte[] {9, 0, 0, 0, 1, 'x', 0, 0, 0}, null);
         documents.add(4, unfit);
 
-        List<BulkSender.Refusal> refused = sender().send(documents);
+        List<BulkSender.Refusal<MissionDocument>> refused = sender().send(documents);
 
         assertThat(refused)
                 .singleElement()
@@ -145,7 +147,7 @@ class BulkSenderTest {
         sender().send(documents(0, 10));
         int port = Integer.parseInt(mongo.uri().substring(mongo.uri().lastIndexOf(':') + 1));
         mongo.close();
-        CompletableFuture<List<BulkSender.Refusal>> sent = CompletableFuture.supplyAsync(() -> {
+        CompletableFuture<List<BulkSender.Refusal<MissionDocument>>> sent = CompletableFuture.supplyAsync(() -> {
             try {
                 return sender().send(documents(10, 20));
             } catch (IOException | InterruptedException e) {
@@ -164,7 +166,7 @@ class BulkSenderTest {
     void failsWhenTheServerStaysAway() {
         mongo.close();
 
-        assertThatThrownBy(() -> new BulkSender(
+        assertThatThrownBy(() -> new BulkSender<MissionDocument>(
                                 collections, MongoAccess.Waits.of(Duration.ofMillis(200)), retried::addAndGet)
                         .send(documents(0, 3)))
                 .isInstanceOf(IOException.class)
@@ -208,8 +210,8 @@ class BulkSenderTest {
         return seconds;
     }
 
-    private BulkSender sender() {
-        return new BulkSender(collections, access.waits(), retried::addAndGet);
+    private BulkSender<MissionDocument> sender() {
+        return new BulkSender<>(collections, access.waits(), retried::addAndGet);
     }
 
     private List<String> ids() {

@@ -29,6 +29,10 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.mission.EventOrder;
 import io.furrow.mission.StoredEvent;
+import io.furrow.mission.archive.MissionArchive;
+import io.furrow.mission.archive.MissionFiles;
+import io.furrow.mission.archive.StoredMissions;
+import io.furrow.mission.bulk.BulkSender;
 import io.furrow.mission.file.ArchiveLine;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
@@ -241,7 +245,8 @@ class MissionArchiveTest {
         for (MissionEvent event : events) {
             documents.add(ComposeDocuments.compose(event));
         }
-        assertThat(new BulkSender(collections, MongoAccess.Waits.of(Duration.ofSeconds(5)), ignored -> {})
+        assertThat(new BulkSender<MissionDocument>(
+                                collections, MongoAccess.Waits.of(Duration.ofSeconds(5)), ignored -> {})
                         .send(documents))
                 .isEmpty();
     }

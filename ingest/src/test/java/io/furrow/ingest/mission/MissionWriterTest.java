@@ -19,6 +19,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.mission.bulk.BulkSender;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
@@ -50,7 +51,7 @@ class MissionWriterTest {
 
     private MissionWriter writer(MissionCollections to) {
         return new MissionWriter(
-                new BulkSender(to, MongoAccess.Waits.of(Duration.ofMillis(100)), ignored -> {}),
+                new BulkSender<>(to, MongoAccess.Waits.of(Duration.ofMillis(100)), ignored -> {}),
                 dead,
                 client,
                 UnregisteredMetricsGroup.createSinkWriterMetricGroup());

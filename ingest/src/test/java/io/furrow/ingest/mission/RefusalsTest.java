@@ -15,6 +15,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import io.furrow.mission.bulk.BulkSender;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
@@ -91,7 +92,7 @@ class RefusalsTest {
 
     @Test
     void areFewAttemptsWhereTheCodeWasMetBeforeWhileOthersPassed() throws Exception {
-        BulkSender sender = sender(SHORT);
+        BulkSender<MissionDocument> sender = sender(SHORT);
         mongo.refuse("event-3", 777_777, FOR_EVER);
         mongo.refuse("event-13", 777_777, FOR_EVER);
         sender.send(documents(10));
@@ -104,7 +105,7 @@ class RefusalsTest {
 
     @Test
     void areAllOfABulkWhereTheirCodeWasMetBeforeWhileOthersPassed() throws Exception {
-        BulkSender sender = sender(SHORT);
+        BulkSender<MissionDocument> sender = sender(SHORT);
         IntStream.range(9, 15).forEach(number -> mongo.refuse("event-" + number, 777_777, FOR_EVER));
         sender.send(documents(10));
 
@@ -170,8 +171,8 @@ class RefusalsTest {
         assertThat(sender(SHORT).send(documents(3, 4))).hasSize(1);
     }
 
-    private BulkSender sender(Duration unknown) {
-        return new BulkSender(collections, new MongoAccess.Waits(LONG, unknown), ignored -> {});
+    private BulkSender<MissionDocument> sender(Duration unknown) {
+        return new BulkSender<>(collections, new MongoAccess.Waits(LONG, unknown), ignored -> {});
     }
 
     private long count() {

@@ -18,17 +18,17 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.CommandException;
-import io.furrow.cli.KafkaClient;
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.KafkaClient;
 import io.furrow.dashboard.Dashboard;
 import io.furrow.dashboard.DashboardSettings;
 import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.page.PageSettings;
-import io.furrow.launcher.LogFile;
 import io.furrow.launcher.option.AccessFlags;
 import io.furrow.launcher.option.TrustedProxyFlags;
+import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.suite.PortCheck;
 import io.furrow.launcher.suite.ServerCheck;
 

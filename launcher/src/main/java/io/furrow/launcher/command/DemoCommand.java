@@ -8,7 +8,6 @@ import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Spec;
 
 import io.furrow.cli.option.HelpOption;
-import io.furrow.launcher.Session;
 import io.furrow.launcher.option.SuiteOptions;
 
 /** {@code ./furrow demo}. */

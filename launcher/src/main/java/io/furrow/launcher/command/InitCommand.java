@@ -14,7 +14,7 @@ import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.model.file.FileProblem;
 import io.furrow.model.file.PrivateFile;

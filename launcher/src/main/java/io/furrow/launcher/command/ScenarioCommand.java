@@ -18,7 +18,7 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.launcher.option.FiwareOptions;
 import io.furrow.model.text.Counts;

@@ -14,8 +14,8 @@ import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.CommandException;
-import io.furrow.cli.command.CommandGroup;
+import io.furrow.cli.option.CommandException;
+import io.furrow.cli.option.CommandGroup;
 import io.furrow.launcher.suite.FarmSecretFile;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.FarmSecretCodec;

@@ -9,10 +9,9 @@ import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.cli.option.HttpUri;
-import io.furrow.launcher.Session;
 import io.furrow.launcher.option.FarmOptions;
 import io.furrow.launcher.option.FiwareAccessOptions;
 import io.furrow.launcher.option.ListenOptions;

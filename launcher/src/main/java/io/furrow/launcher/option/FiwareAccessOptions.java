@@ -7,7 +7,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 import picocli.CommandLine.Option;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.file.AccessToken;
 

@@ -7,7 +7,7 @@ import java.util.List;
 
 import picocli.CommandLine.Option;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HttpUri;
 import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.file.AccessToken;

@@ -4,7 +4,7 @@ import java.time.Duration;
 
 import picocli.CommandLine.Option;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.control.replay.ReplaySettings;
 
 /** Options of the control plane that concern replays. */

@@ -6,7 +6,7 @@ import java.nio.file.Path;
 
 import picocli.CommandLine.Option;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HttpUri;
 import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.health.HealthOptions;

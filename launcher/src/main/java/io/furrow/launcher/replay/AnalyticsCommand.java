@@ -15,9 +15,9 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.KafkaClient;
 import io.furrow.cli.option.HttpUri;
-import io.furrow.launcher.LogFile;
+import io.furrow.cli.option.KafkaClient;
+import io.furrow.launcher.process.LogFile;
 import io.furrow.model.topic.Topics;
 
 /** {@code ./furrow replay analytics}. */

@@ -15,10 +15,10 @@ import java.util.Properties;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.http.AllowedNames;
-import io.furrow.launcher.RestClient;
-import io.furrow.launcher.Sleep;
+import io.furrow.launcher.process.RestClient;
+import io.furrow.launcher.process.Sleep;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.Counts;

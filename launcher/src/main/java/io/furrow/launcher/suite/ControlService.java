@@ -23,8 +23,9 @@ import io.furrow.control.replay.ReplaySettings;
 import io.furrow.control.replay.TopicCleanup;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
+import io.furrow.fields.FieldFiles;
 import io.furrow.kafka.PartStatus;
-import io.furrow.launcher.Sleep;
+import io.furrow.launcher.process.Sleep;
 import io.furrow.provisioner.Provisioner;
 import io.furrow.provisioner.ProvisioningSettings;
 
@@ -81,7 +82,7 @@ public final class ControlService implements AutoCloseable {
         readiness.require(farmWatch::status);
         readiness.requireAll(farmWatch::followers);
         startReplays(settings.replays());
-        RestApi api = parts.add("REST API", RestApi.start(settings, rest, readiness));
+        RestApi api = parts.add("REST API", RestApi.start(settings, rest, readiness, FieldFiles::read));
         show("contextBroker", rest.contextBroker(), "/version");
         if (provisioning != null) {
             Provisioner provisioner = parts.add("provisioner", Provisioner.start(provisioning));

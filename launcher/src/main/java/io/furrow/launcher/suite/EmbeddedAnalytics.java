@@ -8,8 +8,8 @@ import java.util.stream.Collectors;
 import org.apache.flink.api.common.JobID;
 import org.apache.flink.util.FlinkRuntimeException;
 
-import io.furrow.cli.CommandException;
 import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.cli.option.CommandException;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.launcher.replay.AnalyticsException;
 import io.furrow.launcher.replay.AnalyticsExecutor;

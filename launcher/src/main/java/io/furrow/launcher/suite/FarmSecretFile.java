@@ -5,7 +5,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Properties;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.kafka.secret.SecretFile;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.FarmSecretCodec;

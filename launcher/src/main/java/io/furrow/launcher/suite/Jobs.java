@@ -19,9 +19,9 @@ import org.apache.flink.streaming.api.graph.StreamGraph;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.embedded.EmbeddedFlink;
-import io.furrow.launcher.Sleep;
+import io.furrow.launcher.process.Sleep;
 
 /** The jobs of the suite on its Flink: each continues from its newest state below a directory, if there is any. */
 final class Jobs {

@@ -15,8 +15,8 @@ import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.common.errors.TopicExistsException;
 
-import io.furrow.cli.CommandException;
-import io.furrow.cli.KafkaClient;
+import io.furrow.cli.option.CommandException;
+import io.furrow.cli.option.KafkaClient;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 

@@ -8,7 +8,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.stream.Collectors;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 
 /** Finds all ports in use before anything is started on them. */
 public final class PortCheck {

@@ -24,8 +24,8 @@ import java.util.stream.Stream;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.cli.CommandException;
-import io.furrow.launcher.Sleep;
+import io.furrow.cli.option.CommandException;
+import io.furrow.launcher.process.Sleep;
 
 /**
  * The directory of one running suite, locked against a second one. A temporary one is deleted when it is closed, and also when the

@@ -32,8 +32,8 @@ import org.apache.kafka.common.KafkaException;
 import org.bson.BsonDocument;
 import org.bson.BsonInt32;
 
-import io.furrow.cli.CommandException;
-import io.furrow.cli.KafkaClient;
+import io.furrow.cli.option.CommandException;
+import io.furrow.cli.option.KafkaClient;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.text.FailureText;
 import io.furrow.simulators.mqtt.MqttAccess;

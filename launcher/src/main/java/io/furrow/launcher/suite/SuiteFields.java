@@ -17,16 +17,17 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.cli.CommandException;
-import io.furrow.fields.FieldChange;
-import io.furrow.fields.FieldsTopic;
-import io.furrow.fields.ImportOptions;
-import io.furrow.fields.ImportedField;
-import io.furrow.fields.RefusedFeature;
-import io.furrow.fields.file.FieldFile;
-import io.furrow.fields.file.UnusableFileException;
+import io.furrow.cli.option.CommandException;
+import io.furrow.fields.FieldFiles;
 import io.furrow.fiware.FiwareStandIn;
+import io.furrow.kafka.field.FieldChange;
+import io.furrow.kafka.field.FieldsTopic;
+import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.FieldVersion;
+import io.furrow.model.field.ImportOptions;
+import io.furrow.model.field.ImportedField;
+import io.furrow.model.field.RefusedFeature;
+import io.furrow.model.field.UnusableFileException;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
@@ -123,7 +124,7 @@ final class SuiteFields {
 
     private static List<ImportedField> read(Path file) {
         try {
-            FieldFile read = FieldFile.read(file, new ImportOptions(null, null, null, null, null, Instant.EPOCH));
+            FieldFile read = FieldFiles.read(file, new ImportOptions(null, null, null, null, null, Instant.EPOCH));
             if (!read.refused().isEmpty()) {
                 RefusedFeature first = read.refused().get(0);
                 throw new CommandException(

@@ -5,7 +5,7 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.control.WatchOptions;
 import io.furrow.control.alarm.action.StopRobots;
 import io.furrow.control.alarm.action.Webhook;

@@ -23,7 +23,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.launcher.Furrow;
-import io.furrow.launcher.RestClient;
+import io.furrow.launcher.process.RestClient;
 import io.furrow.launcher.suite.FarmSecretFile;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.ngsi.NgsiJson;

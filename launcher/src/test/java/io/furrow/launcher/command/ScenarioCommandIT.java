@@ -17,7 +17,7 @@ import io.furrow.embedded.EmbeddedMqtt;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
 import io.furrow.launcher.Furrow;
-import io.furrow.launcher.RestClient;
+import io.furrow.launcher.process.RestClient;
 import io.furrow.launcher.suite.Suite;
 
 import static org.assertj.core.api.Assertions.assertThat;

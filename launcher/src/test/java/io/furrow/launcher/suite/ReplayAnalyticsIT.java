@@ -20,7 +20,7 @@ import picocli.CommandLine;
 
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.fields.FieldsTopic;
+import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.launcher.Furrow;
 import io.furrow.launcher.replay.ReplayAnalytics;
 import io.furrow.model.control.DesiredReplay;

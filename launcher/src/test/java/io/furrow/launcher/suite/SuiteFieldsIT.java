@@ -10,11 +10,11 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.cli.CommandException;
+import io.furrow.cli.option.CommandException;
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.fields.FieldChange;
-import io.furrow.fields.FieldsTopic;
 import io.furrow.http.AllowedNames;
+import io.furrow.kafka.field.FieldChange;
+import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 

@@ -13,7 +13,6 @@ import java.util.TreeSet;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.provisioner.ProvisioningSettings;
 
 /**
  * The accounts of devices at the MQTT brokers. What nobody shall get in with any more, as the password of a stolen device, is
@@ -34,10 +33,11 @@ public final class DeviceAccounts {
 
     private Map<String, String> refused = Map.of();
 
-    public DeviceAccounts(ProvisioningSettings settings) {
-        this.brokers = settings.accounts();
-        this.secret = settings.secret();
-        this.gateways = settings.gateways();
+    /** @param gateways whether each mission has an account that may speak for all its devices */
+    public DeviceAccounts(List<MqttAccounts> brokers, SecretSource secret, boolean gateways) {
+        this.brokers = brokers;
+        this.secret = secret;
+        this.gateways = gateways;
     }
 
     /** Takes nothing for granted: another process may have been at work. */

@@ -7,12 +7,6 @@ import java.util.List;
 import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
-import io.furrow.analytics.collision.matching.CrowdReport;
-import io.furrow.analytics.collision.matching.Shortlist;
-import io.furrow.analytics.collision.encounter.Pair;
-import io.furrow.analytics.collision.encounter.PairSerializer;
-import io.furrow.analytics.position.Device;
-import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.position.PositionFixSerializer;
 import io.furrow.flink.format.Format;
 import io.furrow.flink.format.Text;

@@ -13,7 +13,8 @@ import org.junit.jupiter.params.provider.EnumSource;
 import io.furrow.analytics.collision.encounter.OpenEncounterSerializer;
 import io.furrow.analytics.collision.encounter.PairObservationSerializer;
 import io.furrow.analytics.collision.encounter.PendingObservationsSerializer;
-import io.furrow.analytics.collision.position.PendingFixesSerializer;
+import io.furrow.analytics.collision.matching.CellSerializer;
+import io.furrow.analytics.collision.matching.PendingUpdatesSerializer;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.format.Format;
 

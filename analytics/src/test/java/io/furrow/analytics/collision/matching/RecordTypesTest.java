@@ -24,7 +24,6 @@ import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Presence;
 import io.furrow.analytics.collision.grid.Track;
-import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 

@@ -15,7 +15,7 @@ public final class Fleet {
     public static final int TICKS_PER_SECOND = 5;
 
     /** Of the square, in meters, where nothing else is said. */
-    public static final double SIDE = 2000;
+    static final double SIDE = 2000;
 
     public static final double LATITUDE = 40.3125;
     static final double LONGITUDE = -3.4821;

@@ -168,7 +168,7 @@ public final class ControlOptions {
                 .filter(each -> !each.getKey().equals("type")
                         && !each.getKey().equals("status")
                         && !each.getKey().equals("requestId"))
-                .map(each -> each.getKey() + " " + text(each.getValue()))
+                .map(each -> each.getKey() + " " + ControlTable.textOf(each.getValue()))
                 .collect(Collectors.joining(", "));
     }
 
@@ -229,11 +229,7 @@ public final class ControlOptions {
         object.properties()
                 .forEach(each -> out().println(each.getKey()
                         + " ".repeat(width - each.getKey().length() + 2)
-                        + text(each.getValue())));
-    }
-
-    public static String text(JsonNode value) {
-        return value.isValueNode() ? value.asText() : value.toString();
+                        + ControlTable.textOf(each.getValue())));
     }
 
     /** Lists may come bare, or as the one list of an object. */

@@ -12,8 +12,6 @@ import com.fasterxml.jackson.core.JsonPointer;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.MissingNode;
 
-import io.furrow.cli.control.client.ControlOptions;
-
 /** Objects as a table, each column as wide as its widest cell. */
 public final class ControlTable {
     private final String nothing;
@@ -129,8 +127,13 @@ public final class ControlTable {
                                 : value.asText())
                         .replaceFirst("\\.\\d+Z$", "Z");
             case AGE -> age(Duration.ofMillis(clock.millis() - value.asLong()));
-            case TEXT -> printable(ControlOptions.text(value));
+            case TEXT -> printable(textOf(value));
         };
+    }
+
+    /** Returns a value without quotes, an object or a list as JSON. */
+    public static String textOf(JsonNode value) {
+        return value.isValueNode() ? value.asText() : value.toString();
     }
 
     /** One line, and nothing that a terminal obeys. */

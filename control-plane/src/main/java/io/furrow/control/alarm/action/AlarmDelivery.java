@@ -41,8 +41,8 @@ import io.furrow.model.topic.Topics;
  * reads the alarms and the deliveries in {@code service.alarms.delivered} from the beginning, posts the difference, and
  * then follows the topic. No offset is committed, so that no alarm on the topic is lost over restarts and failures.
  */
-public final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceListener {
-    public static final String NAME = "webhook";
+final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceListener {
+    static final String NAME = "webhook";
 
     private static final Logger LOG = LoggerFactory.getLogger(AlarmDelivery.class);
     private static final String GROUP = "furrow-alarm-webhook";
@@ -73,7 +73,7 @@ public final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebal
 
     private record Done(DeliveryQueue.Post post, Webhook.Answer answer) {}
 
-    public AlarmDelivery(Properties client, Webhook.Settings settings, Webhook webhook, Clock clock) {
+    AlarmDelivery(Properties client, Webhook.Settings settings, Webhook webhook, Clock clock) {
         this.client = client;
         this.settings = settings;
         this.webhook = webhook;
@@ -81,7 +81,7 @@ public final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebal
     }
 
     /** Detail of the status. */
-    public String detail() {
+    String detail() {
         return detail;
     }
 

@@ -37,8 +37,8 @@ import io.furrow.model.topic.Topics;
  * later: an instance that is assigned a partition starts at fresh records and reads the commands already sent from the
  * audit topic.
  */
-public final class StopFollower implements RestartingWorker.Work, ConsumerRebalanceListener {
-    public static final String NAME = "stop-on-predicted";
+final class StopFollower implements RestartingWorker.Work, ConsumerRebalanceListener {
+    static final String NAME = "stop-on-predicted";
 
     private static final Logger LOG = LoggerFactory.getLogger(StopFollower.class);
     private static final String GROUP = "furrow-stop-on-predicted";
@@ -53,7 +53,7 @@ public final class StopFollower implements RestartingWorker.Work, ConsumerRebala
     private final Clock clock;
     private KafkaConsumer<String, byte[]> consumer;
 
-    public StopFollower(Properties client, StopRobots robots, DeviceTypes types, Clock clock) {
+    StopFollower(Properties client, StopRobots robots, DeviceTypes types, Clock clock) {
         this.client = client;
         this.robots = robots;
         this.types = types;

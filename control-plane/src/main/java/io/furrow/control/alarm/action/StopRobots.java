@@ -68,7 +68,7 @@ public final class StopRobots {
     }
 
     /** @param types returns the type of an entity by tenant, service path and id; null if unknown */
-    public StopRobots(
+    StopRobots(
             Settings settings,
             Function<String, String> types,
             Consumer<AuditEntry> audit,

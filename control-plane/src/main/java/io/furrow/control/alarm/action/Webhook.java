@@ -112,7 +112,7 @@ public final class Webhook {
     }
 
     /** @throws IOException if the secret cannot be read; the message says what to do */
-    public Webhook(Settings settings, Clock clock) throws IOException {
+    Webhook(Settings settings, Clock clock) throws IOException {
         this.url = settings.url();
         this.secret = settings.secret() == null ? null : WebhookSecret.read(settings.secret());
         this.clock = clock;

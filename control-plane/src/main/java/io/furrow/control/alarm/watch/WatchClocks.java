@@ -19,7 +19,7 @@ import io.furrow.model.result.ClockResult;
  * Raises alarms for devices whose reports arrive too late and are dropped by all analyses. A job reports such a
  * device once a minute; the alarm ends after three minutes without a report.
  */
-public final class WatchClocks {
+final class WatchClocks {
     private static final Duration HOLDS = Duration.ofMinutes(3);
 
     private final AlarmCommandHandler alarms;
@@ -34,7 +34,7 @@ public final class WatchClocks {
      * @param now epoch ms
      * @throws UnreadableException if the record is not an entity or names no device
      */
-    public void take(byte[] record, FiwareScope scope, long now) throws UnreadableException {
+    void take(byte[] record, FiwareScope scope, long now) throws UnreadableException {
         Entity entity = Entity.parse(record);
         if (!entity.type().equals(ClockResult.BEHIND_TYPE)) {
             return;

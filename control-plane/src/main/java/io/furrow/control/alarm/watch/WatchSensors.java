@@ -9,7 +9,7 @@ import java.util.function.Function;
 import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
-import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.Records;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
 
@@ -17,7 +17,7 @@ import io.furrow.model.event.FiwareScope;
  * Raises an alarm for a sensor that was excluded in three consecutive windows, because a single window may exclude a
  * sound sensor by chance. The alarm ends when the sensor was not excluded for three windows.
  */
-public final class WatchSensors {
+final class WatchSensors {
     static final String RUNS = "suspect-runs";
 
     private static final int WINDOWS = 3;
@@ -39,7 +39,7 @@ public final class WatchSensors {
     }
 
     /** @param now epoch ms */
-    public void take(FieldWindow window, FiwareScope scope, long now) {
+    void take(FieldWindow window, FiwareScope scope, long now) {
         SuspectRuns known = runsOf(scope.identity(window.field()), window.windowEnd());
         SuspectRuns run = known.after(window);
         if (run == known) {
@@ -63,7 +63,7 @@ public final class WatchSensors {
     }
 
     /** Removes the runs of fields that no longer produce windows. */
-    public void passTime(long now) {
+    void passTime(long now) {
         if (now < nextClearing) {
             return;
         }

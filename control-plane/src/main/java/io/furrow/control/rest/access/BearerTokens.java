@@ -16,8 +16,6 @@ import jakarta.ws.rs.container.PreMatching;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.control.rest.JsonResponses;
-import io.furrow.control.rest.ProblemException;
 import io.furrow.model.file.ReloadedFile;
 
 /**
@@ -62,12 +60,12 @@ public final class BearerTokens implements ContainerRequestFilter {
         if (token.isEmpty()) {
             String said =
                     header == null ? "has no header 'Authorization: Bearer <token>'" : "has no token that is known";
-            request.abortWith(JsonResponses.problem(new ProblemException(401, "unauthorized", "the request " + said)));
+            request.abortWith(new ProblemException(401, "unauthorized", "the request " + said).response());
         } else {
             try {
                 request.setProperty(TOKEN, OnBehalf.caller(request, token.get()));
             } catch (ProblemException problem) {
-                request.abortWith(JsonResponses.problem(problem));
+                request.abortWith(problem.response());
             }
         }
     }

@@ -5,8 +5,6 @@ import java.util.regex.Pattern;
 
 import jakarta.ws.rs.container.ContainerRequestContext;
 
-import io.furrow.control.rest.ProblemException;
-
 /**
  * Who asks, and under which id.
  *

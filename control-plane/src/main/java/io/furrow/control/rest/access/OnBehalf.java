@@ -5,8 +5,6 @@ import java.util.regex.Pattern;
 
 import jakarta.ws.rs.container.ContainerRequestContext;
 
-import io.furrow.control.rest.ProblemException;
-
 /**
  * For whom a request is sent with a token that speaks for users: the headers {@value #USER} and {@value #ROLE}. The dashboard sends
  * them for users whom a proxy in front of it has signed in.

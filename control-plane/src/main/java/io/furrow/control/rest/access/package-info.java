@@ -1,2 +1,2 @@
-/** Authentication and authorization of the REST API, and TLS. */
+/** Who may do what with the REST API, over TLS or without, and how requests are refused. */
 package io.furrow.control.rest.access;

@@ -17,8 +17,8 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.control.audit.AuditEntry;
-import io.furrow.control.rest.ProblemException;
 import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;

@@ -7,7 +7,7 @@ import java.util.stream.Stream;
 import jakarta.ws.rs.PathParam;
 import jakarta.ws.rs.QueryParam;
 
-import io.furrow.control.rest.ProblemException;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.event.FiwareScope;
 

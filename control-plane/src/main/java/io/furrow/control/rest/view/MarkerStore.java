@@ -12,7 +12,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.control.replay.ReplaySettings;
-import io.furrow.control.rest.ProblemException;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.marker.Markers;
 import io.furrow.mission.marker.RefusedMarkerException;

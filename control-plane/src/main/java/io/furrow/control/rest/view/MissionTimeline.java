@@ -11,7 +11,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.control.rest.ProblemException;
+import io.furrow.control.rest.access.ProblemException;
 
 /**
  * How many events a stretch of a mission has, bucket by bucket.

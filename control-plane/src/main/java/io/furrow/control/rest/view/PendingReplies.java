@@ -7,7 +7,7 @@ import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.atomic.LongAdder;
 
-import io.furrow.control.rest.ProblemException;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.ngsi.UnreadableException;

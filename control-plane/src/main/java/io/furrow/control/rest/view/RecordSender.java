@@ -17,7 +17,7 @@ import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 
-import io.furrow.control.rest.ProblemException;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.control.Limits;
 
 /**

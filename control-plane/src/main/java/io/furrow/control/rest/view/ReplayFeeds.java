@@ -13,7 +13,7 @@ import org.glassfish.jersey.server.ChunkedOutput;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.control.rest.ProblemException;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.topic.Topics;
 
 /** The clients that follow replays, each with a thread of its own that writes to it; at most {@value #MAX_FEEDS}. */

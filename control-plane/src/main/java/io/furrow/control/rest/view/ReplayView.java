@@ -6,7 +6,7 @@ import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.control.rest.ProblemException;
+import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.Topics;
 

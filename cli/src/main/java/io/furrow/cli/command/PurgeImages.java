@@ -1,0 +1,131 @@
+package io.furrow.cli.command;
+
+import java.io.FileNotFoundException;
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.time.DateTimeException;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.concurrent.Callable;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
+import org.apache.flink.core.fs.FileStatus;
+import org.apache.flink.core.fs.FileSystem;
+import org.apache.flink.core.fs.Path;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+import io.furrow.flink.job.FileSystemOptions;
+import io.furrow.mission.image.ImageName;
+import io.furrow.model.text.Counts;
+import io.furrow.model.text.FailureText;
+
+/**
+ * Deletes images whose event time, by the name of their file, is older than allowed; leaves every other file alone.
+ */
+@Command(
+        name = "purge",
+        abbreviateSynopsis = true,
+        description =
+                "Deletes images that are older than an age, by the event time in their names, and what writers that "
+                        + "died left behind. Other files are left alone.")
+final class PurgeImages implements Callable<Integer> {
+    private static final Pattern IMAGE = Pattern.compile(".+_(\\d{17})(-[0-9a-f]{64})?\\.(png|jpg)");
+    /** No write takes that long. */
+    private static final Duration UNFINISHED_AGE = Duration.ofHours(1);
+
+    @Spec
+    private CommandSpec spec;
+
+    @Parameters(paramLabel = "URI", description = "The folder that the job was given with --images, or one below it.")
+    private String root;
+
+    @Option(
+            names = "--older-than",
+            paramLabel = "DURATION",
+            required = true,
+            description = "Delete what is older, for instance 30d.")
+    private Duration age;
+
+    @Mixin
+    private final FileSystemOptions fileSystems = new FileSystemOptions();
+
+    @Option(names = "--dry-run", description = "Say what would be deleted and delete nothing.")
+    private boolean dryRun;
+
+    @Option(
+            names = {"-h", "--help"},
+            usageHelp = true,
+            description = "Show this text.")
+    private boolean help;
+
+    private Instant now;
+    private FileSystem files;
+    private long deleted;
+    private long deletedBytes;
+    private long kept;
+
+    @Override
+    public Integer call() throws IOException {
+        if (age.isNegative() || age.isZero()) {
+            throw new ParameterException(spec.commandLine(), "--older-than must be positive; write for instance 30d");
+        }
+        fileSystems.initialize();
+        now = Instant.now();
+        Path folder = new Path(root);
+        try {
+            files = folder.getFileSystem();
+            files.getFileStatus(folder); // a listing of nothing would not say that there is nothing
+            purge(folder);
+        } catch (FileNotFoundException e) {
+            throw new ParameterException(spec.commandLine(), root + " is not there; name the folder of --images", e);
+        } catch (IOException e) {
+            throw new ParameterException(spec.commandLine(), root + " cannot be read: " + FailureText.of(e), e);
+        }
+        PrintWriter out = spec.commandLine().getOut();
+        out.printf(
+                "%s %s, %d bytes; kept %d.%n",
+                dryRun ? "Would delete" : "Deleted", Counts.of(deleted, "file"), deletedBytes, kept);
+        out.flush();
+        return 0;
+    }
+
+    /** Whether nothing is left in it. */
+    private boolean purge(Path folder) throws IOException {
+        boolean empty = true;
+        FileStatus[] found = files.listStatus(folder);
+        for (FileStatus one : found == null ? new FileStatus[0] : found) { // null: gone meanwhile
+            if (one.isDir()) {
+                boolean gone = purge(one.getPath()) && !dryRun && files.delete(one.getPath(), false);
+                empty &= gone;
+            } else if (isOld(one)) {
+                deleted++;
+                deletedBytes += one.getLen();
+                empty &= !dryRun && files.delete(one.getPath(), false);
+            } else {
+                kept++;
+                empty = false;
+            }
+        }
+        return empty;
+    }
+
+    private boolean isOld(FileStatus file) {
+        String name = file.getPath().getName();
+        if (name.startsWith(ImageName.UNFINISHED)) {
+            return Instant.ofEpochMilli(file.getModificationTime()).isBefore(now.minus(UNFINISHED_AGE));
+        }
+        Matcher image = IMAGE.matcher(name);
+        try {
+            return image.matches() && ImageName.time(image.group(1)).isBefore(now.minus(age));
+        } catch (DateTimeException e) {
+            return false; // digits that are no time: not one of ours
+        }
+    }
+}

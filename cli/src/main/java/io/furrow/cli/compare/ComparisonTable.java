@@ -1,0 +1,81 @@
+package io.furrow.cli.compare;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+import java.util.stream.Collectors;
+
+import io.furrow.cli.compare.Match.Verdict;
+
+/** A comparison as lines of text: of each kind how many results are the same, and a line for each that is not. */
+final class ComparisonTable {
+    private static final String ROW = "  %-9s  %-20s  %-12s  %s  %s";
+
+    private final int most;
+
+    /** @param most lines of each kind */
+    ComparisonTable(int most) {
+        this.most = most;
+    }
+
+    List<String> lines(Comparison comparison) {
+        List<String> lines = new ArrayList<>();
+        lines.add("A  " + side(comparison.a()));
+        lines.add("B  " + side(comparison.b()));
+        for (ResultKind kind : ResultKind.values()) {
+            lines.add("");
+            kind(comparison, kind, lines);
+        }
+        lines.add("");
+        lines.add(comparison.isSame() ? "A and B are the same." : "A and B differ.");
+        return lines;
+    }
+
+    private static String side(FoundResults side) {
+        String name = side.name().equals(Side.LIVE) ? Side.LIVE : side.name() + ", epoch " + side.epoch();
+        return side.missing().isEmpty()
+                ? name
+                : name + "; no topic of "
+                        + side.missing().stream().sorted().map(ResultKind::word).collect(Collectors.joining(", "))
+                        + ": nothing was found, or the job did not run";
+    }
+
+    private void kind(Comparison comparison, ResultKind kind, List<String> lines) {
+        String title = kind.word().toUpperCase(Locale.ROOT);
+        if (comparison.isUnknown(kind)) {
+            lines.add(title + "  none on either side");
+            return;
+        }
+        lines.add(title
+                + "  "
+                + List.of(Verdict.values()).stream()
+                        .map(verdict -> comparison.count(kind, verdict) + " " + verdict.word())
+                        .collect(Collectors.joining(", ")));
+        List<Match> differences = comparison.differences(kind);
+        int width = differences.stream()
+                .limit(most)
+                .mapToInt(match -> match.subject().name().length())
+                .max()
+                .orElse(0);
+        differences.stream().limit(most).map(match -> row(match, width)).forEach(lines::add);
+        if (differences.size() > most) {
+            lines.add("  … and %d more; --limit shows more".formatted(differences.size() - most));
+        }
+    }
+
+    private static String row(Match match, int width) {
+        String what = match.verdict() == Verdict.CHANGED
+                ? match.changes().stream().map(ComparisonText::change).collect(Collectors.joining(", "))
+                : ComparisonText.value(match.either());
+        String name = match.subject().name();
+        return String.format(
+                        Locale.ROOT,
+                        ROW,
+                        match.verdict().word(),
+                        ComparisonText.time(match.either().start()),
+                        ComparisonText.length(match.either()),
+                        name + " ".repeat(width - name.length()),
+                        what)
+                .stripTrailing();
+    }
+}

@@ -1,0 +1,87 @@
+package io.furrow.cli.compare;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.Collection;
+import java.util.Locale;
+import java.util.TreeSet;
+
+/** Values of results as people read them. */
+final class ComparisonText {
+    private ComparisonText() {}
+
+    /** To the second in UTC, for instance {@code 2026-05-01T06:30:00Z}. */
+    static String time(long millis) {
+        return Instant.ofEpochMilli(millis).toString().replaceFirst("\\.\\d+Z$", "Z");
+    }
+
+    /** For instance {@code 4.5 s}, {@code 3 min 05 s}, {@code 2 h 10 min}. */
+    static String duration(long millis) {
+        if (millis < 60_000) {
+            return String.format(Locale.ROOT, millis % 1000 == 0 ? "%.0f s" : "%.1f s", millis / 1000.0);
+        }
+        Duration duration = Duration.ofMillis(millis);
+        return duration.toHours() > 0
+                ? String.format(Locale.ROOT, "%d h %02d min", duration.toHours(), duration.toMinutesPart())
+                : String.format(Locale.ROOT, "%d min %02d s", duration.toMinutes(), duration.toSecondsPart());
+    }
+
+    /** How long a result holds; of one without an end, that it is open. */
+    static String length(Span span) {
+        return span.isOpen() ? "open" : duration(span.end() - span.start());
+    }
+
+    /** What a result of one side says. */
+    static String value(Span span) {
+        if (span instanceof Encounter one) {
+            return "closest " + number(one.closest()) + " m";
+        } else if (span instanceof Average one) {
+            return "mean " + (one.isEmpty() ? "none" : number(one.mean()));
+        }
+        return "";
+    }
+
+    /** For instance {@code closest 1.2 → 1.5 (+0.3)}, {@code end 3 s later}. */
+    static String change(Change change) {
+        if (change.a() instanceof Long a && change.b() instanceof Long b) {
+            return "%s %s %s".formatted(change.member(), duration(Math.abs(b - a)), b > a ? "later" : "earlier");
+        }
+        String text = "%s %s → %s".formatted(change.member(), text(change.a()), text(change.b()));
+        return change.a() instanceof Double a && change.b() instanceof Double b
+                ? text + String.format(Locale.ROOT, " (%s%s)", b > a ? "+" : "−", number(Math.abs(b - a)))
+                : text;
+    }
+
+    /** When, how long, on which side, and what. */
+    static String match(Match match) {
+        String what = match.verdict() == Match.Verdict.CHANGED
+                ? String.join(
+                        ", ",
+                        match.changes().stream().map(ComparisonText::change).toList())
+                : value(match.either());
+        return "%s, %s, %s%s"
+                .formatted(
+                        time(match.either().start()),
+                        length(match.either()),
+                        match.verdict().word(),
+                        what.isEmpty() ? "" : ": " + what);
+    }
+
+    private static String text(Object value) {
+        if (value == null) {
+            return "none";
+        } else if (value instanceof Double number) {
+            return number(number);
+        } else if (value instanceof Collection<?> many) {
+            TreeSet<String> sorted = new TreeSet<>();
+            many.forEach(one -> sorted.add(one.toString()));
+            return sorted.isEmpty() ? "none" : String.join(" ", sorted);
+        }
+        return value.toString();
+    }
+
+    /** To three places, without zeros at the end. */
+    static String number(double value) {
+        return String.format(Locale.ROOT, "%.3f", value).replaceFirst("\\.?0+$", "");
+    }
+}

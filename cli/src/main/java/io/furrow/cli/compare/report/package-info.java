@@ -1,2 +1,0 @@
-/** A comparison as text, table, JSON and SVG. */
-package io.furrow.cli.compare.report;

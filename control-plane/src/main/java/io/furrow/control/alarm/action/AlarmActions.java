@@ -1,0 +1,109 @@
+package io.furrow.control.alarm.action;
+
+import java.io.IOException;
+import java.time.Clock;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Properties;
+import java.util.concurrent.ArrayBlockingQueue;
+import java.util.concurrent.ThreadPoolExecutor;
+import java.util.concurrent.TimeUnit;
+
+import io.furrow.control.alarm.watch.DeviceTypes;
+import io.furrow.control.audit.AuditEntry;
+import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.RestartingWorker;
+import io.furrow.model.text.Counts;
+
+/**
+ * Delivers alarms to a webhook and stops robots that are predicted to meet. The two actions share no thread, so that
+ * neither delays the other. Several instances share the work.
+ */
+public final class AlarmActions implements AutoCloseable {
+    private static final int STOP_THREADS = 8;
+    private static final int MAX_STOPS_WAITING = 1000;
+    private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(5);
+
+    private final List<RestartingWorker> followers = new ArrayList<>();
+    private ThreadPoolExecutor stops;
+    private AuditLog audit;
+
+    private AlarmActions() {}
+
+    /**
+     * @param client settings of Kafka clients
+     * @param webhook null to deliver nothing
+     * @param stop null to stop nothing
+     * @throws IOException if the webhook's secret cannot be used; the message says what to do
+     */
+    public static AlarmActions start(Properties client, Webhook.Settings webhook, StopRobots.Settings stop)
+            throws IOException {
+        AlarmActions actions = new AlarmActions();
+        Clock clock = Clock.systemUTC();
+        if (webhook != null) {
+            AlarmDelivery delivery = new AlarmDelivery(client, webhook, new Webhook(webhook, clock), clock);
+            actions.followers.add(new RestartingWorker(AlarmDelivery.NAME, clock).start(delivery, delivery::detail));
+        }
+        if (stop != null) {
+            actions.stopRobots(client, stop, clock);
+        }
+        return actions;
+    }
+
+    private void stopRobots(Properties client, StopRobots.Settings settings, Clock clock) {
+        audit = new AuditLog(client);
+        stops = new ThreadPoolExecutor(
+                STOP_THREADS,
+                STOP_THREADS,
+                1,
+                TimeUnit.MINUTES,
+                new ArrayBlockingQueue<>(MAX_STOPS_WAITING),
+                task -> new Thread(task, "furrow-stop"));
+        RestartingWorker follower = new RestartingWorker(StopFollower.NAME, clock);
+        DeviceTypes types = new DeviceTypes(client);
+        StopRobots robots = new StopRobots(settings, types, entry -> note(entry, follower), stops, clock);
+        followers.add(new RestartingWorker(DeviceTypes.NAME, clock).start(types, types::detail));
+        followers.add(follower.start(new StopFollower(client, robots, types, clock), () -> stopsWaiting(types)));
+    }
+
+    private void note(AuditEntry entry, RestartingWorker follower) {
+        if (entry.reason() == null) {
+            follower.succeeded();
+        } else {
+            follower.failed(entry.about() + " " + entry.reason());
+        }
+        audit.accept(entry);
+    }
+
+    private String stopsWaiting(DeviceTypes types) {
+        if (!types.isLoaded()) {
+            return "waits until the types of devices are read";
+        }
+        return "%s being stopped, %d waiting"
+                .formatted(
+                        Counts.are(stops.getActiveCount(), "robot"),
+                        stops.getQueue().size());
+    }
+
+    /** Returns the status of each worker thread, for a health page. */
+    public List<PartStatus> followers() {
+        return followers.stream().map(RestartingWorker::status).toList();
+    }
+
+    @Override
+    public void close() {
+        followers.forEach(RestartingWorker::close);
+        if (stops != null) {
+            stops.shutdown();
+            try {
+                if (!stops.awaitTermination(CLOSE_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS)) {
+                    stops.shutdownNow();
+                }
+            } catch (InterruptedException e) {
+                Thread.currentThread().interrupt();
+            }
+            audit.close();
+        }
+    }
+}

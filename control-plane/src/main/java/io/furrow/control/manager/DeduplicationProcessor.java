@@ -1,0 +1,75 @@
+package io.furrow.control.manager;
+
+import java.util.HashSet;
+import java.util.Set;
+
+import org.apache.kafka.streams.processor.api.ContextualProcessor;
+import org.apache.kafka.streams.processor.api.ProcessorContext;
+import org.apache.kafka.streams.processor.api.Record;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/**
+ * Forwards each record of a topic once, also where the topic, or the repartition topic behind it, is read again from
+ * an older offset: a group that was unavailable for {@code offsets.retention.minutes} has none, and a broker that was
+ * killed may hand out offsets of some minutes ago. No request of last week is run again, and no encounter that has
+ * ended raises a second alarm.
+ *
+ * <p><b>State</b>: offset and newest timestamp by partition of the topic, in a named store. <b>Cleared</b>: never, it is as large as there are
+ * partitions. <b>Twice</b>: dropped where neither the offset nor the timestamp is new; a topic that was deleted and made again
+ * has old offsets, but new timestamps.
+ */
+final class DeduplicationProcessor extends ContextualProcessor<String, byte[], String, byte[]> {
+    private static final Logger LOG = LoggerFactory.getLogger(DeduplicationProcessor.class);
+
+    private final String store;
+    /** Partitions of which the last record was skipped, so that the log reports it once. */
+    private final Set<String> readAgain = new HashSet<>();
+
+    private Records<Position> positions;
+
+    /**
+     * How far a partition was read.
+     *
+     * @param newest timestamp, epoch ms
+     */
+    record Position(long offset, long newest) {
+        boolean covers(long other, long timestamp) {
+            return other <= offset && timestamp <= newest;
+        }
+
+        Position with(long other, long timestamp) {
+            return new Position(other, Math.max(newest, timestamp));
+        }
+    }
+
+    /** @param store of the positions */
+    DeduplicationProcessor(String store) {
+        this.store = store;
+    }
+
+    @Override
+    public void init(ProcessorContext<String, byte[]> context) {
+        super.init(context);
+        positions = StoredRecords.of(context, store, Position.class);
+    }
+
+    @Override
+    public void process(Record<String, byte[]> record) {
+        RecordOrigin origin = RecordOrigin.of(record)
+                .orElseThrow(() -> new IllegalStateException(
+                        "a record has no origin; RequestProcessor or SourcePositionProcessor adds it"));
+        String partition = origin.topicPartition();
+        Position known = positions.get(partition);
+        if (known != null && known.covers(origin.offset(), record.timestamp())) {
+            if (readAgain.add(partition)) {
+                LOG.warn("{} is read again; records up to {}@{} are passed over", origin, partition, known.offset());
+            }
+            return;
+        }
+        readAgain.remove(partition);
+        Position now = new Position(origin.offset(), record.timestamp());
+        positions.put(partition, known == null ? now : known.with(origin.offset(), record.timestamp()));
+        context().forward(record);
+    }
+}

@@ -1,0 +1,59 @@
+package io.furrow.control.manager;
+
+import java.nio.charset.StandardCharsets;
+import java.util.Optional;
+
+import org.apache.kafka.common.header.Header;
+import org.apache.kafka.common.header.Headers;
+import org.apache.kafka.streams.processor.api.ProcessorContext;
+import org.apache.kafka.streams.processor.api.Record;
+import org.apache.kafka.streams.processor.api.RecordMetadata;
+
+/** Where a record stood before it was repartitioned: a header that stays with it. */
+record RecordOrigin(String topic, int partition, long offset) {
+    private static final String HEADER = "request-origin";
+
+    /** That of the record which a processor is given from its topic. */
+    static RecordOrigin of(ProcessorContext<?, ?> context) {
+        RecordMetadata at = context.recordMetadata().orElseThrow();
+        return new RecordOrigin(at.topic(), at.partition(), at.offset());
+    }
+
+    /** As noted on a record; empty if it has no such header. */
+    static Optional<RecordOrigin> of(Record<?, ?> record) {
+        return of(record.headers());
+    }
+
+    static Optional<RecordOrigin> of(Headers headers) {
+        Header header = headers.lastHeader(HEADER);
+        return header == null
+                ? Optional.empty()
+                : Optional.of(parse(new String(header.value(), StandardCharsets.UTF_8)));
+    }
+
+    private static RecordOrigin parse(String text) {
+        int at = text.lastIndexOf('@');
+        int dash = text.lastIndexOf('-', at);
+        return new RecordOrigin(
+                text.substring(0, dash),
+                Integer.parseInt(text.substring(dash + 1, at)),
+                Long.parseLong(text.substring(at + 1)));
+    }
+
+    /** The topic and its partition, {@code <topic>-<partition>}. */
+    String topicPartition() {
+        return topic + "-" + partition;
+    }
+
+    <K, V> Record<K, V> noteOn(Record<K, V> record) {
+        record.headers().remove(HEADER);
+        record.headers().add(HEADER, toString().getBytes(StandardCharsets.UTF_8));
+        return record;
+    }
+
+    /** {@code <topic>-<partition>@<offset>}. */
+    @Override
+    public String toString() {
+        return topicPartition() + "@" + offset;
+    }
+}

@@ -1,0 +1,98 @@
+package io.furrow.control.rest.access;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.ws.rs.core.MediaType;
+import jakarta.ws.rs.core.Response;
+
+import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** A request that is answered with an error; the message is its {@code reason}. */
+public final class ProblemException extends RuntimeException {
+    private static final long serialVersionUID = 1L;
+    private static final int AGAIN_SECONDS = 1;
+
+    private final int status;
+    private final String error;
+
+    /** @param status of HTTP @param error the code in the answer */
+    public ProblemException(int status, String error, String reason) {
+        super(reason);
+        this.status = status;
+        this.error = error;
+    }
+
+    public ProblemException(ErrorCode code, String reason) {
+        this(statusOf(code.code()), code.code(), reason);
+    }
+
+    /** Which status an error of a manager has in HTTP: 400 for what is not understood, 404 for what is not there, and so on. */
+    private static int statusOf(String code) {
+        return switch (code) {
+            case "not-json", "not-a-request", "unknown-command", "missing-member", "wrong-member", "illegal-name" ->
+                400;
+            case "no-credentials" -> 404;
+            case "too-large" -> 413;
+            case "request-id-reused" -> 422;
+            case "internal-error" -> 500;
+            case "overloaded" -> 503;
+            case "quota-exceeded" -> 507;
+            default -> code.startsWith("unknown-") ? 404 : 409;
+        };
+    }
+
+    public static ProblemException overloaded() {
+        return new ProblemException(
+                ErrorCode.OVERLOADED, "too many requests wait to be carried out; ask again in a moment");
+    }
+
+    public static ProblemException keyReused() {
+        return new ProblemException(
+                ErrorCode.REQUEST_ID_REUSED,
+                "the header %s was given to another request, or by somebody else; give each request its own"
+                        .formatted(Caller.KEY));
+    }
+
+    /** @param bytes below 0 if they were not counted */
+    public static ProblemException tooLarge(long bytes, int most) {
+        return new ProblemException(
+                ErrorCode.TOO_LARGE,
+                "the request has %s bytes, and may have %d; send a long list of devices or fields in several requests"
+                        .formatted(bytes < 0 ? "more" : Long.toString(bytes), most));
+    }
+
+    public static ProblemException notReady() {
+        return new ProblemException(
+                503, "not-ready", "the control plane has not read its topics yet; ask again in a moment");
+    }
+
+    public String error() {
+        return error;
+    }
+
+    public Response response() {
+        return response(
+                status,
+                CommandResult.of(CommandResult.ERROR)
+                        .with("error", error)
+                        .with("reason", getMessage())
+                        .json());
+    }
+
+    /** What a manager refused. @param error its code @param json with {@code error} and {@code reason} */
+    public static Response response(String error, ObjectNode json) {
+        return response(statusOf(error), json);
+    }
+
+    private static Response response(int status, ObjectNode json) {
+        Response.ResponseBuilder answer =
+                Response.status(status).type(MediaType.APPLICATION_JSON_TYPE).entity(NgsiJson.write(json));
+        if (status == 503) {
+            answer.header("Retry-After", AGAIN_SECONDS);
+        } else if (status == 401) {
+            answer.header("WWW-Authenticate", "Bearer");
+        }
+        return answer.build();
+    }
+}

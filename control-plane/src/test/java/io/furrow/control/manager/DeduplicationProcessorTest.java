@@ -1,0 +1,64 @@
+package io.furrow.control.manager;
+
+import java.util.List;
+import java.util.Properties;
+
+import org.apache.kafka.streams.processor.api.MockProcessorContext;
+import org.apache.kafka.streams.processor.api.Record;
+import org.apache.kafka.streams.state.KeyValueStore;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class DeduplicationProcessorTest {
+    private static final String STORE = "positions";
+
+    private final MockProcessorContext<String, byte[]> context = new MockProcessorContext<>(new Properties());
+    private final DeduplicationProcessor takeOnce = new DeduplicationProcessor(STORE);
+
+    @BeforeEach
+    void open() {
+        KeyValueStore<String, byte[]> store =
+                StoredRecords.builder(STORE).withLoggingDisabled().build();
+        store.init(context.getStateStoreContext(), store);
+        context.addStateStore(store);
+        takeOnce.init(context);
+    }
+
+    @Test
+    void passesOverWhatItHasReadWhereKafkaHasForgottenTheOffsets() {
+        read(0, 1000);
+        read(1, 900);
+        read(2, 1100);
+        read(0, 1000);
+        read(1, 900);
+        read(2, 1100);
+        assertThat(taken()).containsExactly(1000L, 900L, 1100L);
+
+        read(3, 1000);
+        assertThat(taken()).hasSize(4);
+    }
+
+    @Test
+    void takesWhatIsOnATopicThatWasMadeAnew() {
+        read(5, 1000);
+        read(0, 2000);
+        read(1, 2000);
+        assertThat(taken()).containsExactly(1000L, 2000L, 2000L);
+    }
+
+    private void read(long offset, long timestamp) {
+        Record<String, byte[]> request = new Record<>("", new byte[0], timestamp);
+        new RecordOrigin(Topics.DOMAIN_MANAGER, 0, offset).noteOn(request);
+        takeOnce.process(request);
+    }
+
+    private List<Long> taken() {
+        return context.forwarded().stream()
+                .map(forward -> forward.record().timestamp())
+                .toList();
+    }
+}

@@ -1,0 +1,93 @@
+package io.furrow.fields;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+
+import io.furrow.model.field.FieldFile;
+import io.furrow.model.field.ImportOptions;
+import io.furrow.model.field.ImportedField;
+import io.furrow.model.field.RefusedFeature;
+import io.furrow.model.field.UnusableFileException;
+
+/** Reads the fields of files: GeoJSON, Shapefiles and GeoPackages, in any coordinate system that GeoTools knows. */
+public final class FieldFiles {
+    private static final int FIRST_BYTES = 16;
+
+    private FieldFiles() {}
+
+    /** Reads GeoJSON, a Shapefile or a GeoPackage, detected by the first bytes. */
+    public static FieldFile read(Path file, ImportOptions options) throws UnusableFileException {
+        FieldLayer layer = layer(file, options);
+        String crs = options.crs() == null ? layer.crs() : options.crs();
+        if (crs == null) {
+            throw new UnusableFileException(file
+                    + " does not name its coordinate system; specify it with --crs, for instance --crs"
+                    + " EPSG:25830");
+        }
+        Georeference georeference = Georeference.of(crs);
+        FeatureNaming naming = FeatureNaming.of(file, layer.features(), options);
+        Map<String, Integer> taken = new HashMap<>();
+        List<ImportedField> fields = new ArrayList<>();
+        List<RefusedFeature> refused = new ArrayList<>();
+        for (SourceFeature feature : layer.features()) {
+            try {
+                String id = naming.id(feature);
+                Integer earlier = taken.putIfAbsent(id, feature.number());
+                if (earlier != null) {
+                    throw new RefusedFeatureException(
+                            "has the id of feature " + earlier + "; give each field a unique id");
+                }
+                fields.add(field(feature, georeference, naming));
+            } catch (RefusedFeatureException e) {
+                refused.add(new RefusedFeature(feature.number(), naming.called(feature), e.getMessage()));
+            }
+        }
+        return new FieldFile(georeference.name(), georeference.accuracyMeters(), fields, refused, layer.notes());
+    }
+
+    private static ImportedField field(SourceFeature feature, Georeference georeference, FeatureNaming naming)
+            throws RefusedFeatureException {
+        if (feature.fault() != null) {
+            throw new RefusedFeatureException(feature.fault());
+        }
+        MendedArea mended = AreaRepair.repair(feature.outline(), georeference);
+        return new ImportedField(
+                feature.number(),
+                naming.version(feature, GeoJsonArea.of(mended.area())),
+                EllipsoidArea.hectares(mended.area()),
+                mended.notes(),
+                mended.edgeErrorMeters());
+    }
+
+    private static FieldLayer layer(Path file, ImportOptions options) throws UnusableFileException {
+        byte[] first;
+        try (InputStream in = Files.newInputStream(file)) {
+            first = in.readNBytes(FIRST_BYTES);
+        } catch (IOException e) {
+            throw new UnusableFileException(file, e);
+        }
+        int begin = GeoJsonFields.begin(first);
+        String text = new String(first, begin, first.length - begin, StandardCharsets.ISO_8859_1);
+        if (text.startsWith("SQLite format 3")) {
+            return GeoPackageFields.read(file, options.layer());
+        }
+        if (options.layer() != null) {
+            throw new UnusableFileException("--layer applies to GeoPackages only; " + file + " has no layers");
+        }
+        if (text.startsWith("\0\0'\n")) {
+            return ShapefileFields.read(file);
+        }
+        if (text.strip().startsWith("{")) {
+            return GeoJsonFields.read(file);
+        }
+        throw new UnusableFileException(file
+                + " is neither GeoJSON nor a Shapefile (.shp) nor a GeoPackage; unpack it first if it is an archive");
+    }
+}

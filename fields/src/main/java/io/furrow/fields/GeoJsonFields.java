@@ -1,0 +1,164 @@
+package io.furrow.fields;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.List;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.locationtech.jts.algorithm.Orientation;
+import org.locationtech.jts.geom.Coordinate;
+
+import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.Counts;
+
+/**
+ * Reads GeoJSON (RFC 7946), with the member {@code crs} of its predecessor of 2008. The order is x, y in every
+ * coordinate system, as both specify.
+ */
+final class GeoJsonFields {
+    private static final String WGS84 = "CRS84";
+    /** With which editors on Windows begin a file in UTF-8. */
+    private static final byte[] BYTE_ORDER_MARK = {(byte) 0xef, (byte) 0xbb, (byte) 0xbf};
+
+    private GeoJsonFields() {}
+
+    static FieldLayer read(Path file) throws UnusableFileException {
+        JsonNode json = json(file);
+        List<JsonNode> features = new ArrayList<>();
+        switch (json.path("type").asText()) {
+            case "FeatureCollection" -> json.path("features").forEach(features::add);
+            case "Feature" -> features.add(json);
+            default ->
+                throw new UnusableFileException(
+                        file + " is JSON, but not a GeoJSON FeatureCollection or Feature; write one feature per field");
+        }
+        List<SourceFeature> read = new ArrayList<>();
+        for (JsonNode feature : features) {
+            read.add(feature(read.size() + 1, feature));
+        }
+        return new FieldLayer(crs(file, json), read, List.of());
+    }
+
+    /** Where the text of a file in UTF-8 begins. */
+    static int begin(byte[] file) {
+        return Arrays.mismatch(BYTE_ORDER_MARK, file) == BYTE_ORDER_MARK.length ? BYTE_ORDER_MARK.length : 0;
+    }
+
+    private static JsonNode json(Path file) throws UnusableFileException {
+        try {
+            return NgsiJson.readFile(Files.readAllBytes(file));
+        } catch (IOException e) {
+            throw new UnusableFileException(file, e);
+        } catch (UnreadableException e) {
+            String remedy =
+                    e.getMessage().startsWith("more than one") ? "; put the features into one FeatureCollection" : "";
+            throw new UnusableFileException(file + " is not JSON (" + e.getMessage() + ")" + remedy, e);
+        }
+    }
+
+    private static String crs(Path file, JsonNode json) throws UnusableFileException {
+        JsonNode crs = json.path("crs");
+        if (crs.isMissingNode()) {
+            return WGS84;
+        }
+        if (crs.path("type").asText().equals("name")) {
+            return crs.path("properties").path("name").asText();
+        }
+        if (crs.path("type").asText().equals("EPSG")) {
+            return "EPSG:" + crs.path("properties").path("code").asText();
+        }
+        throw new UnusableFileException(file
+                + " has a member 'crs' that does not name a coordinate system; specify it with --crs, or remove"
+                + " the member");
+    }
+
+    private static SourceFeature feature(int number, JsonNode feature) {
+        JsonNode id = feature.path("id");
+        String named = id.isTextual() || id.isIntegralNumber() ? id.asText() : null;
+        ObjectNode properties = feature.path("properties") instanceof ObjectNode some
+                ? some.deepCopy()
+                : JsonNodeFactory.instance.objectNode();
+        try {
+            return new SourceFeature(number, named, properties, outline(feature.path("geometry")), null);
+        } catch (RefusedFeatureException e) {
+            return new SourceFeature(number, named, properties, null, e.getMessage());
+        }
+    }
+
+    private static Outline outline(JsonNode geometry) throws RefusedFeatureException {
+        List<List<List<Coordinate>>> polygons = new ArrayList<>();
+        List<String> notes = new ArrayList<>();
+        collect(geometry, polygons, notes);
+        int turned = turned(polygons);
+        if (turned > 0) {
+            notes.add("reversed " + Counts.of(turned, "ring") + " to the orientation of RFC 7946");
+        }
+        return new Outline(polygons, notes);
+    }
+
+    private static void collect(JsonNode geometry, List<List<List<Coordinate>>> polygons, List<String> notes)
+            throws RefusedFeatureException {
+        JsonNode coordinates = geometry.path("coordinates");
+        switch (geometry.path("type").asText()) {
+            case "Polygon" -> polygons.add(polygon(coordinates));
+            case "MultiPolygon" -> {
+                for (JsonNode polygon : coordinates) {
+                    polygons.add(polygon(polygon));
+                }
+            }
+            case "GeometryCollection" -> {
+                for (JsonNode part : geometry.path("geometries")) {
+                    if (part.path("type").asText().matches("(Multi)?(Point|LineString)")) {
+                        notes.add("left out a " + part.path("type").asText() + " next to the area");
+                    } else {
+                        collect(part, polygons, notes);
+                    }
+                }
+            }
+            case "" -> throw new RefusedFeatureException("has no geometry");
+            default ->
+                throw new RefusedFeatureException(
+                        "is a " + geometry.path("type").asText() + "; a field is a Polygon or MultiPolygon");
+        }
+    }
+
+    private static List<List<Coordinate>> polygon(JsonNode rings) throws RefusedFeatureException {
+        List<List<Coordinate>> polygon = new ArrayList<>();
+        for (JsonNode ring : rings) {
+            List<Coordinate> corners = new ArrayList<>();
+            for (JsonNode corner : ring) {
+                if (!corner.isArray()
+                        || !corner.path(0).isNumber()
+                        || !corner.path(1).isNumber()) {
+                    throw new RefusedFeatureException("has a corner that is not [x, y]: " + Words.shortened(corner));
+                }
+                double z = corner.path(2).isNumber() ? corner.path(2).doubleValue() : Double.NaN;
+                corners.add(new Coordinate(
+                        corner.get(0).doubleValue(), corner.get(1).doubleValue(), z));
+            }
+            polygon.add(corners);
+        }
+        return polygon;
+    }
+
+    /** Counts rings of the wrong orientation: shells are counter-clockwise, holes clockwise. */
+    private static int turned(List<List<List<Coordinate>>> polygons) {
+        int turned = 0;
+        for (List<List<Coordinate>> polygon : polygons) {
+            for (int ring = 0; ring < polygon.size(); ring++) {
+                if (Rings.isArea(polygon.get(ring))
+                        && Orientation.isCCWArea(Rings.closed(polygon.get(ring))) != (ring == 0)) {
+                    turned++;
+                }
+            }
+        }
+        return turned;
+    }
+}

@@ -1,2 +1,0 @@
-/** Reads GeoJSON, GeoPackage and shapefiles. */
-package io.furrow.fields.file;

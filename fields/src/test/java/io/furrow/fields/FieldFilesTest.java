@@ -1,0 +1,343 @@
+package io.furrow.fields;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.sql.Connection;
+import java.sql.DriverManager;
+import java.sql.Statement;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.List;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+import io.furrow.model.field.FieldFile;
+import io.furrow.model.field.ImportOptions;
+import io.furrow.model.field.ImportedField;
+import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.ngsi.NgsiJson;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.assertj.core.api.Assertions.within;
+
+/** Files made by GDAL, see {@code make.sh} beside them: its positions are what ours are compared with. */
+public class FieldFilesTest {
+    public static final ImportOptions PLAIN = new ImportOptions(null, null, null, null, null, Instant.EPOCH);
+    private static final double METERS_PER_DEGREE = 111_195;
+
+    @TempDir
+    private Path folder;
+
+    /** PROJ takes other parameters from ED50 (EPSG:23030): meters apart, where without any it would be 150 m. */
+    @ParameterizedTest
+    @CsvSource({
+        "shapefile-25830.shp,    farm.geojson,    0.01",
+        "geopackage-25830.gpkg,  farm.geojson,    0.01",
+        "geojson-25830.geojson,  farm.geojson,    0.01",
+        "shapefile-3857.shp,     farm.geojson,    0.01",
+        "geopackage-3857.gpkg,   farm.geojson,    0.01",
+        "geojson-3857.geojson,   farm.geojson,    0.01",
+        "shapefile-3035.shp,     farm.geojson,    0.01",
+        "geopackage-3035.gpkg,   farm.geojson,    0.01",
+        "geojson-3035.geojson,   farm.geojson,    0.01",
+        "shapefile-4326.shp,     farm.geojson,    0",
+        "geopackage-4326.gpkg,   farm.geojson,    0",
+        "farm.geojson,           farm.geojson,    0",
+        "shapefile-25831.shp,    farm-31.geojson, 0.01",
+        "geopackage-25831.gpkg,  farm-31.geojson, 0.01",
+        "shapefile-2393.shp,     farm-fi.geojson, 0.01",
+        "geopackage-2393.gpkg,   farm-fi.geojson, 0.01",
+        "shapefile-23030.shp,    farm.geojson,    15",
+        "geopackage-23030.gpkg,  farm.geojson,    15",
+        "geojson-23030.geojson,  farm.geojson,    15",
+    })
+    void putsFieldsWhereGdalPutsThem(String file, String expected, double meters) throws Exception {
+        FieldFile read = FieldFiles.read(resource(file), named("code"));
+
+        assertThat(read.refused()).isEmpty();
+        assertThat(read.fields()).extracting(field -> field.version().id()).containsExactly("north-1", "south-2");
+        JsonNode features =
+                NgsiJson.read(Files.readAllBytes(resource(expected))).path("features");
+        for (int index = 0; index < features.size(); index++) {
+            List<double[]> corners = corners(read.fields().get(index).version().geometry());
+            List<double[]> reference = corners((ObjectNode) features.get(index).path("geometry"));
+            assertThat(corners).hasSameSizeAs(reference);
+            for (double[] corner : corners) {
+                assertThat(reference.stream()
+                                .mapToDouble(one -> apart(one, corner))
+                                .min()
+                                .orElseThrow())
+                        .isLessThanOrEqualTo(meters + 1e-8);
+            }
+        }
+    }
+
+    /** By pyproj 3.4.1: Geod(ellps="WGS84").polygon_area_perimeter of the rings. */
+    @Test
+    void knowsTheAreaOnTheEllipsoid() throws Exception {
+        FieldFile read = FieldFiles.read(resource("shapefile-25830.shp"), named("code"));
+
+        assertThat(read.fields().get(0).hectares()).isCloseTo(4.908080321, within(1e-4));
+        assertThat(read.fields().get(1).hectares()).isCloseTo(1.604647905, within(1e-4));
+        assertThat(read.fields().get(0).edgeErrorMeters()).isBetween(1e-6, 0.01);
+        assertThat(read.accuracyMeters()).isEqualTo(1);
+    }
+
+    @ParameterizedTest
+    @CsvSource({"shapefile-25830.shp", "shapefile-4326.shp", "geopackage-25830.gpkg", "farm.geojson"})
+    void takesNamesAndAttributes(String file) throws Exception {
+        ImportOptions options = new ImportOptions(null, null, "code", null, null, Instant.ofEpochMilli(7));
+        FieldFile read = FieldFiles.read(resource(file), options);
+
+        ImportedField north = read.fields().get(0);
+        assertThat(north.version().key()).isEqualTo("north-1@1970-01-01T00:00:00.007Z");
+        assertThat(north.version().name()).isEqualTo("La Poveda ñ");
+        assertThat(north.version().domain()).isEqualTo("arganda");
+        assertThat(north.version().properties().path("height").asDouble()).isEqualTo(530.5);
+        assertThat(north.version().properties().path("crop").asText()).isEqualTo("maize");
+
+        ImportOptions chosen = new ImportOptions(null, null, "code", "crop", "other", Instant.EPOCH);
+        ImportedField renamed = FieldFiles.read(resource(file), chosen).fields().get(0);
+        assertThat(renamed.version().name()).isEqualTo("maize");
+        assertThat(renamed.version().domain()).isEqualTo("other");
+    }
+
+    @Test
+    void saysThatHeightsAreLeftOut() throws Exception {
+        FieldFile read = FieldFiles.read(resource("shapefile-heights.shp"), named("code"));
+
+        assertThat(read.fields()).allSatisfy(field -> assertThat(field.notes()).containsExactly("left out heights"));
+    }
+
+    @Test
+    void choosesALayer() throws Exception {
+        Path file = resource("geopackage-layers.gpkg");
+
+        assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
+                .isInstanceOf(UnusableFileException.class)
+                .hasMessageContaining("[fields, more]")
+                .hasMessageContaining("--layer");
+        FieldFile more = FieldFiles.read(file, new ImportOptions("more", null, "code", null, null, Instant.EPOCH));
+        assertThat(more.crs()).contains("UTM zone 30N");
+        assertThat(more.fields()).hasSize(2);
+    }
+
+    @Test
+    void takesTheCoordinateSystemFromTheCommandWhereTheFileHasNone() throws Exception {
+        Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("bare.SHP"));
+        Files.copy(resource("shapefile-25830.dbf"), folder.resolve("bare.DBF"));
+
+        assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
+                .isInstanceOf(UnusableFileException.class)
+                .hasMessageContaining("--crs EPSG:25830");
+        for (String crs :
+                List.of("EPSG:25830", "urn:ogc:def:crs:EPSG::25830", "http://www.opengis.net/def/crs/EPSG/0/25830")) {
+            ImportOptions options = new ImportOptions(null, crs, "code", null, null, Instant.EPOCH);
+            assertThat(FieldFiles.read(shp, options).fields()).hasSize(2);
+        }
+        ImportOptions wrong = new ImportOptions(null, "EPSG:99999", "code", null, null, Instant.EPOCH);
+        assertThatThrownBy(() -> FieldFiles.read(shp, wrong))
+                .hasMessageContaining("'EPSG:99999' is not a known coordinate system");
+    }
+
+    /** The code page of a .cpg file, or else of the table, or else of its texts; as GDAL has it but for the last. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', nullValues = "-", textBlock = """
+        850          | 0   | IBM850       | Höhe | -
+        CP850        | 0   | IBM850       | Höhe | -
+        OEM 850      | 87  | IBM850       | Höhe | -
+        cp437        | 0   | IBM437       | Höhe | -
+        858          | 0   | IBM00858     | Höhe | -
+        65001        | 0   | UTF-8        | Höhe | -
+        UTF-8        | 0   | UTF-8        | Höhe | -
+        ﻿UTF-8¶      | 0   | UTF-8        | Höhe | -
+        utf8         | 87  | UTF-8        | Höhe | -
+        ANSI 1252    | 0   | windows-1252 | Höhe | -
+        1252         | 2   | windows-1252 | Höhe | -
+        windows-1252 | 0   | windows-1252 | Höhe | -
+        ANSI 1251    | 0   | windows-1251 | Поле | -
+        1250         | 0   | windows-1250 | łąka | -
+        866          | 0   | IBM866       | Поле | -
+        ISO 8859-1   | 0   | ISO-8859-1   | Höhe | -
+        ISO-8859-15  | 0   | ISO-8859-15  | Höhe | -
+        8859-1       | 0   | ISO-8859-1   | Höhe | -
+        88591        | 0   | ISO-8859-1   | Höhe | -
+        885915       | 0   | ISO-8859-15  | Höhe | -
+        28592        | 0   | ISO-8859-2   | łąka | -
+        932          | 0   | windows-31j  | 畑    | -
+        936          | 0   | GBK          | 田    | -
+        Big5         | 0   | Big5         | 田    | -
+        10000        | 0   | x-MacRoman   | Höhe | -
+        -            | 2   | IBM850       | Höhe | -
+        -            | 201 | windows-1251 | Поле | -
+        -            | 87  | ISO-8859-1   | Höhe | -
+        ¶            | 87  | ISO-8859-1   | Höhe | -
+        -            | 0   | UTF-8        | Höhe | UTF-8
+        -            | 87  | UTF-8        | Höhe | UTF-8
+        -            | 0   | ISO-8859-1   | Höhe | ISO-8859-1
+        -            | 0   | US-ASCII     | Hohe | -
+        """)
+    void readsTextsInTheCodePageThatIsNamed(String cpg, int driver, String charset, String name, String assumed)
+            throws Exception {
+        Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("coded.shp"));
+        Files.copy(resource("shapefile-25830.prj"), folder.resolve("coded.prj"));
+        byte[] table = Files.readAllBytes(resource("shapefile-25830.dbf"));
+        table[29] = (byte) driver;
+        for (int column : new int[] {386, 811}) { // 'name' of both rows
+            Arrays.fill(table, column, column + 80, (byte) ' ');
+            byte[] text = name.getBytes(charset);
+            System.arraycopy(text, 0, table, column, text.length);
+        }
+        Files.write(folder.resolve("coded.dbf"), table);
+        if (cpg != null) {
+            Files.writeString(folder.resolve("coded.cpg"), cpg.replace('¶', '\n'));
+        }
+
+        FieldFile read = FieldFiles.read(shp, named("code"));
+
+        assertThat(read.fields().get(0).version().name()).isEqualTo(name);
+        if (assumed == null) {
+            assertThat(read.notes()).isEmpty();
+        } else {
+            assertThat(read.notes())
+                    .containsExactly("there is no .cpg file next to it: its texts were read as " + assumed);
+        }
+    }
+
+    @Test
+    void saysWhatToDoWithAFeaturePerLine() throws Exception {
+        Path file = Files.writeString(folder.resolve("x.geojsonl"), "{\"type\":\"Feature\"}\n{\"type\":\"Feature\"}\n");
+
+        assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
+                .isInstanceOf(UnusableFileException.class)
+                .hasMessageEndingWith(
+                        "is not JSON (more than one JSON document at line 2, column 1); put the features into one FeatureCollection");
+    }
+
+    @Test
+    void saysWhatToWriteIntoACpgFileThatNamesNoCodePage() throws Exception {
+        Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("coded.shp"));
+        Files.copy(resource("shapefile-25830.dbf"), folder.resolve("coded.dbf"));
+        Files.writeString(folder.resolve("coded.cpg"), "Klingon");
+
+        assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
+                .isInstanceOf(UnusableFileException.class)
+                .hasMessageContaining("names the unknown code page 'Klingon'; write into it");
+    }
+
+    /** Well-known text may define the northing first; the file has the easting first all the same. */
+    @Test
+    void readsEastingFirstWhateverTheTextDefines() throws Exception {
+        Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("north.shp"));
+        Files.copy(resource("shapefile-25830.dbf"), folder.resolve("north.dbf"));
+        String prj = Files.readString(resource("shapefile-25830.prj"));
+        Files.writeString(
+                folder.resolve("north.prj"),
+                prj.replaceFirst("]\\s*$", ",AXIS[\"Northing\",NORTH],AXIS[\"Easting\",EAST]]"));
+
+        FieldFile read = FieldFiles.read(shp, named("code"));
+
+        double[] corner = corners(read.fields().get(0).version().geometry()).get(0);
+        assertThat(apart(corner, new double[] {-3.4840, 40.3130})).isLessThan(400);
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+        PROJCS["x",GEOGCS["g",DATUM["D_Nowhere",SPHEROID["s",6377000,300]],PRIMEM["Greenwich",0],UNIT["Degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["Central_Meridian",-3],UNIT["Meter",1]]
+        LOCAL_CS["somewhere"]
+        nonsense
+        """)
+    void refusesACoordinateSystemThatLeadsNowhere(String prj) throws Exception {
+        Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("lost.shp"));
+        Files.copy(resource("shapefile-25830.dbf"), folder.resolve("lost.dbf"));
+        Files.writeString(folder.resolve("lost.prj"), prj);
+
+        assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
+                .isInstanceOf(UnusableFileException.class)
+                .hasMessageContaining("is not a known coordinate system")
+                .hasMessageContaining("--crs");
+    }
+
+    @Test
+    void readsWhatAnotherProgramHasChangedInAGeoPackageThatItHasOpen() throws Exception {
+        Path file = Files.copy(resource("geopackage-25830.gpkg"), folder.resolve("open.gpkg"));
+        try (Connection qgis = DriverManager.getConnection("jdbc:sqlite:" + file);
+                Statement statement = qgis.createStatement()) {
+            statement.execute("PRAGMA journal_mode=WAL");
+            statement.execute("UPDATE fields SET name = 'changed'");
+
+            assertThat(FieldFiles.read(file, PLAIN).fields())
+                    .allSatisfy(field -> assertThat(field.version().name()).isEqualTo("changed"));
+        }
+    }
+
+    @Test
+    void readsGeoJsonWithAByteOrderMark() throws Exception {
+        Path file = Files.writeString(
+                folder.resolve("marked.geojson"), "\ufeff" + Files.readString(resource("farm.geojson")));
+
+        assertThat(FieldFiles.read(file, PLAIN).fields()).isNotEmpty();
+    }
+
+    @Test
+    void namesWhatIsWrongWithAFile() throws Exception {
+        assertUnusable("x", "neither GeoJSON nor a Shapefile");
+        assertUnusable("{", "is not JSON");
+        assertUnusable("{\"type\": \"Topology\"}", "not a GeoJSON FeatureCollection");
+        assertThatThrownBy(() -> FieldFiles.read(folder.resolve("missing"), PLAIN))
+                .hasMessageContaining("cannot be read");
+        assertThatThrownBy(() -> FieldFiles.read(resource("farm.geojson"), named("cod")))
+                .hasMessageContaining("--id-property cod: no feature of")
+                .hasMessageContaining("[Domain, code, crop, height, name]");
+        byte[] shp = Files.readAllBytes(resource("shapefile-25830.shp"));
+        Path broken = Files.write(folder.resolve("broken.shp"), Arrays.copyOf(shp, shp.length - 40));
+        assertThatThrownBy(() -> FieldFiles.read(broken, PLAIN)).hasMessageContaining("is truncated in record 2");
+        Path gpkg = Files.write(
+                folder.resolve("broken.gpkg"),
+                Arrays.copyOf(Files.readAllBytes(resource("geopackage-25830.gpkg")), 3000));
+        assertThatThrownBy(() -> FieldFiles.read(gpkg, PLAIN)).hasMessageContaining("is not a readable GeoPackage");
+    }
+
+    private void assertUnusable(String content, String message) throws IOException {
+        Path file = Files.writeString(folder.resolve("file"), content, StandardCharsets.UTF_8);
+        assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
+                .isInstanceOf(UnusableFileException.class)
+                .hasMessageContaining(message);
+    }
+
+    private static ImportOptions named(String property) {
+        return new ImportOptions(null, null, property, null, null, Instant.EPOCH);
+    }
+
+    static Path resource(String name) {
+        return Path.of(FieldFilesTest.class.getResource(name).getPath());
+    }
+
+    private static double apart(double[] one, double[] other) {
+        return METERS_PER_DEGREE
+                * Math.hypot((one[0] - other[0]) * Math.cos(Math.toRadians(one[1])), one[1] - other[1]);
+    }
+
+    public static List<double[]> corners(ObjectNode geometry) {
+        List<double[]> corners = new ArrayList<>();
+        collect(geometry.path("coordinates"), corners);
+        return corners;
+    }
+
+    private static void collect(JsonNode node, List<double[]> corners) {
+        if (node.path(0).isNumber()) {
+            corners.add(new double[] {node.get(0).asDouble(), node.get(1).asDouble()});
+        } else {
+            node.forEach(one -> collect(one, corners));
+        }
+    }
+}

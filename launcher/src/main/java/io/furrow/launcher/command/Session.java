@@ -1,0 +1,112 @@
+package io.furrow.launcher.command;
+
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.launcher.process.Progress;
+import io.furrow.launcher.status.Status;
+import io.furrow.launcher.status.StatusScreen;
+import io.furrow.launcher.suite.RunDirectory;
+import io.furrow.launcher.suite.Suite;
+import io.furrow.launcher.suite.SuiteSettings;
+
+/** A suite at the terminal: started, shown, stopped by Ctrl-C within ten seconds; the JVM ends later where it then stores its classes. */
+final class Session {
+    private static final Logger LOG = LoggerFactory.getLogger(Session.class);
+    private static final Duration STOP_WITHIN = Duration.ofMillis(9_500);
+    private static final int STOPPED_BY_INTERRUPT = 130;
+    /** Set by the script where the JVM stores its classes when it ends, after all else. */
+    private static final String STORES_CLASSES = "furrow.stores.classes";
+
+    private final PrintWriter out;
+    private final CountDownLatch stopRequested = new CountDownLatch(1);
+    private final CountDownLatch stopped = new CountDownLatch(1);
+    private volatile boolean started;
+    private volatile StatusScreen screen;
+
+    Session(PrintWriter out) {
+        this.out = out;
+    }
+
+    /** What runs on top of the suite, for instance simulated devices. */
+    interface Guest {
+        AutoCloseable join(Suite suite) throws Exception;
+    }
+
+    /**
+     * Returns when the user asked to stop and everything has stopped.
+     *
+     * @param data kept across restarts; null for a temporary directory
+     */
+    public int run(SuiteSettings settings, Path data, Guest guest) throws Exception {
+        out.println("Furrow starts; Ctrl-C stops it.");
+        try (RunDirectory directory = RunDirectory.open(data)) {
+            Runtime.getRuntime().addShutdownHook(new Thread(() -> stopFromOutside(directory), "stop"));
+            directory.leaveToItsOwner();
+            try (Suite suite = Suite.start(settings, directory, new Progress(out));
+                    AutoCloseable joined = guest.join(suite)) {
+                started = true;
+                show(suite);
+                out.println("Furrow stops …");
+                LOG.info("Stopping, {} included", joined);
+            }
+        } finally {
+            stopped.countDown();
+        }
+        return 0;
+    }
+
+    private void show(Suite suite) throws IOException, InterruptedException {
+        StringWriter addresses = new StringWriter();
+        UrlTable.print(new PrintWriter(addresses), suite);
+        out.print(addresses);
+        out.flush();
+        Status.Shown shown = new Status.Shown(
+                suite.kafka().admin(),
+                suite.kafka().clientProperties(),
+                suite.flink(),
+                suite.jobs(),
+                suite::notices,
+                addresses.toString().strip().lines().map(String::strip).toList());
+        try (StatusScreen drawn = StatusScreen.open();
+                Status status = new Status(out, drawn, shown)) {
+            screen = drawn;
+            status.start();
+            do {
+                status.tick();
+            } while (!stopRequested.await(1, TimeUnit.SECONDS));
+        }
+    }
+
+    /**
+     * Runs in the JVM's shutdown: lets {@link #run} stop everything. What is only half started, or does not stop in time, is
+     * ended with the JVM; files that are kept survive that as they survive a power cut.
+     */
+    private void stopFromOutside(RunDirectory directory) {
+        stopRequested.countDown();
+        StatusScreen drawn = screen;
+        if (drawn != null) {
+            drawn.close();
+        }
+        try {
+            long timeout = started ? STOP_WITHIN.toMillis() : 0;
+            if (!stopped.await(timeout, TimeUnit.MILLISECONDS)) {
+                directory.close();
+                Runtime.getRuntime().halt(STOPPED_BY_INTERRUPT);
+            }
+            if (Boolean.getBoolean(STORES_CLASSES)) {
+                out.println("The JVM stores the suite's classes, once, some 15 s; later starts are quicker.");
+            }
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+}

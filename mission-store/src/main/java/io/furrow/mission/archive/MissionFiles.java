@@ -1,0 +1,140 @@
+package io.furrow.mission.archive;
+
+import java.io.BufferedOutputStream;
+import java.io.FilterOutputStream;
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.OutputStream;
+import java.util.Arrays;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Set;
+import java.util.function.LongConsumer;
+import java.util.stream.Stream;
+import java.util.zip.GZIPInputStream;
+import java.util.zip.GZIPOutputStream;
+
+import org.apache.flink.core.fs.FileStatus;
+import org.apache.flink.core.fs.FileSystem;
+import org.apache.flink.core.fs.Path;
+import org.apache.flink.core.fs.RecoverableFsDataOutputStream;
+import org.apache.flink.util.IOUtils;
+
+/**
+ * Files of lines on any of Flink's file systems, compressed where the name ends in {@code .gz}. A file appears under its name
+ * only when it is whole.
+ */
+public final class MissionFiles {
+    private static final int BUFFER = 64 * 1024;
+    private static final Set<String> OBJECT_STORES = Set.of("s3", "s3a", "s3p", "gs", "oss");
+
+    private MissionFiles() {}
+
+    /** What writes a file. */
+    public interface Content {
+        long writeTo(OutputStream out) throws IOException;
+    }
+
+    /** Writes a mission into one file; another of that name is replaced when the new one is whole, and stays else. */
+    public static long export(StoredMissions missions, String mission, Path file, LongConsumer told)
+            throws IOException {
+        return write(file, out -> missions.export(mission, out, told));
+    }
+
+    /** Reads a file, or every {@code .ndjson} and {@code .ndjson.gz} of a folder, into a mission. */
+    public static long importFrom(StoredMissions missions, String mission, Path path, LongConsumer told)
+            throws IOException, InterruptedException {
+        long count = 0;
+        for (Path file : filesOf(path)) {
+            long before = count;
+            try (InputStream in = open(file)) {
+                count += missions.importFrom(mission, in, file.toString(), more -> told.accept(before + more));
+            }
+        }
+        return count;
+    }
+
+    static List<Path> filesOf(Path path) throws IOException {
+        FileSystem files = path.getFileSystem();
+        if (!files.getFileStatus(path).isDir()) {
+            return List.of(path);
+        }
+        return list(path)
+                .filter(it -> it.getName().endsWith(".ndjson") || it.getName().endsWith(".ndjson.gz"))
+                .toList();
+    }
+
+    /** What a folder holds, by name; nothing if there is no such folder. */
+    static Stream<Path> list(Path folder) throws IOException {
+        FileSystem files = folder.getFileSystem();
+        FileStatus[] found = files.exists(folder) ? files.listStatus(folder) : null;
+        return found == null
+                ? Stream.empty()
+                : Arrays.stream(found).map(FileStatus::getPath).sorted(Comparator.comparing(Path::getName));
+    }
+
+    static InputStream open(Path file) throws IOException {
+        InputStream in = file.getFileSystem().open(file);
+        return isCompressed(file) ? new GZIPInputStream(in, BUFFER) : in;
+    }
+
+    /** Replaces what has the name; where a file cannot take another's place at once, that one goes just before. */
+    public static long write(Path file, Content content) throws IOException {
+        FileSystem files = file.getFileSystem();
+        RecoverableFsDataOutputStream out = files.createRecoverableWriter().open(file);
+        boolean whole = false;
+        try {
+            long count;
+            try (OutputStream lines = isCompressed(file)
+                    ? new GZIPOutputStream(unclosed(out), BUFFER)
+                    : new BufferedOutputStream(unclosed(out))) {
+                count = content.writeTo(lines);
+            }
+            RecoverableFsDataOutputStream.Committer finished = out.closeForCommit();
+            if (!replaces(files) && files.exists(file)) {
+                files.delete(file, false);
+            }
+            finished.commit();
+            whole = true;
+            return count;
+        } finally {
+            if (!whole) {
+                IOUtils.closeQuietly(out); // once committed, S3 takes a second close for a fault
+                removeUnfinished(file);
+            }
+        }
+    }
+
+    /** Whether a finished file takes the place of another by itself: in local folders, and where names are only keys. */
+    private static boolean replaces(FileSystem files) {
+        return !files.isDistributedFS() || OBJECT_STORES.contains(files.getUri().getScheme());
+    }
+
+    private static OutputStream unclosed(RecoverableFsDataOutputStream out) {
+        return new FilterOutputStream(out) {
+            @Override
+            public void write(byte[] bytes, int from, int length) throws IOException {
+                out.write(bytes, from, length);
+            }
+
+            @Override
+            public void close() {
+                // closed for the commit
+            }
+        };
+    }
+
+    /** What Flink's writers keep beside the file until it is whole. */
+    private static void removeUnfinished(Path file) throws IOException {
+        String unfinished = "." + file.getName() + ".inprogress.";
+        for (Path one : list(file.getParent())
+                .filter(it -> it.getName().startsWith(unfinished))
+                .toList()) {
+            file.getFileSystem().delete(one, false);
+        }
+    }
+
+    private static boolean isCompressed(Path file) {
+        return file.getName().endsWith(".gz");
+    }
+}

@@ -1,0 +1,260 @@
+package io.furrow.mission.archive;
+
+import java.io.BufferedReader;
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.InputStreamReader;
+import java.io.OutputStream;
+import java.io.UncheckedIOException;
+import java.nio.charset.StandardCharsets;
+import java.time.Clock;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.Iterator;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.function.LongConsumer;
+
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.MongoCollection;
+import com.mongodb.client.MongoCursor;
+import com.mongodb.client.model.Sorts;
+import org.bson.RawBsonDocument;
+
+import io.furrow.mission.EventOrder;
+import io.furrow.mission.StoredEvent;
+import io.furrow.mission.bulk.BulkSender;
+import io.furrow.mission.bulk.EventDocument;
+import io.furrow.mission.file.ArchiveLine;
+import io.furrow.mission.mongo.EventDocumentCodec;
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** The missions that are stored in MongoDB: listed, exported as lines, and imported from lines. */
+public final class StoredMissions implements AutoCloseable {
+    private static final int BATCH = 1_000;
+    private static final int TELL_EVERY = 10_000;
+    private static final MongoAccess.Waits WAITS = MongoAccess.Waits.of(Duration.ofSeconds(20));
+
+    private final MongoClient client;
+    private final MissionCollections collections;
+
+    private StoredMissions(MongoClient client) {
+        this.client = client;
+        this.collections = new MissionCollections(client, null, Clock.systemUTC());
+    }
+
+    /**
+     * @param uri of MongoDB
+     * @throws IllegalArgumentException if it is none
+     */
+    public static StoredMissions open(String uri) {
+        return new StoredMissions(new MongoAccess(uri, WAITS).open());
+    }
+
+    /**
+     * What is kept of a mission.
+     *
+     * @param mission its name; as its collection has it where only a hash of it is there and no event names it
+     * @param collection as MongoDB has it
+     * @param bytes of the documents, without indexes; −1 if the server does not report it
+     * @param first event time of the oldest event
+     * @param last event time of the newest event
+     * @param indexes by name
+     * @param retention how long the server itself keeps documents; null forever, or as long as the job that purges says
+     */
+    public record Summary(
+            String mission,
+            String collection,
+            long events,
+            long bytes,
+            Instant first,
+            Instant last,
+            List<String> indexes,
+            Duration retention) {}
+
+    private record Document(String collection, String id, byte[] bson) implements EventDocument {}
+
+    /** All that hold an event, in alphabetical order. */
+    public List<Summary> all() {
+        List<Summary> all = new ArrayList<>();
+        for (String name : collections.names()) {
+            MongoCollection<RawBsonDocument> collection = collections.get(name);
+            RawBsonDocument first = collection
+                    .find()
+                    .sort(Sorts.ascending(EventDocumentCodec.TIME))
+                    .first();
+            RawBsonDocument last = collection
+                    .find()
+                    .sort(Sorts.descending(EventDocumentCodec.TIME))
+                    .first();
+            if (first != null && last != null) {
+                Map<String, Optional<Duration>> indexes = collections.indexes(name);
+                all.add(new Summary(
+                        MissionCollections.missionOf(name, () -> last),
+                        name,
+                        collection.countDocuments(),
+                        collections.bytes(name),
+                        time(first),
+                        time(last),
+                        List.copyOf(indexes.keySet()),
+                        indexes.values().stream()
+                                .flatMap(Optional::stream)
+                                .findFirst()
+                                .orElse(null)));
+            }
+        }
+        return all;
+    }
+
+    /** The collection of a mission by its name, or by what stands for it in topics and collections where there is that. */
+    String collection(String mission) {
+        List<String> candidates = MissionCollections.candidates(mission);
+        return candidates.stream().filter(name -> !isEmpty(name)).findFirst().orElse(candidates.get(0));
+    }
+
+    private boolean isEmpty(String collection) {
+        return collections.get(collection).find().first() == null;
+    }
+
+    private static Instant time(RawBsonDocument document) {
+        return Instant.ofEpochMilli(
+                document.getDateTime(EventDocumentCodec.TIME).getValue());
+    }
+
+    /** Whether anything is kept of it. */
+    public boolean has(String mission) {
+        return !isEmpty(collection(mission));
+    }
+
+    /**
+     * Writes all events of a mission as lines, in the order of their times; the same documents are always the same bytes.
+     *
+     * @param told is called now and then with the number so far
+     * @return how many events
+     */
+    public long export(String mission, OutputStream out, LongConsumer told) throws IOException {
+        long count = 0;
+        try (Events events = events(mission)) {
+            while (events.hasNext()) {
+                out.write(ArchiveLine.write(events.next()));
+                out.write('\n');
+                if (++count % TELL_EVERY == 0) {
+                    told.accept(count);
+                }
+            }
+        }
+        return count;
+    }
+
+    /**
+     * Reads lines into a mission. What is there already stays once.
+     *
+     * @param source for messages
+     * @return how many lines
+     * @throws IOException if a line is no event, or the server does not take it; the lines before it may have been taken
+     */
+    public long importFrom(String mission, InputStream in, String source, LongConsumer told)
+            throws IOException, InterruptedException {
+        try (BulkSender<EventDocument> sender = new BulkSender<>(collections, WAITS, ignored -> {})) {
+            String collection = collection(mission);
+            List<EventDocument> bulk = new ArrayList<>(BATCH);
+            BufferedReader lines = new BufferedReader(new InputStreamReader(in, StandardCharsets.UTF_8));
+            long count = 0;
+            for (String line = lines.readLine(); line != null; line = lines.readLine()) {
+                count++;
+                bulk.add(document(collection, line, source + ", line " + count));
+                if (bulk.size() == BATCH) {
+                    send(sender, bulk, source);
+                }
+                if (count % TELL_EVERY == 0) {
+                    told.accept(count);
+                }
+            }
+            send(sender, bulk, source);
+            return count;
+        }
+    }
+
+    private static EventDocument document(String collection, String line, String where) throws IOException {
+        try {
+            StoredEvent event = ArchiveLine.read(line);
+            return new Document(collection, event.id(), EventDocumentCodec.write(event));
+        } catch (UnreadableException e) {
+            throw new IOException(where + " is no event: " + e.getMessage(), e);
+        }
+    }
+
+    private static void send(BulkSender<EventDocument> sender, List<EventDocument> bulk, String source)
+            throws IOException, InterruptedException {
+        for (BulkSender.Refusal<EventDocument> refusal : sender.send(bulk)) {
+            throw new IOException("MongoDB refuses event %s of %s: %s"
+                    .formatted(refusal.document().id(), source, refusal.reason()));
+        }
+        bulk.clear();
+    }
+
+    /** The events of a mission in the order of archives. */
+    Events events(String mission) {
+        return new Events(collections
+                .get(collection(mission))
+                .find()
+                .sort(Sorts.ascending(EventDocumentCodec.TIME))
+                .batchSize(BATCH)
+                .cursor());
+    }
+
+    @Override
+    public void close() {
+        client.close();
+    }
+
+    /** Reads from the server as it goes. */
+    static final class Events implements Iterator<StoredEvent>, AutoCloseable {
+        private final MongoCursor<RawBsonDocument> cursor;
+        private final Iterator<StoredEvent> ordered;
+
+        private Events(MongoCursor<RawBsonDocument> cursor) {
+            this.cursor = cursor;
+            this.ordered = EventOrder.within(new Iterator<>() {
+                @Override
+                public boolean hasNext() {
+                    return cursor.hasNext();
+                }
+
+                @Override
+                public StoredEvent next() {
+                    return read(cursor.next());
+                }
+            });
+        }
+
+        private static StoredEvent read(RawBsonDocument document) {
+            try {
+                return EventDocumentCodec.read(document);
+            } catch (UnreadableException e) {
+                throw new UncheckedIOException(
+                        "The collection holds a document that ingest did not write",
+                        new IOException(e.getMessage(), e));
+            }
+        }
+
+        @Override
+        public boolean hasNext() {
+            return ordered.hasNext();
+        }
+
+        @Override
+        public StoredEvent next() {
+            return ordered.next();
+        }
+
+        @Override
+        public void close() {
+            cursor.close();
+        }
+    }
+}

@@ -1,0 +1,104 @@
+package io.furrow.mission.bulk;
+
+import java.util.List;
+import java.util.Set;
+import java.util.stream.Stream;
+
+import com.mongodb.MongoClientException;
+import com.mongodb.MongoCommandException;
+import com.mongodb.MongoCredential;
+import com.mongodb.MongoException;
+import com.mongodb.MongoSecurityException;
+import com.mongodb.MongoSocketOpenException;
+import com.mongodb.MongoTimeoutException;
+import com.mongodb.ServerAddress;
+import org.bson.BsonArray;
+import org.bson.BsonDocument;
+import org.bson.BsonInt32;
+import org.bson.BsonString;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.Arguments;
+import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.MethodSource;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.junit.jupiter.params.provider.Arguments.arguments;
+
+class MongoFailureTest {
+    private static final ServerAddress SERVER = new ServerAddress("127.0.0.1", 27017);
+    private static final MongoCredential USER = MongoCredential.createCredential("u", "admin", new char[0]);
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+        91    | shutdown in progress                    | AWAY
+        189   | primary stepped down                    | AWAY
+        10107 | not primary                             | AWAY
+        14031 | out of disk space                       | AWAY
+        11000 | E11000 duplicate key index: _id_ dup    | AWAY
+        11000 | E11000 index: persistence.m.$_id_ dup   | AWAY
+        11000 | E11000 duplicate key index: serial dup  | REFUSED
+        11000 | E11000 index: device_id_1 dup           | REFUSED
+        13    | not authorized                          | SETTING
+        18    | authentication failed                   | SETTING
+        166   | is a view                               | SETTING
+        365   | temporarily unavailable                 | AWAY
+        16500 | request rate is large                   | AWAY
+        13388 | stale config                            | AWAY
+        150   | stale epoch                             | AWAY
+        133   | no primary for the read preference      | AWAY
+        314   | object is busy                          | AWAY
+        61    | the collection is sharded by another key| SETTING
+        1     | internal error                          | UNKNOWN
+        8     | unknown error                           | UNKNOWN
+        -1    | no code at all                          | UNKNOWN
+        777777| a code of a server to come              | UNKNOWN
+        2     | bad value                               | REFUSED
+        9     | failed to parse                         | REFUSED
+        14    | type mismatch                           | REFUSED
+        17280 | key too long to index                   | REFUSED
+        16755 | can't extract geo keys                  | REFUSED
+        121   | document failed validation              | REFUSED
+        10334 | object too large                        | REFUSED
+        """)
+    void tellsByTheServersCode(int code, String message, MongoFailure failure) {
+        BsonDocument answer = new BsonDocument("code", new BsonInt32(code)).append("errmsg", new BsonString(message));
+
+        assertThat(MongoFailure.of(new MongoCommandException(answer, SERVER))).isEqualTo(failure);
+        assertThat(MongoFailure.of(code, message)).isEqualTo(failure);
+    }
+
+    @Test
+    void takesTheLabelOfABusyServerForItsWord() {
+        BsonDocument answer = new BsonDocument("code", new BsonInt32(777_777))
+                .append("errmsg", new BsonString("shed"))
+                .append("errorLabels", new BsonArray(List.of(new BsonString("SystemOverloadedError"))));
+
+        assertThat(MongoFailure.of(new MongoCommandException(answer, SERVER))).isEqualTo(MongoFailure.AWAY);
+    }
+
+    @Test
+    void namesEachCodeOnce() {
+        List<Integer> all = Stream.of(MongoCodes.OF_DOCUMENT, MongoCodes.OF_SETTING, MongoCodes.OF_TIME)
+                .flatMap(Set::stream)
+                .toList();
+
+        assertThat(all).doesNotHaveDuplicates();
+    }
+
+    static Stream<Arguments> whatTheDriverSays() {
+        MongoSocketOpenException refused = new MongoSocketOpenException("refused", SERVER);
+        return Stream.of(
+                arguments(refused, MongoFailure.AWAY),
+                arguments(new MongoTimeoutException("no server"), MongoFailure.AWAY),
+                arguments(new MongoClientException("the pool is paused"), MongoFailure.AWAY),
+                arguments(new MongoSecurityException(USER, "while it asked", refused), MongoFailure.AWAY),
+                arguments(new MongoSecurityException(USER, "wrong password"), MongoFailure.SETTING));
+    }
+
+    @ParameterizedTest
+    @MethodSource("whatTheDriverSays")
+    void takesWhatTheDriverSaysForNoFaultOfADocument(MongoException said, MongoFailure failure) {
+        assertThat(MongoFailure.of(said)).isEqualTo(failure);
+    }
+}
