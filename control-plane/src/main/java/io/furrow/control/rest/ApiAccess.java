@@ -14,7 +14,7 @@ final class ApiAccess {
 
     private ApiAccess() {}
 
-    public static Handler guard(RestSettings rest, Handler handler) {
+    static Handler guard(RestSettings rest, Handler handler) {
         AccessRule rule = AccessRule.allowing(rest.allowed(), OPTIONS)
                 .servedAs(rest.host())
                 .withProbes("/health", "/ready");
@@ -22,7 +22,7 @@ final class ApiAccess {
     }
 
     /** An error that does not come from Jersey, in the same shape. */
-    public static byte[] problem(String error, String reason) {
+    static byte[] problem(String error, String reason) {
         return NgsiJson.write(CommandResult.of(CommandResult.ERROR)
                 .with("error", error)
                 .with("reason", reason)
