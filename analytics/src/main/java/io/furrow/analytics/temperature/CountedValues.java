@@ -28,7 +28,7 @@ public record CountedValues(String type, List<Double> values, List<Integer> time
     }
 
     /** Of all values, each as often as it came. */
-    public double median() {
+    double median() {
         int all = times.stream().mapToInt(Integer::intValue).sum();
         double upper = inOrder(all / 2);
         return all % 2 == 1 ? upper : (inOrder(all / 2 - 1) + upper) / 2;

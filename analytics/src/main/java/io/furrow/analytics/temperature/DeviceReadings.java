@@ -26,7 +26,7 @@ public record DeviceReadings(
         String type,
         List<CountedValues> others) {
     /** One of each type, the first in front. */
-    public List<CountedValues> all() {
+    List<CountedValues> all() {
         return others == null
                 ? List.of(first())
                 : Stream.concat(Stream.of(first()), others.stream()).toList();

@@ -33,7 +33,7 @@ public record DeviceVote(
     }
 
     /** The field among those of all topics and tenants: devices of two tenants are never averaged together. */
-    public String fieldIdentity() {
+    String fieldIdentity() {
         return scope.identity(field);
     }
 }

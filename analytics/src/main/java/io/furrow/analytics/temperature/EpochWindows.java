@@ -18,7 +18,7 @@ import io.furrow.flink.record.Epochs;
  * Windows of event time that begin at whole multiples of the slide since 1970 of the original time, in each epoch of a replay: a
  * span of an epoch is no whole number of most windows. In epoch 0 they are those of Flink's own assigners, and their state is too.
  */
-public final class EpochWindows extends WindowAssigner<Object, TimeWindow> {
+final class EpochWindows extends WindowAssigner<Object, TimeWindow> {
     private static final long serialVersionUID = 1L;
 
     private final long size;
@@ -30,7 +30,7 @@ public final class EpochWindows extends WindowAssigner<Object, TimeWindow> {
     }
 
     /** @param slide from start to start; the size where windows do not overlap */
-    public static EpochWindows of(Duration size, Duration slide) {
+    static EpochWindows of(Duration size, Duration slide) {
         return new EpochWindows(size.toMillis(), slide.toMillis());
     }
 

@@ -20,7 +20,7 @@ public record FieldAverage(
         RobustMean average,
         List<String> suspectTypes) {
     /** The field among those of all topics and tenants. */
-    public String fieldIdentity() {
+    String fieldIdentity() {
         return scope.identity(field);
     }
 }

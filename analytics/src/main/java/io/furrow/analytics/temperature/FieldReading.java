@@ -12,7 +12,7 @@ public record FieldReading(String field, String domain, long validFrom, Reading 
      * The device in this field, among those of all topics and tenants; the length makes it unambiguous. Devices of one id and several
      * types share it, as state of older builds has it.
      */
-    public String voter() {
+    String voter() {
         return field.length() + ":" + field + reading.deviceIdentity();
     }
 }

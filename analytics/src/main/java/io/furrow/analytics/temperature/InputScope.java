@@ -11,7 +11,7 @@ import io.furrow.model.event.FiwareScope;
  */
 public record InputScope(String topic, FiwareScope fiware) {
     /** One text per id of this scope. A topic's name has no {@code |}. */
-    public String identity(String id) {
+    String identity(String id) {
         return topic + '|' + fiware.identity(id);
     }
 }

@@ -24,7 +24,7 @@ public record Reading(
         String eventId,
         TopicRecord record) {
     /** The topic that it is from, and the tenant. */
-    public InputScope input() {
+    InputScope input() {
         return new InputScope(record.topic(), scope);
     }
 
@@ -38,7 +38,7 @@ public record Reading(
     }
 
     /** The device among those of all topics and tenants, whatever its type. */
-    public String deviceIdentity() {
+    String deviceIdentity() {
         return input().identity(device);
     }
 }

@@ -31,7 +31,7 @@ public record RobustMean(
      * @param floor by how much two sound devices in one place differ; with 0, when most devices agree to the last digit, any
      *     other is suspect
      */
-    public static RobustMean of(Map<String, Double> votes, double floor) {
+    static RobustMean of(Map<String, Double> votes, double floor) {
         double median = Median.of(
                 votes.values().stream().mapToDouble(Double::doubleValue).toArray());
         List<Map.Entry<String, Double>> outward =
@@ -52,7 +52,7 @@ public record RobustMean(
     }
 
     /** The same with the suspects by other names. */
-    public RobustMean naming(List<String> names) {
+    RobustMean naming(List<String> names) {
         return new RobustMean(mean, plainMean, spread, devices, names, verified);
     }
 

@@ -99,7 +99,7 @@ public final class TemperatureOptions extends AnalyticsOptions {
                 : super.defaultName() + "-" + attribute().replace(':', '.');
     }
 
-    public String attribute() {
+    String attribute() {
         if (!ATTRIBUTE.matcher(attribute).matches()) {
             throw refused(
                     "--attribute must be 1 to 40 of A-Z a-z 0-9 _ - : ., because it becomes part of entity ids", null);
@@ -107,11 +107,11 @@ public final class TemperatureOptions extends AnalyticsOptions {
         return attribute;
     }
 
-    public Duration window() {
+    Duration window() {
         return positive("--window", window);
     }
 
-    public Duration slide() {
+    Duration slide() {
         Duration step = slide == null ? window() : positive("--slide", slide);
         if (window().toMillis() % step.toMillis() != 0) {
             throw refused("--slide must be a whole part of --window, for instance 1min of 5min", null);
@@ -123,12 +123,12 @@ public final class TemperatureOptions extends AnalyticsOptions {
         return step;
     }
 
-    public Duration allowedLateness() {
+    Duration allowedLateness() {
         return allowedLateness;
     }
 
     /** By how much two sound devices differ, in the attribute's unit; only of a temperature it is known. */
-    public double suspectFloor() {
+    double suspectFloor() {
         if (suspectFloor == null && !attribute().equals(TEMPERATURE)) {
             throw refused(
                     "--attribute " + attribute() + " needs --suspect-floor: by how much two sound devices in one place"
@@ -142,7 +142,7 @@ public final class TemperatureOptions extends AnalyticsOptions {
         return floor;
     }
 
-    public Duration repeatWindow() {
+    Duration repeatWindow() {
         return repeatWindow == null ? window().plus(allowedLateness) : positive("--repeat-window", repeatWindow);
     }
 

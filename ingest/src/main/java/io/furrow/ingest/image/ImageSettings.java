@@ -14,7 +14,7 @@ import java.util.Set;
  * @param maxInFlightBytes of events that wait for an image to be written, per subtask
  * @param timeout how long a store that does not take an image is asked again before the job fails
  */
-public record ImageSettings(
+record ImageSettings(
         String root,
         Set<String> attributes,
         int maxBytes,

@@ -27,7 +27,7 @@ public record Leg(
      *
      * @param time the original one, epoch milliseconds: a double cannot represent the milliseconds of a late epoch's event time
      */
-    public Place at(double time) {
+    Place at(double time) {
         double elapsed = time - Epochs.original(from);
         return new Place(x + vx * elapsed, y + vy * elapsed, z + vz * elapsed);
     }
@@ -36,7 +36,7 @@ public record Leg(
         return new Place(x, y, z);
     }
 
-    public Place velocity() {
+    Place velocity() {
         return new Place(vx, vy, vz);
     }
 

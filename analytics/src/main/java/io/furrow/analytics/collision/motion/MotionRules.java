@@ -47,11 +47,11 @@ public record MotionRules(
         return movingTypes.isEmpty() || movingTypes.contains(type);
     }
 
-    public long timeToLive() {
+    long timeToLive() {
         return common.positions().timeToLive().toMillis();
     }
 
-    public double cubeMeters() {
+    double cubeMeters() {
         return Math.max(common.cells().meters(), wayAhead(maxSpeed, horizon) / CUBES_AHEAD);
     }
 

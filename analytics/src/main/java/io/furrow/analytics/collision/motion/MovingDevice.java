@@ -10,9 +10,9 @@ import java.util.List;
  * @param behind the legs up to its newest position, the oldest first
  */
 public record MovingDevice(Leg ahead, List<Leg> behind) {
-    public static final MovingDevice UNKNOWN = new MovingDevice(null, List.of());
+    static final MovingDevice UNKNOWN = new MovingDevice(null, List.of());
 
-    public MovingDevice with(LegUpdate update) {
+    MovingDevice with(LegUpdate update) {
         return switch (update.change()) {
             case LEG_AHEAD -> new MovingDevice(update.leg(), behind);
             case NO_LEG_AHEAD -> new MovingDevice(null, behind);
@@ -25,19 +25,19 @@ public record MovingDevice(Leg ahead, List<Leg> behind) {
     }
 
     /** Without what can meet nothing any more that is reported after the instant. */
-    public MovingDevice without(long until, long timeToLive) {
+    MovingDevice without(long until, long timeToLive) {
         Leg counting = ahead != null && aheadEnd(timeToLive) > until ? ahead : null;
         List<Leg> recent =
                 behind.stream().filter(leg -> leg.until() + timeToLive > until).toList();
         return counting == ahead && recent.size() == behind.size() ? this : new MovingDevice(counting, recent);
     }
 
-    public boolean isGone() {
+    boolean isGone() {
         return ahead == null && behind.isEmpty();
     }
 
     /** The first instant at which something of it is to be forgotten. */
-    public long nextEnd(long timeToLive) {
+    long nextEnd(long timeToLive) {
         long end = ahead == null ? Long.MAX_VALUE : aheadEnd(timeToLive);
         return behind.isEmpty() ? end : Math.min(end, behind.get(0).until() + timeToLive);
     }

@@ -10,11 +10,11 @@ import java.util.Map;
  * @param movers by {@link io.furrow.analytics.position.PositionFix#key}; changed in place
  */
 public record Neighbourhood(Map<String, MovingDevice> movers) {
-    public static Neighbourhood empty() {
+    static Neighbourhood empty() {
         return new Neighbourhood(new HashMap<>());
     }
 
-    public boolean isEmpty() {
+    boolean isEmpty() {
         return movers.isEmpty();
     }
 
@@ -23,7 +23,7 @@ public record Neighbourhood(Map<String, MovingDevice> movers) {
      *
      * @param updates in the order of {@link LegUpdate#SEQUENCE}
      */
-    public void apply(List<LegUpdate> updates, ApproachDetector watch) {
+    void apply(List<LegUpdate> updates, ApproachDetector watch) {
         int from = 0;
         while (from < updates.size()) {
             int to = from + 1;
@@ -72,13 +72,13 @@ public record Neighbourhood(Map<String, MovingDevice> movers) {
     }
 
     /** Forgets what can meet nothing that comes after the instant. */
-    public void forget(long until, long timeToLive) {
+    void forget(long until, long timeToLive) {
         movers.replaceAll((device, mover) -> mover.without(until, timeToLive));
         movers.values().removeIf(MovingDevice::isGone);
     }
 
     /** The first instant at which something is to be forgotten. */
-    public long nextEnd(long timeToLive) {
+    long nextEnd(long timeToLive) {
         long end = Long.MAX_VALUE;
         for (MovingDevice mover : movers.values()) {
             end = Math.min(end, mover.nextEnd(timeToLive));

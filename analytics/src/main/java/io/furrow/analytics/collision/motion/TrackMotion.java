@@ -30,7 +30,7 @@ import io.furrow.flink.time.JudgesLateness;
  * {@code positionsTooFast} counts positions that are further from the one before, or report a greater speed, than the
  * greatest speed allows.
  */
-public final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpdate> implements JudgesLateness {
+final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpdate> implements JudgesLateness {
     private static final long serialVersionUID = 1L;
     /** Positions of a device; the stage that finds the encounters sets aside what is beyond. */
     private static final int MAX_WAITING = 100_000;
