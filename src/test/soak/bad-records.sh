@@ -3,7 +3,7 @@
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-home=$(dirname "$soak")
+home=$(cd "$soak/../../.." && pwd)
 java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/machine.sh
 . "$soak/parts/machine.sh"
@@ -52,7 +52,7 @@ opens+=(--add-opens=java.base/sun.nio.ch=ALL-UNNAMED)
 
 say "$good good events and $bad bad records"
 "$java" -Xmx1536m -XX:+UseParallelGC "${opens[@]}" -Dfurrow.log="$logs/furrow.log" \
-    -cp "$home/system-tests/target/test-classes:$home/launcher/target/furrow/lib/*" io.furrow.soak.BadAmongGood "$good" "$bad" ||
+    -cp "$home/src/target/test-classes:$home/suite/launcher/target/furrow/lib/*" io.furrow.soak.BadAmongGood "$good" "$bad" ||
     fail "What came out differs from what went in; log: $logs/furrow.log"
 say "all is accounted for"
 echo "bad-records: passed"

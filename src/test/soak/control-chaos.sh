@@ -3,7 +3,7 @@
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-home=$(dirname "$soak")
+home=$(cd "$soak/../../.." && pwd)
 java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/machine.sh
 . "$soak/parts/machine.sh"
@@ -43,9 +43,9 @@ done
 [[ $seed =~ ^[0-9]{1,18}$ ]] || fail "--seed must be a whole number, not '$seed'."
 
 prepare_source control-chaos
-suite=$home/launcher/target
+suite=$home/suite/launcher/target
 lib=$suite/furrow/lib
-"$java" -Xmx768m -Dfurrow.log="$logs/driver.log" -cp "$home/system-tests/target/test-classes:$lib/*:$suite/furrow/lib-last/*" \
+"$java" -Xmx768m -Dfurrow.log="$logs/driver.log" -cp "$home/src/target/test-classes:$lib/*:$suite/furrow/lib-last/*" \
     io.furrow.soak.control.ControlChaos "$logs/farm" "$minutes" "$seed" \
     > >(while IFS= read -r line; do say "$line"; done) 2>>"$logs/driver.out" &
 own $!

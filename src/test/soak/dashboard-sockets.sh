@@ -3,7 +3,7 @@
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-home=$(dirname "$soak")
+home=$(cd "$soak/../../.." && pwd)
 java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/machine.sh
 . "$soak/parts/machine.sh"
@@ -52,9 +52,9 @@ done
 ((sockets <= 240 && slow < sockets)) || fail "--sockets must be at most 240, which one address may have, and --slow less."
 
 prepare_source dashboard-sockets
-suite=$home/launcher/target
+suite=$home/suite/launcher/target
 lib=$suite/furrow/lib
-"$java" -Xmx768m -Dfurrow.log="$logs/driver.log" -cp "$home/system-tests/target/test-classes:$lib/*:$suite/furrow/lib-last/*" \
+"$java" -Xmx768m -Dfurrow.log="$logs/driver.log" -cp "$home/src/target/test-classes:$lib/*:$suite/furrow/lib-last/*" \
     io.furrow.soak.dashboard.DashboardSockets "$run" "$seconds" "$sockets" "$slow" "$rate" "$drops" "$p99" \
     > >(while IFS= read -r line; do say "$line"; done) 2>>"$logs/driver.out" &
 own $!

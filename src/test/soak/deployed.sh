@@ -3,7 +3,7 @@
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-home=$(dirname "$soak")
+home=$(cd "$soak/../../.." && pwd)
 java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/machine.sh
 . "$soak/parts/machine.sh"
@@ -42,13 +42,13 @@ trap clean_up EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 
-tar xzf "$home"/distribution/target/furrow-*.tar.gz -C "$run"
+tar xzf "$home"/suite/distribution/target/furrow-*.tar.gz -C "$run"
 archive=$(echo "$run"/furrow-*)
 # As the Dockerfile does.
 (cd "$archive/jobs" && for job in ingest analytics replay; do mv furrow-$job-*-job.jar $job.jar; done)
 "$archive/bin/furrow" init "$run/.env" >/dev/null
 class_path=$(sed "s|^|$archive/lib/|" "$archive/lib/class-path" | paste -sd:)
-test_path=$home/system-tests/target/test-classes:$class_path
+test_path=$home/src/target/test-classes:$class_path
 snakeyaml=$(find "${MAVEN_REPOSITORY:-$HOME/.m2/repository}/org/yaml/snakeyaml" -name 'snakeyaml-*.jar' | sort -V | tail -n 1)
 
 for name in kafka controller mqtt orion agent mongo notify retries worker1 worker2 control health control2 health2 dashboard metrics; do
@@ -176,7 +176,7 @@ restored() { curl -fs "$rest/jobs/$1/checkpoints" | grep -q "\"restored\":{[^}]*
 say "a mission"
 export FURROW_API=http://127.0.0.1:$control FURROW_TOKEN_FILE=$run/secrets/api-tokens
 furrow() { FURROW_OPTS="-Xms64m -Xmx256m" "$archive/bin/furrow" "$@"; }
-demo=$home/simulators/src/main/resources/io/furrow/simulators/demo
+demo=$home/simulators/devices/src/main/resources/io/furrow/simulators/demo
 python3 -c 'import json,sys; print(json.dumps(json.load(open(sys.argv[1]))["templates"][0]["devices"]))' "$demo/missions.json" >"$run/devices.json"
 furrow fields import "$demo/fields.geojson" --kafka "127.0.0.1:$kafka" --domain farm --valid-from 2020-01-01T00:00:00Z >"$logs/fields.log" 2>&1 || fail "Fields were not imported: $logs/fields.log"
 furrow domain create farm >"$logs/mission.log"

@@ -3,7 +3,7 @@
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-home=$(dirname "$soak")
+home=$(cd "$soak/../../.." && pwd)
 java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/machine.sh
 . "$soak/parts/machine.sh"
@@ -54,7 +54,7 @@ command -v curl >/dev/null || fail "No curl found, which asks Flink whether it i
 
 run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-flink-run.XXXXXX")
 logs=$home/target/soak/flink-run
-classes=$home/system-tests/target/test-classes:$home/launcher/target/furrow/lib/*
+classes=$home/src/target/test-classes:$home/suite/launcher/target/furrow/lib/*
 # An instance is a job, or a job and what its name adds.
 instances=(ingest normalize presence temperature temperature-green collision collision-wide)
 ids=()

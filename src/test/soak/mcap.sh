@@ -3,7 +3,7 @@
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-home=$(dirname "$soak")
+home=$(cd "$soak/../../.." && pwd)
 # shellcheck source=parts/machine.sh
 . "$soak/parts/machine.sh"
 
@@ -44,10 +44,10 @@ python3 -m venv "$run/python"
 "$run/python/bin/pip" -q install --disable-pip-version-check "mcap==$version" >"$logs/pip.log" 2>&1 ||
     fail "mcap $version could not be fetched: $logs/pip.log"
 say "exporting"
-(cd "$home" && ./mvnw -B -ntp -pl mission-store -am test -Dspotless.check.skip -Dtest=McapExportTest \
+(cd "$home" && ./mvnw -B -ntp -pl kit/recordings -am test -Dspotless.check.skip -Dtest=McapExportTest \
     -Dsurefire.failIfNoSpecifiedTests=false "-Dfurrow.mcap.folder=$run/missions") >"$logs/export.log" 2>&1 ||
     fail "The export failed: $logs/export.log"
-golden=$home/mission-store/src/test/resources/export/mission
+golden=$home/kit/recordings/src/test/resources/export/mission
 files=("$golden.mcap" "$golden.ndjson")
 for mission in "$run"/missions/*.mcap; do
     files+=("$mission" "${mission%.mcap}.ndjson")

@@ -3,7 +3,7 @@
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-home=$(dirname "$soak")
+home=$(cd "$soak/../../.." && pwd)
 java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/machine.sh
 . "$soak/parts/machine.sh"
@@ -62,14 +62,14 @@ command -v chromium >/dev/null 2>&1 || fail "There is no chromium. Install it: a
 [[ -z $pictures ]] || { mkdir -p "$pictures" && pictures=$(cd "$pictures" && pwd); }
 
 prepare_source page
-suite=$home/launcher/target
+suite=$home/suite/launcher/target
 browser_path
 
 check() {
     say "$*"
     # shellcheck disable=SC2046 # options of the JVM, one a word
     "$java" -Xmx1536m $(sed -n 's:.*<flink.jvm.args>\(.*\)</flink.jvm.args>.*:\1:p' "$home/pom.xml") \
-        -Dfurrow.plugins="$suite/furrow/plugins" -cp "$home/system-tests/target/test-classes:$suite/furrow/lib/*:$(<"$run/path"):$suite/furrow/lib-last/*" \
+        -Dfurrow.plugins="$suite/furrow/plugins" -cp "$home/src/target/test-classes:$suite/furrow/lib/*:$(<"$run/path"):$suite/furrow/lib-last/*" \
         io.furrow.suite.page.PageSoak "$@" > >(while IFS= read -r line; do say "$line"; done) 2>>"$logs/$1.out" &
     own $!
     wait $! || fail "page: $1 failed, as said above."

@@ -3,7 +3,7 @@
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-home=$(dirname "$soak")
+home=$(cd "$soak/../../.." && pwd)
 java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/machine.sh
 . "$soak/parts/machine.sh"
@@ -46,8 +46,8 @@ done
 python3 -c 'import paho.mqtt' 2>/dev/null || fail "Python has no paho-mqtt, the MQTT client of the devices. Install it: python3 -m pip install paho-mqtt"
 
 prepare_source real-devices
-suite=$home/launcher/target/furrow
-"$java" -Xmx768m -Dfurrow.log="$logs/driver.log" -cp "$home/system-tests/target/test-classes:$suite/lib/*:$suite/lib-last/*" \
+suite=$home/suite/launcher/target/furrow
+"$java" -Xmx768m -Dfurrow.log="$logs/driver.log" -cp "$home/src/target/test-classes:$suite/lib/*:$suite/lib-last/*" \
     io.furrow.soak.devices.RealDevices "$home" "$logs/farm" "$seconds" \
     > >(while IFS= read -r line; do say "$line"; done) 2>>"$logs/driver.out" &
 own $!

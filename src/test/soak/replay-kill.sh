@@ -3,7 +3,7 @@
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-home=$(dirname "$soak")
+home=$(cd "$soak/../../.." && pwd)
 java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/machine.sh
 . "$soak/parts/machine.sh"
@@ -71,7 +71,7 @@ command -v curl >/dev/null || fail "No curl found, which asks Flink whether it i
 base=$(mktemp -d "${TMPDIR:-/tmp}/furrow-replay-kill.XXXXXX")
 all_logs=$home/target/soak/replay-kill
 logs=$all_logs
-classes=$home/system-tests/target/test-classes:$home/launcher/target/furrow/lib/*
+classes=$home/src/target/test-classes:$home/suite/launcher/target/furrow/lib/*
 
 clean_up() {
     local code=$?

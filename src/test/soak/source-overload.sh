@@ -3,7 +3,7 @@
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-home=$(dirname "$soak")
+home=$(cd "$soak/../../.." && pwd)
 java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/machine.sh
 . "$soak/parts/machine.sh"

@@ -3,7 +3,7 @@
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-home=$(dirname "$soak")
+home=$(cd "$soak/../../.." && pwd)
 java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/machine.sh
 . "$soak/parts/machine.sh"
@@ -56,9 +56,9 @@ command -v chromium >/dev/null 2>&1 || fail "There is no chromium. Install it: a
 command -v mosquitto_passwd >/dev/null || fail "No mosquitto_passwd found. Install the Debian package mosquitto."
 
 prepare_source year
-suite=$home/launcher/target/furrow
+suite=$home/suite/launcher/target/furrow
 browser_path
-"$java" -Xmx768m -Dfurrow.log="$logs/driver.log" -cp "$home/system-tests/target/test-classes:$suite/lib/*:$(<"$run/path"):$suite/lib-last/*" \
+"$java" -Xmx768m -Dfurrow.log="$logs/driver.log" -cp "$home/src/target/test-classes:$suite/lib/*:$(<"$run/path"):$suite/lib-last/*" \
     io.furrow.soak.year.FarmYear "$home" "$logs/farm" "$weeks" "$day" \
     > >(while IFS= read -r line; do say "$line"; done) 2>>"$logs/driver.out" &
 own $!

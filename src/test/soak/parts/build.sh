@@ -3,10 +3,10 @@
 
 # build_soaks MODULES: comma-separated, those that the soak runs.
 build_soaks() {
-    local built=$home/launcher/target/soak-built
-    [[ -f $built && -z $(find "$home/pom.xml" "$home"/*/pom.xml "$home"/*/src -newer "$built" -print -quit) ]] && return
+    local built=$home/suite/launcher/target/soak-built
+    [[ -f $built && -z $(find "$home/pom.xml" "$home"/{*,*/*}/pom.xml "$home"/{src,*/src,*/*/src} -newer "$built" -print -quit) ]] && return
     say "building"
     (cd "$home" && ./mvnw -B -ntp package -DskipTests -Dspotless.check.skip -pl ingest,analytics,"$1" -am) \
         >"$logs/build.log" 2>&1 || { grep -E '^\[ERROR\]' "$logs/build.log" | head -n 5 >&2; fail "The build failed."; }
-    touch "$built" "$home/launcher/target/furrow/built"
+    touch "$built" "$home/suite/launcher/target/furrow/built"
 }

@@ -33,28 +33,28 @@ clean_up() {
 }
 
 build_source() {
-    local built=$home/launcher/target/source-soak-built
-    [[ -f $built && -z $(find "$home/pom.xml" "$home"/*/pom.xml "$home"/*/src -newer "$built" -print -quit) ]] && return
+    local built=$home/suite/launcher/target/source-soak-built
+    [[ -f $built && -z $(find "$home/pom.xml" "$home"/{*,*/*}/pom.xml "$home"/{src,*/src,*/*/src} -newer "$built" -print -quit) ]] && return
     say "building the connector"
-    (cd "$home" && ./mvnw -B -ntp package -DskipTests -Dshade.skip=true -Dspotless.check.skip -pl system-tests -am) \
+    (cd "$home" && ./mvnw -B -ntp package -DskipTests -Dshade.skip=true -Dspotless.check.skip -pl src -am) \
         >"$logs/build.log" 2>&1 || { grep -E '^\[ERROR\]' "$logs/build.log" | head -n 5 >&2; fail "The build failed."; }
-    touch "$built" "$home/launcher/target/furrow/built"
+    touch "$built" "$home/suite/launcher/target/furrow/built"
 }
 
 # browser_path: writes the class path of the system tests to $run/path.
 # Playwright's driver is for tests only: it is not in the suite's lib. The system tests come last, their path is the one that stays.
 browser_path() {
-    (cd "$home" && ./mvnw -B -q -ntp -pl system-tests -am package dependency:build-classpath -Dmaven.test.skip.exec -Dshade.skip=true \
+    (cd "$home" && ./mvnw -B -q -ntp -pl src -am package dependency:build-classpath -Dmaven.test.skip.exec -Dshade.skip=true \
         -Dspotless.check.skip -Dmdep.includeScope=test -Dmdep.outputFile="$run/path") \
         >"$logs/path.log" 2>&1 || { grep -E '^\[ERROR\]' "$logs/path.log" | head -n 5 >&2; fail "The class path could not be made: $logs/path.log"; }
 }
 
 # run_source CLASS ARGUMENTS…: its lines are shown with the seconds.
 run_source() {
-    local class=$1 suite=$home/launcher/target
+    local class=$1 suite=$home/suite/launcher/target
     shift
     "$java" -Xmx768m -Dfurrow.log="$logs/$class.log" -Dfurrow.plugins="$suite/furrow/plugins" \
-        -cp "$home/system-tests/target/test-classes:$suite/furrow/lib/*" "io.furrow.soak.source.$class" "$@" \
+        -cp "$home/src/target/test-classes:$suite/furrow/lib/*" "io.furrow.soak.source.$class" "$@" \
         > >(while IFS= read -r line; do say "$line"; done) 2>>"$logs/$class.out" &
     own $!
     wait $!

@@ -233,7 +233,7 @@ class ComposeFileTest {
 
     @Test
     void startsAsAServiceWithOptionsThatThereAre() throws IOException {
-        String unit = Files.readString(Path.of("..", "distribution/src/archive/systemd/furrow.service"));
+        String unit = Files.readString(Path.of("..", "suite/distribution/src/archive/systemd/furrow.service"));
         String start = unit.lines()
                 .filter(line -> line.startsWith("ExecStart="))
                 .findFirst()

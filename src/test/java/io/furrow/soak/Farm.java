@@ -6,7 +6,7 @@ import io.furrow.model.position.Position;
 
 /**
  * Two thermometers that stand and two robots that drive towards and away from each other, in the fields of {@code
- * soak/fields.geojson}: {@code farm} holds all of them, {@code corner} the second thermometer only.
+ * src/test/soak/fields.geojson}: {@code farm} holds all of them, {@code corner} the second thermometer only.
  */
 final class Farm {
     static final String DOMAIN = "soak";

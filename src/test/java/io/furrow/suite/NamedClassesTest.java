@@ -53,7 +53,7 @@ class NamedClassesTest {
     }
 
     private static Set<String> sources() throws IOException {
-        try (Stream<Path> modules = Files.list(ROOT)) {
+        try (Stream<Path> modules = Files.walk(ROOT, 2)) {
             return modules.map(module -> module.resolve("src"))
                     .filter(Files::isDirectory)
                     .flatMap(NamedClassesTest::javaFiles)

@@ -40,7 +40,7 @@ class MigratingPageTest {
     }
 
     private static String source(String test) throws IOException {
-        for (Path root : List.of(Path.of("src/test/java"), Path.of("../model/src/test/java"))) {
+        for (Path root : List.of(Path.of("src/test/java"), Path.of("../kit/model/src/test/java"))) {
             try (Stream<Path> files = Files.walk(root)) {
                 List<Path> found =
                         files.filter(file -> file.endsWith(test + ".java")).toList();

@@ -1,7 +1,7 @@
 /**
  * The job {@code replay}: plays stored missions back on topics of their own.
  *
- * <p><b>In</b>: {@code service.replays}, recordings of {@code mission-store}.
+ * <p><b>In</b>: {@code service.replays}, recordings of {@code kit/recordings}.
  *
  * <p><b>Out</b>: {@code data.<mission>.replay.<id8>}, {@code service.replays.status}.
  *

@@ -20,7 +20,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** What the page makes of records, in a browser without a suite: held to the tables of cases that hold for the jobs. */
 class PageRulesIT {
-    private static final Path TABLES = Path.of("../model/src/test/resources/io/furrow/model");
+    private static final Path TABLES = Path.of("../kit/model/src/test/resources/io/furrow/model");
     private static final String FARM = "http://page.test/";
 
     /** Reports of one entity, in one tenant. */

@@ -20,7 +20,8 @@ import static org.junit.jupiter.api.Assumptions.abort;
 class RealMosquittoIT extends MosquittoIT {
     private static final String NO_ENGINE =
             "there is no container engine; whom Mosquitto's image lets in was not tried";
-    private static final Path SCRIPTS = Path.of("..", "docker", "mosquitto").toAbsolutePath();
+    private static final Path SCRIPTS =
+            Path.of("..", "..", "docker", "mosquitto").toAbsolutePath();
     private static final int PORT = 1883;
 
     @RegisterExtension

@@ -30,8 +30,8 @@ class ArchiveScriptTest {
         jdk = Files.createDirectories(directory.resolve("jdk"));
         Files.createDirectories(home.resolve("bin"));
         Files.createDirectories(home.resolve("lib"));
-        Files.copy(Path.of("..", "furrow"), home.resolve("furrow"));
-        Files.copy(Path.of("..", "furrow"), home.resolve("bin/furrow"));
+        Files.copy(Path.of("..", "..", "furrow"), home.resolve("furrow"));
+        Files.copy(Path.of("..", "..", "furrow"), home.resolve("bin/furrow"));
         Files.writeString(home.resolve("lib/class-path"), "furrow-launcher-0.2.jar\nkafka.jar\n");
         Files.writeString(home.resolve("lib/build"), "abc");
         Files.writeString(home.resolve("lib/furrow-launcher-0.1.jar"), "of the release that was here before");

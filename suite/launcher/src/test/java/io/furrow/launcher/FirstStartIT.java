@@ -43,11 +43,11 @@ class FirstStartIT {
     void copyTheScript() throws IOException {
         home = Files.createDirectories(directory.resolve("a folder/of furrow"));
         bin = Files.createDirectory(directory.resolve("jdk"));
-        Files.createDirectories(home.resolve("launcher/src"));
-        Files.createDirectories(home.resolve("launcher/target/furrow"));
+        Files.createDirectories(home.resolve("suite/launcher/src"));
+        Files.createDirectories(home.resolve("suite/launcher/target/furrow"));
         Files.writeString(home.resolve("pom.xml"), "<project/>");
-        Files.writeString(home.resolve("launcher/pom.xml"), "<project/>");
-        Files.copy(Path.of("..", "furrow"), home.resolve("furrow"));
+        Files.writeString(home.resolve("suite/launcher/pom.xml"), "<project/>");
+        Files.copy(Path.of("..", "..", "furrow"), home.resolve("furrow"));
         java("17");
         program(bin.resolve("javac"), "exit 0");
         program(home.resolve("mvnw"), BUILDS);

@@ -17,7 +17,7 @@ import static org.assertj.core.api.Assertions.within;
 
 /** The page of the dashboard is held to the same table. */
 class BatteryTest {
-    private static final Path TABLE = Path.of("../model/src/test/resources/io/furrow/model/ngsi/batteries.csv");
+    private static final Path TABLE = Path.of("../../kit/model/src/test/resources/io/furrow/model/ngsi/batteries.csv");
 
     static List<String> cases() throws Exception {
         return Files.readAllLines(TABLE).stream()
