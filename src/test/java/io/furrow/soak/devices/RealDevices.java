@@ -20,13 +20,13 @@ public final class RealDevices {
     private final Path home;
     private final Path folder;
     private final Duration undisturbed;
-    private final Roster roster = new Roster();
-    private final Verdicts verdicts = new Verdicts();
+    private final ProgramPlan roster = new ProgramPlan();
+    private final CheckResults verdicts = new CheckResults();
     private final RealFarm farm;
     private final Programs programs;
-    private final Logins logins;
-    private final Measures measures;
-    private final Shown shown;
+    private final LoginChecks logins;
+    private final MeasureChecks measures;
+    private final DeviceViews shown;
 
     private RealDevices(Path home, Path folder, Duration undisturbed) throws IOException, InterruptedException {
         this.home = home;
@@ -34,9 +34,9 @@ public final class RealDevices {
         this.undisturbed = undisturbed;
         farm = new RealFarm(home, folder, roster);
         programs = new Programs(program(), folder.resolve("programs"));
-        logins = new Logins(farm, roster, programs, verdicts);
-        measures = new Measures(farm.up().kafka(), roster, verdicts);
-        shown = new Shown(farm.up(), roster, verdicts);
+        logins = new LoginChecks(farm, roster, programs, verdicts);
+        measures = new MeasureChecks(farm.up().kafka(), roster, verdicts);
+        shown = new DeviceViews(farm.up(), roster, verdicts);
     }
 
     private Path program() {
@@ -97,25 +97,26 @@ public final class RealDevices {
                     up,
                     faulty,
                     roster.missions().stream()
-                            .filter(mission -> mission.name().equals(Roster.FAULTY))
+                            .filter(mission -> mission.name().equals(ProgramPlan.FAULTY))
                             .toList());
-            new Shown(up, roster, verdicts).faultsOfTheSuite();
+            new DeviceViews(up, roster, verdicts).faultsOfTheSuite();
         }
     }
 
-    private static void startMissions(UpProcess up, Programs programs, List<Roster.Mission> missions) throws Exception {
-        up.run("domain", "create", Roster.DOMAIN);
-        for (Roster.Mission mission : missions) {
+    private static void startMissions(UpProcess up, Programs programs, List<ProgramPlan.Mission> missions)
+            throws Exception {
+        up.run("domain", "create", ProgramPlan.DOMAIN);
+        for (ProgramPlan.Mission mission : missions) {
             up.run(
                     "mission",
                     "start",
                     mission.name(),
                     "--domain",
-                    Roster.DOMAIN,
+                    ProgramPlan.DOMAIN,
                     "--devices",
                     mission.groups().toString());
         }
-        for (Roster.Mission mission : missions) {
+        for (ProgramPlan.Mission mission : missions) {
             programs.bring(
                     mission.name(), up.run("device", "credentials", "--mission", mission.name(), "--output", "csv"));
             programs.start(mission);
@@ -128,7 +129,7 @@ public final class RealDevices {
         long from = System.currentTimeMillis();
         Thread.sleep(undisturbed.toMillis());
         long to = System.currentTimeMillis();
-        Thread.sleep(Measures.KNOWN_AFTER.toMillis());
+        Thread.sleep(MeasureChecks.KNOWN_AFTER.toMillis());
         List<ProgramEvent> events = programs.events();
         measures.arrived(when, events, since, to, true);
         measures.averages(when, events, from, to);
@@ -173,23 +174,23 @@ public final class RealDevices {
     }
 
     /** Devices with a period of 15 min that are not sent anything until the end. */
-    private List<Roster.Device> quiet() {
+    private List<ProgramPlan.Device> quiet() {
         return roster.devices().stream()
                 .filter(each -> each.mission().equals("quarter-hour"))
                 .skip(15)
                 .toList();
     }
 
-    private List<Roster.Device> commanded() {
-        List<Roster.Device> quiet = quiet();
+    private List<ProgramPlan.Device> commanded() {
+        List<ProgramPlan.Device> quiet = quiet();
         return roster.devices().stream()
                 .filter(each -> each.reports() && !quiet.contains(each))
                 .toList();
     }
 
     /** The first of so many that can be commanded. */
-    private List<Roster.Device> every(int count) {
-        List<Roster.Device> all = commanded();
+    private List<ProgramPlan.Device> every(int count) {
+        List<ProgramPlan.Device> all = commanded();
         return Stream.iterate(0, index -> index < all.size(), index -> index + count)
                 .map(all::get)
                 .toList();

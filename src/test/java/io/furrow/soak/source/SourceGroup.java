@@ -105,7 +105,7 @@ final class SourceGroup implements AutoCloseable {
                 .put("journal.dir", "${env:FURROW_JOURNAL}")
                 .put("public.url", publicUrl)
                 .put("context.broker.url", contextBroker.toString())
-                .put("subscription.types", Change.TYPE)
+                .put("subscription.types", NumberedChange.TYPE)
                 .put("subscription.check.interval.ms", "2000");
         members.get(0).process().createConnector(SourceWorker.CONNECTOR, config);
     }
@@ -120,12 +120,12 @@ final class SourceGroup implements AutoCloseable {
 
     private void change(String verb) {
         ObjectNode nothing = JsonNodeFactory.instance.objectNode();
-        Waiting.until(
+        Conditions.until(
                 verb,
                 TIMEOUT,
-                () -> Json.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), nothing) / 100 == 2);
+                () -> HttpJson.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), nothing) / 100 == 2);
         String state = verb.equals("pause") ? "PAUSED" : "RUNNING";
-        Waiting.until(
+        Conditions.until(
                 "all tasks " + state,
                 TIMEOUT,
                 () -> tasks(state).values().stream().mapToInt(Integer::intValue).sum() == TASKS);
@@ -137,7 +137,7 @@ final class SourceGroup implements AutoCloseable {
 
     /** Returns when all tasks run, and each of the workers has one. */
     void awaitTasks() {
-        Waiting.until("all tasks run on " + members, TIMEOUT, () -> {
+        Conditions.until("all tasks run on " + members, TIMEOUT, () -> {
             var shown = shown().values();
             return tasks("RUNNING").values().stream()
                                     .mapToInt(Integer::intValue)
@@ -150,7 +150,7 @@ final class SourceGroup implements AutoCloseable {
 
     private Map<String, Integer> tasks(String state) {
         Map<String, Integer> tasks = new TreeMap<>();
-        JsonNode status = Json.get(connectors("/" + SourceWorker.CONNECTOR + "/status"));
+        JsonNode status = HttpJson.get(connectors("/" + SourceWorker.CONNECTOR + "/status"));
         for (JsonNode task : status.path("tasks")) {
             if (task.path("state").asText().equals(state)) {
                 tasks.merge(task.path("worker_id").asText(), 1, Integer::sum);
@@ -168,7 +168,7 @@ final class SourceGroup implements AutoCloseable {
 
     /** Journals that Connect knows offsets of. */
     int journalsInOffsets() {
-        return Json.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets"))
+        return HttpJson.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets"))
                 .path("offsets")
                 .size();
     }

@@ -72,7 +72,7 @@ public final class SourceOutage {
 
     /** Until no more is pending than a second brings, under the same load. */
     private static long catchUp(SourceWorker worker, long since, int perSecond) throws Exception {
-        Waiting.until("what was kept is in Kafka", Duration.ofSeconds(300), () -> {
+        Conditions.until("what was kept is in Kafka", Duration.ofSeconds(300), () -> {
             long pending = worker.health().path("pending").asLong(Long.MAX_VALUE);
             return pending < perSecond;
         });
@@ -82,7 +82,7 @@ public final class SourceOutage {
     }
 
     private static boolean compare(String bootstrapServers, BitSet acknowledged, int sent) {
-        try (Delivered delivered = new Delivered(bootstrapServers)) {
+        try (DeliveredNotifications delivered = new DeliveredNotifications(bootstrapServers)) {
             delivered.read();
             int missing = delivered.missingOf(acknowledged);
             int unanswered = sent - acknowledged.cardinality();

@@ -68,7 +68,7 @@ final class WorkersRun implements AutoCloseable {
         farm.quiet();
         group.stop(fourth);
         group.awaitTasks();
-        away(fourth, LeftInLog.records(fourth.process().log()));
+        away(fourth, UndeliveredRecords.records(fourth.process().log()));
         load("the other one was emptied and stopped");
     }
 
@@ -87,7 +87,7 @@ final class WorkersRun implements AutoCloseable {
      * @param shown records that it told of last
      * @param missing changes that it acknowledged and that are not in Kafka; records of the repair come on top
      */
-    private record Away(Member worker, long shown, List<Change> missing) {}
+    private record Away(Member worker, long shown, List<NumberedChange> missing) {}
 
     /** A task moves while its journal holds what is not in Kafka: a worker that has it no more must show that. */
     private Away joinAndStop(String name) throws IOException {
@@ -95,7 +95,7 @@ final class WorkersRun implements AutoCloseable {
         load("paused");
         long held = held(List.of());
         Member third = group.join(name, "disk-3");
-        Waiting.until("a worker shows what the task that moved away left", TIMEOUT, () -> {
+        Conditions.until("a worker shows what the task that moved away left", TIMEOUT, () -> {
             long shown = group.shown().values().stream()
                     .mapToLong(Shown::leftRecords)
                     .sum();
@@ -111,7 +111,7 @@ final class WorkersRun implements AutoCloseable {
         group.awaitTasks();
         load("the third worker stopped in order");
         farm.quiet();
-        return away(third, LeftInLog.records(third.process().log()));
+        return away(third, UndeliveredRecords.records(third.process().log()));
     }
 
     private void killAndRestart() throws IOException, InterruptedException {
@@ -137,7 +137,7 @@ final class WorkersRun implements AutoCloseable {
         farm.quiet();
         Away removed = away(second, shown);
         if (fault == PlantedFault.TAKE_JOURNAL) {
-            LeftInLog.deleteJournals(second.disk());
+            UndeliveredRecords.deleteJournals(second.disk());
         }
         return removed;
     }
@@ -162,7 +162,7 @@ final class WorkersRun implements AutoCloseable {
     /** Several looks are no single moment: they count once two in a row agree. Records of the repair are shown as well. */
     private void compareShown(String when, long held) {
         long[] before = {-1};
-        Waiting.until("the workers show the same twice", TIMEOUT, () -> {
+        Conditions.until("the workers show the same twice", TIMEOUT, () -> {
             long shown =
                     group.shown().values().stream().mapToLong(Shown::onDisk).sum();
             boolean same = shown == before[0];
@@ -175,7 +175,7 @@ final class WorkersRun implements AutoCloseable {
 
     /** What is missing while the others are drained must be on the disk that is away, as was shown. */
     private Away away(Member gone, long shown) {
-        List<Change> missing = farm.missing().stream()
+        List<NumberedChange> missing = farm.missing().stream()
                 .filter(change -> farm.isAt(gone, change))
                 .toList();
         away += missing.size();
@@ -186,7 +186,7 @@ final class WorkersRun implements AutoCloseable {
 
     /** The disk is here again: the worker takes as many records from it as were shown, and all come to Kafka. */
     private void comeBack(Member worker, Away removed) {
-        Waiting.within(ADOPTED_WITHIN, () -> worker.gauges().look().recovered() >= removed.shown());
+        Conditions.within(ADOPTED_WITHIN, () -> worker.gauges().look().recovered() >= removed.shown());
         farm.quiet();
         long recovered = worker.gauges().look().recovered();
         long came = removed.missing().stream()
@@ -204,7 +204,7 @@ final class WorkersRun implements AutoCloseable {
         farm.quiet();
         int doubled = 0;
         int acknowledged = 0;
-        for (Change change : farm.tap().changes()) {
+        for (NumberedChange change : farm.tap().changes()) {
             List<Try> tries = farm.tap().tries(change);
             doubled += Math.max(0, farm.topic().notified(change) - tries.size());
             acknowledged += tries.stream().anyMatch(Try::isAcknowledged) ? 1 : 0;

@@ -17,7 +17,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.topic.Topics;
-import io.furrow.soak.devices.Verdicts;
+import io.furrow.soak.devices.CheckResults;
 import io.furrow.soak.year.Accounts.DayMission;
 import io.furrow.soak.year.Accounts.Span;
 import io.furrow.suite.page.OpeningTime;
@@ -42,14 +42,14 @@ public final class FarmYear implements AutoCloseable {
 
     private final int weeks;
     private final Duration day;
-    private final Verdicts verdicts = new Verdicts();
+    private final CheckResults verdicts = new CheckResults();
     private final YearFarm farm;
-    private final Fleet fleet;
+    private final YearFleet fleet;
     private final Plots plots;
     private final Accounts accounts;
-    private final Results results;
+    private final YearResults results;
     private final SilentDevices silent;
-    private final Replays replays;
+    private final YearReplays replays;
     private final PowerCut power;
     private final Deque<String> kept = new ArrayDeque<>();
     private final Map<Integer, Map<String, Double>> footprints = new TreeMap<>();
@@ -62,12 +62,12 @@ public final class FarmYear implements AutoCloseable {
         this.weeks = weeks;
         this.day = day;
         farm = new YearFarm(furrow, folder);
-        fleet = new Fleet(farm.standIn().contextBroker());
+        fleet = new YearFleet(farm.standIn().contextBroker());
         plots = new Plots(farm);
         accounts = new Accounts(farm);
-        results = new Results(farm, fleet, plots, accounts);
+        results = new YearResults(farm, fleet, plots, accounts);
         silent = new SilentDevices(farm, fleet);
-        replays = new Replays(farm);
+        replays = new YearReplays(farm);
         power = new PowerCut(farm.data().resolve("kafka"), folder.resolve("cut"), new Random(SEED));
     }
 
@@ -142,19 +142,19 @@ public final class FarmYear implements AutoCloseable {
 
     private List<String> begin(int week, int day) throws InterruptedException {
         List<String> missions = new ArrayList<>();
-        for (int mission = 0; mission < Fleet.MISSIONS; mission++) {
+        for (int mission = 0; mission < YearFleet.MISSIONS; mission++) {
             String name = name(week, day, mission);
             ObjectNode plan = JsonNodeFactory.instance.objectNode().put("domain", DOMAIN);
             ArrayNode devices = plan.putArray("devices");
-            Fleet.devices(mission).forEach(devices::add);
+            YearFleet.devices(mission).forEach(devices::add);
             farm.ask("POST", "/api/missions/" + name + "/start", plan);
             missions.add(name);
         }
         Thread.sleep(KNOWN.toMillis());
-        for (int mission = 0; mission < Fleet.MISSIONS; mission++) {
+        for (int mission = 0; mission < YearFleet.MISSIONS; mission++) {
             ofTheWeek.add(new DayMission(
                     missions.get(mission),
-                    new HashSet<>(Fleet.devices(mission)),
+                    new HashSet<>(YearFleet.devices(mission)),
                     System.currentTimeMillis(),
                     Long.MAX_VALUE));
             fleet.begin(mission);
@@ -164,7 +164,7 @@ public final class FarmYear implements AutoCloseable {
 
     /** @param until what was reported before belongs to them */
     private void end(List<String> missions, long until) {
-        for (int mission = 0; mission < Fleet.MISSIONS; mission++) {
+        for (int mission = 0; mission < YearFleet.MISSIONS; mission++) {
             fleet.end(mission);
         }
         ofTheWeek.replaceAll(each -> each.ended() == Long.MAX_VALUE
@@ -174,7 +174,7 @@ public final class FarmYear implements AutoCloseable {
             farm.ask("POST", "/api/missions/" + name + "/stop", null);
             kept.add(name);
         }
-        while (kept.size() > KEPT_DAYS * Fleet.MISSIONS) {
+        while (kept.size() > KEPT_DAYS * YearFleet.MISSIONS) {
             farm.forget(kept.remove());
         }
     }
@@ -215,8 +215,8 @@ public final class FarmYear implements AutoCloseable {
     /** Awaits what is under way. */
     private void settle(Span span) throws Exception {
         long end = System.nanoTime() + SETTLED.toNanos();
-        List<Check> checks = checks(span);
-        while (!checks.stream().allMatch(Check::holds) && System.nanoTime() < end) {
+        List<YearCheck> checks = checks(span);
+        while (!checks.stream().allMatch(YearCheck::holds) && System.nanoTime() < end) {
             Thread.sleep(BETWEEN_LOOKS.toMillis());
             checks = checks(span);
         }
@@ -225,15 +225,15 @@ public final class FarmYear implements AutoCloseable {
         ofTheWeek = new ArrayList<>();
     }
 
-    private List<Check> checks(Span span) throws Exception {
-        List<Check> checks = new ArrayList<>(accounts.of(span, ofTheWeek));
+    private List<YearCheck> checks(Span span) throws Exception {
+        List<YearCheck> checks = new ArrayList<>(accounts.of(span, ofTheWeek));
         checks.add(results.encounters(span));
         checks.add(results.averages(span));
         checks.add(plots.shown(span.when()));
         return checks;
     }
 
-    private void add(Check check) {
+    private void add(YearCheck check) {
         verdicts.add(check.what(), check.figures(), check.differences());
     }
 
@@ -242,7 +242,7 @@ public final class FarmYear implements AutoCloseable {
         if (week != WEEKS_OF_A_MONTH && week != weeks) {
             return;
         }
-        List<String> devices = Fleet.devices();
+        List<String> devices = YearFleet.devices();
         long millis = OpeningTime.millis(farm.up().dashboard(), devices);
         verdicts.add(
                 "the page opens, week " + week,

@@ -23,9 +23,9 @@ final class SilentDevices {
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
 
     private final YearFarm farm;
-    private final Fleet fleet;
+    private final YearFleet fleet;
 
-    SilentDevices(YearFarm farm, Fleet fleet) {
+    SilentDevices(YearFarm farm, YearFleet fleet) {
         this.farm = farm;
         this.fleet = fleet;
     }
@@ -57,17 +57,18 @@ final class SilentDevices {
     }
 
     /** Both alarms are there, and they are of this mission. */
-    Check told(String when, int week) {
+    YearCheck told(String when, int week) {
         Until.within(TIMEOUT, () -> open(week).equals(ALARMS));
-        return new Check(
+        return new YearCheck(
                 "alarms of silent devices, " + when,
                 String.join(", ", open(week).keySet()),
-                Check.differences(ALARMS, open(week)));
+                YearCheck.differences(ALARMS, open(week)));
     }
 
-    Check gone(String when, int week) {
+    YearCheck gone(String when, int week) {
         Until.within(TIMEOUT, () -> open(week).isEmpty());
-        return new Check("no alarm once their mission has ended, " + when, "", Check.differences(Map.of(), open(week)));
+        return new YearCheck(
+                "no alarm once their mission has ended, " + when, "", YearCheck.differences(Map.of(), open(week)));
     }
 
     /** By kind, the devices of which there is an alarm. */

@@ -22,13 +22,13 @@ class AccessibilityIT {
 
     private static final List<String> VIEWS = List.of("map", "missions", "replays", "analyses", "topics", "platform");
 
-    static Stream<Look> looks() {
-        return Stream.of(Look.DESK, Look.PHONE_LIGHT);
+    static Stream<WindowStyle> looks() {
+        return Stream.of(WindowStyle.DESK, WindowStyle.PHONE_LIGHT);
     }
 
     @ParameterizedTest
     @MethodSource("looks")
-    void hasNoSeriousFinding(Look look, PageSuite suite) {
+    void hasNoSeriousFinding(WindowStyle look, PageSuite suite) {
         FarmPage farm = suite.open("", look);
         farm.untilStore("store.entities.size >= 17 && store.alarms.size > 0");
         for (String view : VIEWS) {

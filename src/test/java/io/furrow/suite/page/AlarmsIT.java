@@ -71,7 +71,7 @@ class AlarmsIT {
     @Test
     void closesAnAlarm(PageSuite suite) {
         FarmPage farm = suite.open("");
-        farm.untilStore("store.alarmsKnown");
+        farm.untilStore("store.alarmsLoaded");
         AtomicInteger asked = new AtomicInteger();
         farm.page().route("**/api/alarms/over-1/close", route -> {
             asked.incrementAndGet();
@@ -90,7 +90,7 @@ class AlarmsIT {
         farm.page().evaluate("""
                         async (state) => {
                           const { store } = await import('/core/store.js');
-                          store.takeAlarm({ key: 'over-1', value: { alarm: 'over-1', kind: 'silent-device', severity: 'minor', text: 'the pump is silent',
+                          store.applyAlarm({ key: 'over-1', value: { alarm: 'over-1', kind: 'silent-device', severity: 'minor', text: 'the pump is silent',
                             subject: 'pump', raised: Date.now(), count: 1, state } });
                         }""", state);
     }
@@ -109,7 +109,7 @@ class AlarmsIT {
     @Test
     void tellsANewAlarmToScreenReadersAndCountsIt(PageSuite suite) throws Exception {
         FarmPage farm = suite.open("");
-        farm.untilStore("store.primed && store.alarmsKnown");
+        farm.untilStore("store.primed && store.alarmsLoaded");
         int robot = meet(suite);
 
         assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);
@@ -137,7 +137,7 @@ class AlarmsIT {
     @Tag("full")
     @Test
     void notifiesOfANewAlarmWhileThePageIsHidden(PageSuite suite) throws Exception {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESK);
         farm.page().context().grantPermissions(List.of("notifications"));
         farm.page().addInitScript("""
                 window.notified = [];
@@ -153,7 +153,7 @@ class AlarmsIT {
             socket.onClose(closed -> sockets.decrementAndGet());
         });
         farm.open("");
-        farm.untilStore("store.primed && store.alarmsKnown");
+        farm.untilStore("store.primed && store.alarmsLoaded");
         int robot = meet(suite);
 
         assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);

@@ -75,7 +75,7 @@ class EmptyFarmIT {
     }
 
     private static FarmPage window(PageSuite suite) {
-        return suite.window(suite.running().suite().dashboard(), Look.DESK);
+        return suite.window(suite.running().suite().dashboard(), WindowStyle.DESK);
     }
 
     private static void tab(FarmPage farm, String name) {

@@ -17,7 +17,7 @@ class HiddenIT {
 
     @Test
     void letsGoOfEverythingAndComesBack(PageSuite suite) {
-        FarmPage hidden = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        FarmPage hidden = suite.window(suite.running().suite().dashboard(), WindowStyle.DESK);
         AtomicInteger sockets = new AtomicInteger();
         List<String> asked = new CopyOnWriteArrayList<>();
         hidden.page().onRequest(request -> asked.add(request.url()));

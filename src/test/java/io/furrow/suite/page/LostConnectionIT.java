@@ -30,7 +30,7 @@ class LostConnectionIT {
     void keepsWhatItShowedSaysSoAndGoesOn(PageSuite suite) throws Exception {
         Dashboard dashboard = suite.ownDashboard(0);
         int port = dashboard.uri().getPort();
-        FarmPage farm = suite.open(dashboard.uri(), "", Look.DESK)
+        FarmPage farm = suite.open(dashboard.uri(), "", WindowStyle.DESK)
                 .expectingError("ERR_CONNECTION|WebSocket connection|Failed to load resource|Failed to fetch");
         farm.untilStore("store.entities.size >= 17");
 
@@ -52,7 +52,7 @@ class LostConnectionIT {
     @Test
     void countsWhatItMissed(PageSuite suite) {
         FarmPage other = suite.open("");
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK)
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESK)
                 .expectingError("ERR_FAILED|Failed to load resource");
         farm.page().addInitScript("""
                 window.sockets = [];
@@ -184,7 +184,7 @@ class LostConnectionIT {
 
     /** A window whose streams and answers are a stand-in's: each stream begins with what is known of its topic by then. */
     private static FarmPage onStandIns(PageSuite suite, Map<String, List<String>> known, List<WebSocketRoute> open) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESK);
         farm.page().route("**/api/**", EmptyFarmIT::answerWithNothing);
         farm.page()
                 .route(

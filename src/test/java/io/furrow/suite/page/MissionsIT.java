@@ -84,7 +84,7 @@ class MissionsIT {
     @Tag("full")
     @Test
     void showsAMissionThoughNoneRuns(PageSuite suite) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESK);
         farm.page().route("**/api/missions", route -> {
             APIResponse answer = route.fetch();
             String stopped = answer.text().replace("\"running\":true", "\"running\":false");

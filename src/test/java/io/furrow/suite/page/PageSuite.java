@@ -102,19 +102,19 @@ final class PageSuite implements AutoCloseable {
 
     /** A new window with nothing remembered. */
     FarmPage open(String place) {
-        return open(place, Look.DESK);
+        return open(place, WindowStyle.DESK);
     }
 
-    FarmPage open(String place, Look look) {
+    FarmPage open(String place, WindowStyle look) {
         return open(running.suite().dashboard(), place, look);
     }
 
-    FarmPage open(URI dashboard, String place, Look look) {
+    FarmPage open(URI dashboard, String place, WindowStyle look) {
         return window(dashboard, look).open(place);
     }
 
     /** With nothing in it yet. */
-    FarmPage window(URI dashboard, Look look) {
+    FarmPage window(URI dashboard, WindowStyle look) {
         FarmPage page = new FarmPage(
                 dashboard,
                 chromium.browser()

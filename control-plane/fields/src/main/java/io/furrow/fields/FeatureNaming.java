@@ -55,22 +55,22 @@ final class FeatureNaming {
         return text(value(feature, options.idProperty() == null ? ID : options.idProperty()));
     }
 
-    /** @throws RefusedFeatureException if there is no id, or one that the context broker would reject */
-    String id(SourceFeature feature) throws RefusedFeatureException {
+    /** @throws RejectedFeatureException if there is no id, or one that the context broker would reject */
+    String id(SourceFeature feature) throws RejectedFeatureException {
         String id = called(feature);
         if (id.isEmpty()) {
-            throw new RefusedFeatureException(
+            throw new RejectedFeatureException(
                     "has no id; specify its attribute with --id-property, one of " + attributes);
         }
         if (!FieldVersion.isId(id)) {
-            throw new RefusedFeatureException(
+            throw new RejectedFeatureException(
                     "has the id '%s', which is not a valid entity id; use at most 200 of A-Z a-z 0-9 _ - : ."
-                            .formatted(Words.shortened(id)));
+                            .formatted(Phrases.shortened(id)));
         }
         return id;
     }
 
-    FieldVersion version(SourceFeature feature, ObjectNode geometry) throws RefusedFeatureException {
+    FieldVersion version(SourceFeature feature, ObjectNode geometry) throws RejectedFeatureException {
         ObjectNode properties = JsonNodeFactory.instance.objectNode();
         put(properties, NAME, text(value(feature, options.nameProperty() == null ? NAME : options.nameProperty())));
         put(properties, DOMAIN, options.domain() == null ? text(value(feature, DOMAIN)) : options.domain());

@@ -13,8 +13,8 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.provisioner.Provisioning.Outcome;
-import io.furrow.provisioner.Removals.Origin;
+import io.furrow.provisioner.ProvisioningReconciler.Outcome;
+import io.furrow.provisioner.RemovalGuard.Origin;
 import io.furrow.provisioner.account.MosquittoFiles;
 import io.furrow.provisioner.account.MqttAccounts;
 
@@ -50,11 +50,11 @@ class LostKafkaTest extends ProvisioningFixture {
     void keepsTheDevicesOfTheAgentWhereNoFileSaysForWhichKafkaTheyAre() throws Exception {
         provisionTen();
 
-        provisioning = provisioning(settings(SecretSource.of(Desired.SECRET), false), EMPTY);
+        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), EMPTY);
         assertThat(provisioning.step().kept().devices()).hasSize(10);
         assertThat(agent.deviceIds()).hasSize(10);
 
-        provisioning = provisioning(settings(SecretSource.of(Desired.SECRET), false), SAME);
+        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), SAME);
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.deviceIds()).isEmpty();
     }
@@ -63,8 +63,8 @@ class LostKafkaTest extends ProvisioningFixture {
     void addsAndRemovesDevicesOfItsOwnBesideThoseThatItKeeps() throws Exception {
         provisionTen();
         provisioning = provisioning(files(false), EMPTY);
-        DesiredDevice known = Desired.thermometer("hoeing", 1);
-        DesiredDevice fresh = Desired.thermometer("weeding", 1);
+        DesiredDevice known = DesiredDeviceFixture.thermometer("hoeing", 1);
+        DesiredDevice fresh = DesiredDeviceFixture.thermometer("weeding", 1);
 
         want(known);
         want(fresh);
@@ -72,8 +72,8 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(users()).hasSize(11);
         assertThat(agent.deviceIds()).hasSize(11);
 
-        want(Desired.stopped(known));
-        want(Desired.stopped(fresh));
+        want(DesiredDeviceFixture.stopped(known));
+        want(DesiredDeviceFixture.stopped(fresh));
         assertThat(provisioning.step().kept().devices()).hasSize(9);
         assertThat(users()).hasSize(9);
         assertThat(agent.deviceIds()).hasSize(9).doesNotContain(known.device(), fresh.device());
@@ -83,10 +83,10 @@ class LostKafkaTest extends ProvisioningFixture {
     @Test
     void leavesADeviceInItsMissionThatAnotherKafkaWants() throws Exception {
         String id = "d";
-        DesiredDevice there = Desired.device("Thermometer", "hoeing", id, 1);
+        DesiredDevice there = DesiredDeviceFixture.device("Thermometer", "hoeing", id, 1);
         want(there);
         provisioning(files(false), SAME).step();
-        DesiredDevice moved = Desired.device("Thermometer", "weeding", id, 1);
+        DesiredDevice moved = DesiredDeviceFixture.device("Thermometer", "weeding", id, 1);
         desired.take(there.version().key(), null);
         want(moved);
         provisioning = provisioning(files(false), EMPTY);
@@ -140,8 +140,8 @@ class LostKafkaTest extends ProvisioningFixture {
     @Test
     void takesNoEmptyAnswerOfTheAgentForAllThatItHas() throws Exception {
         provisionTen();
-        want(Desired.thermometer("weeding", 1));
-        provisioning = provisioning(settings(SecretSource.of(Desired.SECRET), false), EMPTY);
+        want(DesiredDeviceFixture.thermometer("weeding", 1));
+        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), EMPTY);
         agent.garbage = NOTHING;
         assertThat(provisioning.step()).isEqualTo(DONE);
 
@@ -167,7 +167,7 @@ class LostKafkaTest extends ProvisioningFixture {
     /** The thief has the login of generation 0, the device that of generation 1. */
     @Test
     void doesNotAcceptALoginAgainThatWasRevoked() throws Exception {
-        DesiredDevice device = Desired.thermometer("hoeing", 1);
+        DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
         want(device);
         provisioning = provisioning(files(false), SAME);
         provisioning.step();
@@ -183,7 +183,7 @@ class LostKafkaTest extends ProvisioningFixture {
 
         want(device.withGeneration(1));
         assertThat(provisioning.step()).isEqualTo(DONE);
-        want(Desired.stopped(device).withGeneration(1));
+        want(DesiredDeviceFixture.stopped(device).withGeneration(1));
         provisioning.step();
         assertThat(users()).isEmpty();
         desired.clear();
@@ -199,8 +199,9 @@ class LostKafkaTest extends ProvisioningFixture {
     @Test
     void removesOnlyAccountsOfAKeyWhoseTimeIsOver() throws Exception {
         provisionTen();
-        FarmSecret rotated =
-                Desired.SECRET.rotated(Instant.now(), Instant.EPOCH, false).at(Instant.now());
+        FarmSecret rotated = DesiredDeviceFixture.SECRET
+                .rotated(Instant.now(), Instant.EPOCH, false)
+                .at(Instant.now());
 
         Outcome outcome =
                 provisioning(files(SecretSource.of(rotated), false), EMPTY).step();
@@ -210,12 +211,14 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     private static String user(DesiredDevice device, int generation) {
-        return Desired.SECRET.device("hoeing", device.device(), generation).user();
+        return DesiredDeviceFixture.SECRET
+                .device("hoeing", device.device(), generation)
+                .user();
     }
 
     private void wantTen() {
         for (int i = 1; i <= 10; i++) {
-            want(Desired.thermometer("hoeing", i));
+            want(DesiredDeviceFixture.thermometer("hoeing", i));
         }
     }
 
@@ -231,14 +234,14 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     private ProvisioningSettings files(boolean forgets) {
-        return files(SecretSource.of(Desired.SECRET), forgets);
+        return files(SecretSource.of(DesiredDeviceFixture.SECRET), forgets);
     }
 
     private ProvisioningSettings files(SecretSource secret, boolean forgets) {
         List<MqttAccounts> files = List.of(new MosquittoFiles(passwords(), directory.resolve("rules"), null));
         return new ProvisioningSettings(
                 new Properties(),
-                Desired.SCOPE,
+                DesiredDeviceFixture.SCOPE,
                 secret,
                 AgentSettings.at(agent.uri()),
                 files,

@@ -18,8 +18,8 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.provisioner.Provisioning.Outcome;
-import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.provisioner.ProvisioningReconciler.Outcome;
+import io.furrow.provisioner.account.InMemoryAccounts;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -28,12 +28,12 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 @Tag("full")
 class ProvisioningFailuresTest {
     private static final Outcome DONE = new Outcome(Map.of(), null, null, true);
-    private static final String KEY = FakeAgent.key("/iot/json", Desired.SECRET.apiKey("hoeing"));
+    private static final String KEY = FakeAgent.key("/iot/json", DesiredDeviceFixture.SECRET.apiKey("hoeing"));
 
-    private final DesiredDevices desired = new DesiredDevices(Desired.SCOPE);
+    private final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
 
     private FakeAgent agent;
-    private Provisioning provisioning;
+    private ProvisioningReconciler provisioning;
     private volatile long now;
 
     @BeforeEach
@@ -134,7 +134,7 @@ class ProvisioningFailuresTest {
                 inARow++;
                 provisioning.lookAgain();
             }
-            assertThat(inARow).as("failures in a row").isLessThan(Failures.ATTEMPTS);
+            assertThat(inARow).as("failures in a row").isLessThan(FailureReporter.ATTEMPTS);
         }
 
         assertThat(agent.deviceIds()).hasSize(60);
@@ -176,7 +176,7 @@ class ProvisioningFailuresTest {
             long before = now;
             done = provisioning.step().done();
             steps++;
-            assertThat(Duration.ofNanos(now - before)).isLessThanOrEqualTo(Provisioning.STEP.plusSeconds(3));
+            assertThat(Duration.ofNanos(now - before)).isLessThanOrEqualTo(ProvisioningReconciler.STEP.plusSeconds(3));
         }
 
         assertThat(steps).isBetween(20, 101);
@@ -218,7 +218,7 @@ class ProvisioningFailuresTest {
     @Test
     void refusesADeviceOfTheDefaultTenantWithoutHarmToOthers() throws Exception {
         want(1);
-        DesiredDevice device = Desired.thermometer("old", 1);
+        DesiredDevice device = DesiredDeviceFixture.thermometer("old", 1);
         DeviceVersion of = device.version();
         DeviceVersion version =
                 new DeviceVersion(of.id(), "", "/", of.domain(), of.mission(), 0, null, of.sequence(), null);
@@ -238,14 +238,14 @@ class ProvisioningFailuresTest {
         assertThat(agent.services).containsExactly("farm");
     }
 
-    private Provisioning provisioning() {
-        return new Provisioning(
+    private ProvisioningReconciler provisioning() {
+        return new ProvisioningReconciler(
                 new ProvisioningSettings(
                         new Properties(),
-                        Desired.SCOPE,
-                        Desired.SECRET,
+                        DesiredDeviceFixture.SCOPE,
+                        DesiredDeviceFixture.SECRET,
                         AgentSettings.at(agent.uri()),
-                        List.of(new LiveAccounts())),
+                        List.of(new InMemoryAccounts())),
                 desired,
                 () -> now);
     }
@@ -255,13 +255,13 @@ class ProvisioningFailuresTest {
     }
 
     private static String key(int number) {
-        return Desired.SCOPE.identity(id(number));
+        return DesiredDeviceFixture.SCOPE.identity(id(number));
     }
 
     private List<DesiredDevice> want(int count) {
         List<DesiredDevice> devices = new ArrayList<>();
         for (int i = 1; i <= count; i++) {
-            DesiredDevice device = Desired.thermometer("hoeing", i);
+            DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", i);
             devices.add(device);
             desired.take(device.version().key(), device);
         }

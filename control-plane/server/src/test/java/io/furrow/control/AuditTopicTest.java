@@ -17,7 +17,7 @@ import org.apache.kafka.streams.TopologyTestDriver;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.mission.MissionSettings;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
@@ -31,7 +31,7 @@ class AuditTopicTest {
     private final TopologyTestDriver driver = new TopologyTestDriver(
             ControlTopology.of(
                     Duration.ofHours(1),
-                    new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT, false),
+                    new MissionSettings(Duration.ofMinutes(1), FiwareScope.DEFAULT, false),
                     ReplaySettings.DEFAULT),
             settings(),
             START);

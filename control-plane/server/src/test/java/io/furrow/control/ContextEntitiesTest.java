@@ -24,7 +24,7 @@ class ContextEntitiesTest {
             + "[{'type':'Camera','count':2},'robot-1'],'running':true,'start':5,'created':1,'sequence':2}";
     private static final Duration SECOND = Duration.ofSeconds(1);
 
-    private final WatchedFarm farm = new WatchedFarm();
+    private final FarmWatchFixture farm = new FarmWatchFixture();
 
     @AfterEach
     void close() {

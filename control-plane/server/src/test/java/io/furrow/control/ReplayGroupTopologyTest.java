@@ -25,9 +25,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** Replays of several missions that follow one clock. Missions a and b are stored, from 10 s to 60 s and from 20 s to 90 s. */
 class ReplayGroupTopologyTest {
-    private static final long NOW = ManagedFarm.START.toEpochMilli();
+    private static final long NOW = ManagerFixture.START.toEpochMilli();
 
-    private final ManagedFarm farm = new ManagedFarm(true);
+    private final ManagerFixture farm = new ManagerFixture(true);
     private long sequence;
 
     @AfterEach
@@ -37,7 +37,7 @@ class ReplayGroupTopologyTest {
 
     private CommandResult ask(String members) {
         farm.ask(Topics.REPLAY_MANAGER, null, "{'type':'request'," + members + "}");
-        return ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER));
+        return ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
     }
 
     private String start(String members) throws Exception {
@@ -283,14 +283,14 @@ class ReplayGroupTopologyTest {
 
     @Test
     void needsTimesWhereItDoesNotKnowWhatIsStored() throws Exception {
-        try (ManagedFarm without = new ManagedFarm()) {
+        try (ManagerFixture without = new ManagerFixture()) {
             Set<String> answers = new HashSet<>();
             for (String times : List.of("", ",'from':1", ",'from':1,'to':9")) {
                 without.ask(
                         Topics.REPLAY_MANAGER,
                         null,
                         "{'type':'request','command':'start','missions':['x','y']" + times + "}");
-                CommandResult answer = ManagedFarm.response(without.only(Topics.REPLAY_MANAGER));
+                CommandResult answer = ManagerFixture.response(without.only(Topics.REPLAY_MANAGER));
                 answers.add(answer.error().orElse(answer.status()));
             }
             assertThat(answers).containsExactlyInAnyOrder("missing-member", "created");

@@ -24,7 +24,7 @@ class WatchTopologyTest {
     private static final Duration WINDOW = Duration.ofSeconds(30);
     private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:m-1";
 
-    private final WatchedFarm farm = new WatchedFarm();
+    private final FarmWatchFixture farm = new FarmWatchFixture();
 
     @AfterEach
     void close() {
@@ -79,12 +79,12 @@ class WatchTopologyTest {
 
     @Test
     void raisesAnAlarmOfACollisionUntilItHasEnded() throws Exception {
-        farm.want(WatchedFarm.ROBOT, null, true);
-        farm.report(Entity.builder(WatchedFarm.ROBOT, "WatchedFarm.ROBOT"));
+        farm.want(FarmWatchFixture.ROBOT, null, true);
+        farm.report(Entity.builder(FarmWatchFixture.ROBOT, "ROBOT"));
         farm.encounter("predicted", 3.2);
         JsonNode predicted = farm.newest(Topics.ALARMS);
         assertThat(predicted.path("kind").asText()).isEqualTo("predicted-encounter");
-        assertThat(predicted.path("devices").path(0).path("type").asText()).isEqualTo("WatchedFarm.ROBOT");
+        assertThat(predicted.path("devices").path(0).path("type").asText()).isEqualTo("ROBOT");
         farm.encounter("predicted", 3.2);
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
         farm.encounter("started", 3.2);
@@ -176,17 +176,17 @@ class WatchTopologyTest {
 
     @Test
     void raisesAnAlarmOfADeviceWhosePositionsComeTooLate() throws Exception {
-        farm.want(WatchedFarm.ROBOT, "ROBOT", true);
-        farm.clockBehind(WatchedFarm.ROBOT, 999);
+        farm.want(FarmWatchFixture.ROBOT, "ROBOT", true);
+        farm.clockBehind(FarmWatchFixture.ROBOT, 999);
         JsonNode alarm = farm.newest(Topics.ALARMS);
         assertThat(alarm.path("kind").asText()).isEqualTo("clock-behind");
         assertThat(alarm.path("severity").asText()).isEqualTo("major");
-        assertThat(alarm.path("subject").asText()).isEqualTo(WatchedFarm.ROBOT);
+        assertThat(alarm.path("subject").asText()).isEqualTo(FarmWatchFixture.ROBOT);
         assertThat(alarm.path("group").asText()).isEqualTo("urn:ngsi-ld:Mission:m");
         assertThat(alarm.path("text").asText())
                 .isEqualTo("positions of robot-1 arrive 1.0 s too late and are dropped: check its clock and its link");
         farm.pass(Duration.ofMinutes(2));
-        farm.clockBehind(WatchedFarm.ROBOT, 999);
+        farm.clockBehind(FarmWatchFixture.ROBOT, 999);
         farm.pass(Duration.ofSeconds(179));
         farm.pipe(
                 Topics.CLOCKS, "x", Entity.builder("x", "Analytics:ClockOffset").toBytes());

@@ -20,14 +20,14 @@ import io.furrow.dashboard.http.Problem;
  */
 public final class ProxyHeaders extends Handler.Wrapper {
     private final TrustedProxy proxy;
-    private final Users users;
+    private final UserCache users;
     private final Consumer<Problem> refused;
 
     /**
      * @param proxy null if there is none
      * @param refused is notified of each request that is refused
      */
-    public ProxyHeaders(TrustedProxy proxy, Users users, Consumer<Problem> refused, Handler handler) {
+    public ProxyHeaders(TrustedProxy proxy, UserCache users, Consumer<Problem> refused, Handler handler) {
         super(handler);
         this.proxy = proxy;
         this.users = users;

@@ -23,14 +23,14 @@ final class EventStream implements OpenStream, WriteListener, AsyncListener {
     private final String topic;
     private final Credentials credentials;
     private final AsyncContext context;
-    private final Outbox outbox;
+    private final SendQueue outbox;
     private final ServletOutputStream out;
     private final long openedAt = System.nanoTime();
     private boolean greeted;
     private boolean pinged;
     private boolean closed;
 
-    EventStream(TopicStreams streams, String topic, Credentials credentials, AsyncContext context, Outbox outbox)
+    EventStream(TopicStreams streams, String topic, Credentials credentials, AsyncContext context, SendQueue outbox)
             throws IOException {
         this.streams = streams;
         this.topic = topic;

@@ -33,7 +33,7 @@ public final class StreamServlet extends HttpServlet {
             response.setHeader("Cache-Control", "no-store");
             AsyncContext context = request.startAsync();
             context.setTimeout(0);
-            Outbox outbox = new Outbox(desired, streams.limits(), streams.counters());
+            SendQueue outbox = new SendQueue(desired, streams.limits(), streams.counters());
             EventStream stream = new EventStream(streams, desired.topic(), credentials, context, outbox);
             response.getOutputStream().setWriteListener(stream);
             context.addListener(stream);

@@ -34,7 +34,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     private final TopicStreams streams;
     private final Tickets.Ticket ticket;
     private final StreamLimits limits;
-    private final Outbox outbox;
+    private final SendQueue outbox;
     private final long openedAt = System.nanoTime();
     private volatile User user;
     /** Completes when the stream has begun and the messages before are written: whoever writes at once sees what becomes of it. */
@@ -51,7 +51,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
         this.ticket = ticket;
         this.user = ticket.user();
         this.limits = limits;
-        this.outbox = new Outbox(ticket.request(), limits, streams.counters());
+        this.outbox = new SendQueue(ticket.request(), limits, streams.counters());
     }
 
     @Override

@@ -18,10 +18,10 @@ import org.apache.kafka.common.KafkaException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.dashboard.auth.Users;
+import io.furrow.dashboard.auth.UserCache;
 import io.furrow.dashboard.feed.FeedRecord;
-import io.furrow.dashboard.feed.KnownState;
-import io.furrow.dashboard.feed.KnownStateReader;
+import io.furrow.dashboard.feed.InitialState;
+import io.furrow.dashboard.feed.InitialStateReader;
 import io.furrow.dashboard.feed.StreamCounters;
 import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.feed.TopicFeeds;
@@ -43,9 +43,9 @@ public final class TopicStreams implements AutoCloseable {
     private static final int UNAUTHORIZED = 401;
 
     private final TopicFeeds feeds;
-    private final KnownStateReader known;
+    private final InitialStateReader known;
     private final TopicWriter writer;
-    private final Users users;
+    private final UserCache users;
     private final StreamQuota quota;
     private final Tickets tickets;
     private final TopicRules rules;
@@ -58,9 +58,9 @@ public final class TopicStreams implements AutoCloseable {
     private final ExecutorService beginners = Executors.newFixedThreadPool(BEGINNERS, daemon("streams-begin"));
     private final ExecutorService endings = Executors.newSingleThreadExecutor(daemon("streams-end"));
 
-    public TopicStreams(Properties client, TopicRules rules, StreamLimits limits, Users users) {
+    public TopicStreams(Properties client, TopicRules rules, StreamLimits limits, UserCache users) {
         this.feeds = new TopicFeeds(client, limits, counters);
-        this.known = new KnownStateReader(new KnownState(client, limits, feeds::isCompacted)::read);
+        this.known = new InitialStateReader(new InitialState(client, limits, feeds::isCompacted)::read);
         this.writer = new TopicWriter(client, rules);
         this.users = users;
         this.rules = rules;
@@ -116,7 +116,7 @@ public final class TopicStreams implements AutoCloseable {
         return feeds.isKafkaAway();
     }
 
-    public Users users() {
+    public UserCache users() {
         return users;
     }
 
@@ -166,7 +166,7 @@ public final class TopicStreams implements AutoCloseable {
      *
      * @return completes when each record that is written from then on goes to the stream; never where it ends before
      */
-    CompletableFuture<Void> begin(StreamRequest request, OpenStream stream, Outbox outbox) {
+    CompletableFuture<Void> begin(StreamRequest request, OpenStream stream, SendQueue outbox) {
         CompletableFuture<Void> begun = new CompletableFuture<>();
         if (streams.add(stream) && !(stream instanceof TopicSocket)) {
             counters.opened();
@@ -202,7 +202,7 @@ public final class TopicStreams implements AutoCloseable {
     }
 
     private static void prime(
-            StreamRequest request, OpenStream stream, Outbox outbox, List<FeedRecord> records, Throwable failure) {
+            StreamRequest request, OpenStream stream, SendQueue outbox, List<FeedRecord> records, Throwable failure) {
         if (failure != null) {
             fail(request, stream, failure);
             return;
@@ -249,7 +249,7 @@ public final class TopicStreams implements AutoCloseable {
                     stream.revoke("the proxy is to be asked again who this is; register once more");
                 }
             } catch (Problem e) {
-                if (e.status() == UNAUTHORIZED || e.error().equals(Users.NOT_TAKEN)) {
+                if (e.status() == UNAUTHORIZED || e.error().equals(UserCache.NOT_TAKEN)) {
                     stream.revoke("the token is not valid any more");
                 }
             }

@@ -72,7 +72,7 @@ class StateTest {
 
     @Test
     void tellsAChangeFromARepetitionAcrossARestart() {
-        try (Receiver receiver = new Receiver()) {
+        try (NotificationReceiver receiver = new NotificationReceiver()) {
             try (FiwareStandIn first = start()) {
                 Client.of(first.contextBroker()).post("/v2/entities", T1);
             }
@@ -98,7 +98,7 @@ class StateTest {
 
     @Test
     void keepsSubscriptionsWithTheirIdsAndCounters() {
-        try (Receiver receiver = new Receiver()) {
+        try (NotificationReceiver receiver = new NotificationReceiver()) {
             String before;
             try (FiwareStandIn first = start()) {
                 Client broker = Client.of(first.contextBroker());

@@ -21,7 +21,7 @@ import static org.awaitility.Awaitility.await;
 
 /** What a client may ask of a subscription, and what it is notified of its life. */
 class SubscriptionOptionsTest {
-    private final Receiver receiver = new Receiver();
+    private final NotificationReceiver receiver = new NotificationReceiver();
     private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
     private final Client client = Client.of(standIn.contextBroker());
 
@@ -176,7 +176,9 @@ class SubscriptionOptionsTest {
             }
         }
 
-        assertThat(receiver.received().stream().map(Receiver.Received::sender).distinct())
+        assertThat(receiver.received().stream()
+                        .map(NotificationReceiver.ReceivedNotification::sender)
+                        .distinct())
                 .hasSize(connections == Connections.TRANSIENT ? 5 : 1);
         assertThat(receiver.received())
                 .allSatisfy(one -> assertThat(one.headers()).doesNotContainKey("Connection"));
@@ -206,7 +208,7 @@ class SubscriptionOptionsTest {
     }
 
     /** The number of the step; a deletion is the fourth, an update without a change the second. */
-    private static String step(Receiver.Received one) {
+    private static String step(NotificationReceiver.ReceivedNotification one) {
         JsonNode entity = one.json().path("data").get(0);
         return switch (entity.path("alterationType").path("value").asText()) {
             case "entityDelete" -> "4";

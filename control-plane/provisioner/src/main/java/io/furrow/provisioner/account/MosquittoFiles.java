@@ -65,7 +65,7 @@ public final class MosquittoFiles implements MqttAccounts {
     @Override
     public synchronized Map<String, String> replace(List<MqttAccount> accounts, Set<String> kept) throws IOException {
         List<String> before = passwords.read();
-        Map<String, String> refused = refused(accounts, SectionNotes.of(before));
+        Map<String, String> refused = refused(accounts, SectionComments.of(before));
         List<MqttAccount> own = accounts.stream()
                 .filter(account -> !refused.containsKey(account.login().user()))
                 .toList();
@@ -77,13 +77,13 @@ public final class MosquittoFiles implements MqttAccounts {
         next.addAll(passwords(own));
         // The rules first: should only one of both be written, nobody gets in without them.
         reloadIsDue |= write(rules, nextRules);
-        reloadIsDue |= write(passwords, SectionNotes.of(before).with(users).before(next));
+        reloadIsDue |= write(passwords, SectionComments.of(before).with(users).before(next));
         reloadIfDue();
         return refused;
     }
 
     /** A user that stands elsewhere in the files is somebody else's: Mosquitto would take the later line of two. */
-    private Map<String, String> refused(List<MqttAccount> accounts, SectionNotes notes) throws IOException {
+    private Map<String, String> refused(List<MqttAccount> accounts, SectionComments notes) throws IOException {
         Set<String> users = new HashSet<>();
         accounts.forEach(account -> users.add(account.login().user()));
         Map<String, String> refused = new TreeMap<>();
@@ -123,7 +123,7 @@ public final class MosquittoFiles implements MqttAccounts {
         List<String> next = passwordsOf(before, stays);
         List<String> nextRules = rulesOf(stays);
         // The passwords first: should only one of both be written, nobody gets in who shall not.
-        reloadIsDue |= write(passwords, SectionNotes.of(before).with(users).before(next));
+        reloadIsDue |= write(passwords, SectionComments.of(before).with(users).before(next));
         reloadIsDue |= write(rules, nextRules);
         reloadIfDue();
         return next.stream()
@@ -134,7 +134,7 @@ public final class MosquittoFiles implements MqttAccounts {
 
     private static List<String> passwordsOf(List<String> lines, Predicate<String> users) {
         return lines.stream()
-                .filter(line -> !SectionNotes.isNote(line) && users.test(MosquittoPassword.user(line)))
+                .filter(line -> !SectionComments.isNote(line) && users.test(MosquittoPassword.user(line)))
                 .collect(Collectors.toCollection(ArrayList::new));
     }
 
@@ -153,13 +153,13 @@ public final class MosquittoFiles implements MqttAccounts {
 
     @Override
     public synchronized Optional<String> origin() throws IOException {
-        return SectionNotes.of(passwords.read()).origin();
+        return SectionComments.of(passwords.read()).origin();
     }
 
     @Override
     public synchronized void noteOrigin(String topic) throws IOException {
         List<String> before = passwords.read();
-        write(passwords, SectionNotes.of(before).with(topic).before(passwordsOf(before, any -> true)));
+        write(passwords, SectionComments.of(before).with(topic).before(passwordsOf(before, any -> true)));
     }
 
     /** The user with which a line of the rules begins; null if it begins none. */

@@ -13,7 +13,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.model.device.FarmSecret;
-import io.furrow.provisioner.Desired;
+import io.furrow.provisioner.DesiredDeviceFixture;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -22,14 +22,14 @@ class MosquittoFilesTest {
     @TempDir
     Path directory;
 
-    private final MqttAccount device = MqttAccount.device(Desired.SECRET, "hoeing", "d");
-    private final MqttAccount gateway = MqttAccount.gateway(Desired.SECRET, "hoeing");
+    private final MqttAccount device = MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d");
+    private final MqttAccount gateway = MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing");
 
     @Test
     void writesAPasswordAndRulesForEachAccount() throws IOException {
         files(null).replace(List.of(gateway, device), Set.of());
 
-        String key = Desired.SECRET.apiKey("hoeing");
+        String key = DesiredDeviceFixture.SECRET.apiKey("hoeing");
         assertThat(Files.readAllLines(rules()))
                 .contains(
                         "user furrow.m.hoeing.1",
@@ -199,7 +199,7 @@ class MosquittoFilesTest {
     }
 
     private static MqttAccount other() {
-        return MqttAccount.device(Desired.SECRET, "weeding", "d");
+        return MqttAccount.device(DesiredDeviceFixture.SECRET, "weeding", "d");
     }
 
     private MosquittoFiles files(String reload) {

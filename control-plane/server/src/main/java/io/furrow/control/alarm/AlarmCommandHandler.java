@@ -38,13 +38,13 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     private static final long CLEARING_EVERY = Duration.ofMinutes(1).toMillis();
     private static final String ALL = "";
 
-    private final AlarmRecords records;
+    private final AlarmTables records;
     private final Sequence sequence;
     private final EventPublisher outbox;
     private final AlarmLimit limit;
     private long nextClearing;
 
-    AlarmCommandHandler(AlarmRecords records, Sequence sequence, EventPublisher outbox) {
+    AlarmCommandHandler(AlarmTables records, Sequence sequence, EventPublisher outbox) {
         this.records = records;
         this.sequence = sequence;
         this.outbox = outbox;
@@ -158,7 +158,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
 
     /** Whether a kind is muted for one subject or identity. */
     public boolean isMuted(AlarmKind kind, String subject, long now) {
-        AlarmRecords.Mute mute = records.mutes().get(Cause.key(kind, subject));
+        AlarmTables.Mute mute = records.mutes().get(Cause.key(kind, subject));
         return mute != null && mute.until() > now;
     }
 
@@ -182,7 +182,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
                 && alarm.state() != AlarmState.CLOSED
                 && AlarmLimit.KINDS.contains(alarm.kind())
                 && limit.dismiss(alarm.kind(), alarm.subject(), now);
-        return new AlarmEvent.Dismissed(close.user(), isOver);
+        return new AlarmEvent.ManuallyClosed(close.user(), isOver);
     }
 
     private CommandResult answer(String id, AlarmEvent event, String status, long now) throws RefusedException {
@@ -191,7 +191,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
             throw new RefusedException(
                     ErrorCode.UNKNOWN_ALARM, "there is no alarm '%s', or it was closed long ago".formatted(id));
         }
-        Alarm next = AlarmLife.next(alarm, event, now);
+        Alarm next = AlarmStateMachine.next(alarm, event, now);
         if (next != alarm) {
             keep(next.numbered(sequence.next()));
         }
@@ -208,7 +208,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         AlarmCommand.OfKind of = (AlarmCommand.OfKind) target;
         String key = Cause.key(of.kind(), of.subject() == null ? ALL : of.subject());
         requireRoomFor(key, until);
-        records.mutes().put(key, until == null ? null : new AlarmRecords.Mute(key, until));
+        records.mutes().put(key, until == null ? null : new AlarmTables.Mute(key, until));
         for (Alarm alarm : current()) {
             if (alarm.kind() == of.kind()
                     && (of.subject() == null
@@ -236,7 +236,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     private Long mutedUntil(Cause cause, long now) {
         Long until = null;
         for (String each : List.of(cause.identity(), cause.subject(), ALL)) {
-            AlarmRecords.Mute mute = records.mutes().get(Cause.key(cause.kind(), each));
+            AlarmTables.Mute mute = records.mutes().get(Cause.key(cause.kind(), each));
             if (mute != null && mute.until() > now && (until == null || mute.until() > until)) {
                 until = mute.until();
             }
@@ -307,7 +307,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
 
     private static Alarm sure(Alarm alarm, AlarmEvent event, long now) {
         try {
-            return AlarmLife.next(alarm, event, now);
+            return AlarmStateMachine.next(alarm, event, now);
         } catch (RefusedException e) {
             throw new IllegalStateException(
                     "an alarm that is not closed accepts every event except commands of users", e);

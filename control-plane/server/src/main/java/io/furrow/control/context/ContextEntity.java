@@ -66,7 +66,7 @@ final class ContextEntity {
     }
 
     /** @param status null if not known yet */
-    static EntityBuilder of(Mission mission, MissionStatus status, MissionTally tally) {
+    static EntityBuilder of(Mission mission, MissionStatus status, MissionCounts tally) {
         EntityBuilder entity = Entity.builder(missionId(mission.mission()), MISSION)
                 .text("name", mission.mission())
                 .text("domain", mission.domain())

@@ -8,7 +8,7 @@ import java.util.Objects;
 import java.util.TreeSet;
 import java.util.concurrent.atomic.AtomicInteger;
 
-import io.furrow.control.alarm.watch.Encounter;
+import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.control.alarm.watch.FieldWindow;
 import io.furrow.control.domain.Domain;
 import io.furrow.control.mission.Mission;
@@ -25,7 +25,7 @@ final class ContextProjection {
 
     private static final Duration FIELDS_POLL_INTERVAL = Duration.ofMinutes(1);
 
-    private final ContextRecords records;
+    private final ContextTables records;
     private final PublicationListener told;
     private long fieldsLookedAt;
 
@@ -36,7 +36,7 @@ final class ContextProjection {
         void deleted(String type, String entityId);
     }
 
-    ContextProjection(ContextRecords records, PublicationListener told) {
+    ContextProjection(ContextTables records, PublicationListener told) {
         this.records = records;
         this.told = told;
     }
@@ -51,11 +51,11 @@ final class ContextProjection {
     void mission(String name, Mission mission) {
         Mission before = records.missions().get(name);
         records.missions().put(name, mission);
-        MissionTally tally = records.tallies().get(name);
+        MissionCounts tally = records.tallies().get(name);
         if (mission == null) {
             records.tallies().put(name, null);
         } else if (tally == null || mission.running() && !Objects.equals(mission.start(), tally.start())) {
-            records.tallies().put(name, MissionTally.of(name, mission.start()));
+            records.tallies().put(name, MissionCounts.of(name, mission.start()));
         }
         outdate(ContextEntity.missionId(name));
         Mission either = mission == null ? before : mission;
@@ -71,12 +71,12 @@ final class ContextProjection {
     }
 
     /** Counts an encounter for the missions of both devices, if these are known. */
-    void encounter(Encounter encounter) {
+    void encounter(EncounterReport encounter) {
         TreeSet<String> missions = new TreeSet<>();
         encounter.members().forEach(member -> missions.add(member.mission()));
         for (String mission : missions) {
-            MissionTally before = mission.isEmpty() ? null : records.tallies().get(mission);
-            MissionTally after = before == null ? null : before.with(encounter);
+            MissionCounts before = mission.isEmpty() ? null : records.tallies().get(mission);
+            MissionCounts after = before == null ? null : before.with(encounter);
             if (after != null && !after.equals(before)) {
                 records.tallies().put(mission, after);
                 outdate(ContextEntity.missionId(mission));

@@ -146,8 +146,8 @@ public final class DeviceCommands implements CommandSender {
             throw new IOException(rejected);
         }
         throw answer.statusCode() != NOT_FOUND
-                ? new RefusedCommandException(answer.statusCode(), rejected)
-                : new RefusedCommandException(
+                ? new RejectedCommandException(answer.statusCode(), rejected)
+                : new RejectedCommandException(
                         NOT_FOUND,
                         "The context broker at %s has no entity %s of type %s, so '%s' cannot be sent; a device accepts commands once it has reported. Check that it reports."
                                 .formatted(contextBroker, order.deviceId(), order.type(), order.command()));

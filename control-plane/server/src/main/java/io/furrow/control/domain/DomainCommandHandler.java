@@ -5,8 +5,8 @@ import java.util.function.Supplier;
 
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.Records;
 import io.furrow.control.manager.Sequence;
+import io.furrow.control.manager.Table;
 import io.furrow.kafka.field.FieldEdit;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
@@ -20,7 +20,7 @@ import io.furrow.model.topic.Topics;
 public final class DomainCommandHandler {
     private static final int MAX_NAMED = 100;
 
-    private final Records<Domain> domains;
+    private final Table<Domain> domains;
     private final DomainMissions missions;
     private final Supplier<List<FieldVersion>> fields;
     private final Sequence sequence;
@@ -34,9 +34,9 @@ public final class DomainCommandHandler {
      * @param quota for the size of all definitions
      * @param fields every version of {@code service.fields}
      */
-    record Means(Sequence sequence, Quota quota, Supplier<List<FieldVersion>> fields) {}
+    record Dependencies(Sequence sequence, Quota quota, Supplier<List<FieldVersion>> fields) {}
 
-    DomainCommandHandler(Records<Domain> domains, DomainMissions missions, Means means, EventPublisher outbox) {
+    DomainCommandHandler(Table<Domain> domains, DomainMissions missions, Dependencies means, EventPublisher outbox) {
         this.domains = domains;
         this.missions = missions;
         this.sequence = means.sequence();

@@ -8,12 +8,12 @@ import java.util.Optional;
 import java.util.Set;
 
 import io.furrow.control.manager.EventPublisher;
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.Table;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.topic.Topics;
 
 /**
- * Maintains {@code service.devices.health}, and lets {@link Silence} reconcile the alarms with it about once a second.
+ * Maintains {@code service.devices.health}, and lets {@link SilenceAlarmReconciler} reconcile the alarms with it about once a second.
  * {@link SilenceDetector} reports silence. Periodic polling of all devices finds those that never reported or whose
  * detector died with its process.
  */
@@ -23,19 +23,19 @@ final class DeviceHealthTracker {
 
     private static final Duration POLL_INTERVAL = Duration.ofSeconds(10);
 
-    private final Records<DeviceHealth> health;
-    private final DesiredDevices desired;
+    private final Table<DeviceHealth> health;
+    private final MonitoredDevices desired;
     private final HealthOptions options;
-    private final Silence silence;
+    private final SilenceAlarmReconciler silence;
     private final EventPublisher outbox;
     private long lookedAt;
     private Long began;
 
     DeviceHealthTracker(
-            Records<DeviceHealth> health,
-            DesiredDevices desired,
+            Table<DeviceHealth> health,
+            MonitoredDevices desired,
             HealthOptions options,
-            Silence silence,
+            SilenceAlarmReconciler silence,
             EventPublisher outbox) {
         this.health = health;
         this.desired = desired;
@@ -114,7 +114,7 @@ final class DeviceHealthTracker {
     }
 
     private void watch(String key, DeviceHealth device, DesiredDevice desiredDevice) {
-        silence.put(key, Silence.Device.of(device, options.silentAfter(desiredDevice)));
+        silence.put(key, SilenceAlarmReconciler.MonitoredDevice.of(device, options.silentAfter(desiredDevice)));
     }
 
     private void keep(String key, DeviceHealth device) {

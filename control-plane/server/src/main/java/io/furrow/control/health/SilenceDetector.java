@@ -30,20 +30,20 @@ final class SilenceDetector {
     private static final Duration LOOKUP_INTERVAL = Duration.ofSeconds(5);
 
     private final HealthOptions options;
-    private final DesiredDevices desired;
-    private final SilenceListener told;
-    private final Map<String, Heard> devices = new HashMap<>();
+    private final MonitoredDevices desired;
+    private final HeartbeatListener told;
+    private final Map<String, TrackedDevice> devices = new HashMap<>();
     private long lookedUp;
     private long passed;
 
     /** Receives the heartbeats. */
-    interface SilenceListener {
+    interface HeartbeatListener {
         /** @param key of {@code service.devices} */
         void tell(String key, Heartbeat sign);
     }
 
     /** Mutable state of one device. */
-    private static final class Heard {
+    private static final class TrackedDevice {
         /** Null until the device reports. */
         private Heartbeat newest;
 
@@ -72,7 +72,7 @@ final class SilenceDetector {
         }
     }
 
-    SilenceDetector(HealthOptions options, DesiredDevices desired, SilenceListener told) {
+    SilenceDetector(HealthOptions options, MonitoredDevices desired, HeartbeatListener told) {
         this.options = options;
         this.desired = desired;
         this.told = told;
@@ -83,7 +83,7 @@ final class SilenceDetector {
         if (devices.containsKey(key)) {
             return true;
         }
-        Heard unheard = new Heard();
+        TrackedDevice unheard = new TrackedDevice();
         boolean listens = isDesiredStill(key, unheard);
         if (listens) {
             devices.put(key, unheard);
@@ -99,7 +99,7 @@ final class SilenceDetector {
      * @return whether the report counts as a heartbeat
      */
     boolean hear(String key, Entity entity, long reported, long now) {
-        Heard known = devices.get(key);
+        TrackedDevice known = devices.get(key);
         boolean first = known.newest == null;
         if (first && !isMeasured(entity)) {
             return false;
@@ -129,7 +129,7 @@ final class SilenceDetector {
         return true;
     }
 
-    private void emit(String key, Heard heard, long now) {
+    private void emit(String key, TrackedDevice heard, long now) {
         heard.told = now;
         heard.pending = false;
         told.tell(key, heard.newest);
@@ -179,7 +179,7 @@ final class SilenceDetector {
         });
     }
 
-    private boolean isDesiredStill(String key, Heard heard) {
+    private boolean isDesiredStill(String key, TrackedDevice heard) {
         Optional<DesiredDevice> device = desired.of(key);
         device.ifPresent(found -> heard.take(found, options.silentAfter(found)));
         return device.isPresent();

@@ -47,7 +47,7 @@ public final class CommandProcessor<C extends Command>
     private final Duration remembered;
     private final BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<C>> opening;
     private RequestLog answered;
-    private AtomicContext atomic;
+    private UnitOfWork atomic;
     private Punctuations punctuations;
     private CommandHandler<C> handler;
     private boolean opened;
@@ -69,7 +69,7 @@ public final class CommandProcessor<C extends Command>
     public void init(ProcessorContext<String, OutputRecord> context) {
         super.init(context);
         answered = new RequestLog(context, manager.answers(), remembered);
-        atomic = new AtomicContext(context);
+        atomic = new UnitOfWork(context);
         handler = opening.apply(atomic, outbox(atomic));
         opened = false;
         punctuations = new Punctuations(atomic);
@@ -97,24 +97,27 @@ public final class CommandProcessor<C extends Command>
         }
         Received<C> received = manager.read(record.value());
         if (received instanceof Received.Request<C> request) {
-            answerOnce(Asked.of(record, request.requestId()), () -> answer(record, request.command(), now), now);
+            answerOnce(
+                    IdentifiedRequest.of(record, request.requestId()),
+                    () -> answer(record, request.command(), now),
+                    now);
         } else if (received instanceof Received.Refused<C> refused) {
-            answerOnce(Asked.of(record, refused.requestId()), refused::answer, now);
+            answerOnce(IdentifiedRequest.of(record, refused.requestId()), refused::answer, now);
         }
     }
 
     /** A request as a record, its id, which may be null, and what it asks for. */
-    private record Asked(Record<String, byte[]> record, String id, String fingerprint) {
-        static Asked of(Record<String, byte[]> record, String id) {
-            return new Asked(record, id, id == null ? "" : RequestFingerprint.of(record.value()));
+    private record IdentifiedRequest(Record<String, byte[]> record, String id, String fingerprint) {
+        static IdentifiedRequest of(Record<String, byte[]> record, String id) {
+            return new IdentifiedRequest(record, id, id == null ? "" : RequestFingerprint.of(record.value()));
         }
     }
 
-    private interface Answering {
+    private interface ResponseSupplier {
         CommandResult answer();
     }
 
-    private void answerOnce(Asked asked, Answering answering, long now) {
+    private void answerOnce(IdentifiedRequest asked, ResponseSupplier answering, long now) {
         String id = asked.id();
         Optional<String> known = id == null ? Optional.empty() : answered.fingerprint(id, now);
         if (known.isPresent()) {
@@ -141,14 +144,17 @@ public final class CommandProcessor<C extends Command>
         String reason =
                 "the request has %d bytes, and may have %d; send a long list of devices in several with 'add-devices'"
                         .formatted(bytes, Limits.REQUEST_BYTES);
-        answerOnce(Asked.of(record, excerpt.requestId()), () -> excerpt.refusal(ErrorCode.TOO_LARGE, reason), now);
+        answerOnce(
+                IdentifiedRequest.of(record, excerpt.requestId()),
+                () -> excerpt.refusal(ErrorCode.TOO_LARGE, reason),
+                now);
     }
 
-    private static CommandResult refusal(Asked asked, ErrorCode code, String reason) {
+    private static CommandResult refusal(IdentifiedRequest asked, ErrorCode code, String reason) {
         return RequestExcerpt.of(asked.record().value()).refusal(code, reason);
     }
 
-    private void send(Asked asked, CommandResult given, long now) {
+    private void send(IdentifiedRequest asked, CommandResult given, long now) {
         String id = asked.id();
         String ownKey = asked.record().key() == null || asked.record().key().isEmpty()
                 ? null
@@ -178,7 +184,7 @@ public final class CommandProcessor<C extends Command>
         } catch (RuntimeException e) { // a fault of ours, which must not keep the other requests from being answered
             RecordOrigin origin = RecordOrigin.of(record).orElseThrow();
             LOG.error("the request {} failed and changed nothing; it is a dead letter", origin, e);
-            context().forward(DeadLetters.of(record, origin, Reason.FAILED, FailureText.of(e)));
+            context().forward(DeadLetterRecords.of(record, origin, Reason.FAILED, FailureText.of(e)));
             return Requests.refusal(
                     new RefusedException(
                             ErrorCode.INTERNAL_ERROR, "the manager failed at it and changed nothing; its log says why"),

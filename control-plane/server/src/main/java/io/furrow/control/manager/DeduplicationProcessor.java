@@ -26,7 +26,7 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
     /** Partitions of which the last record was skipped, so that the log reports it once. */
     private final Set<String> readAgain = new HashSet<>();
 
-    private Records<Position> positions;
+    private Table<Position> positions;
 
     /**
      * How far a partition was read.
@@ -51,7 +51,7 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
     @Override
     public void init(ProcessorContext<String, byte[]> context) {
         super.init(context);
-        positions = StoredRecords.of(context, store, Position.class);
+        positions = StoreTable.of(context, store, Position.class);
     }
 
     @Override

@@ -46,7 +46,7 @@ public final class FailureHandler
                 record.key(),
                 record.value(),
                 record.headers(),
-                new DeadLetter(Reason.NOT_AN_EVENT, FailureText.of(failure), DeadLetters.STAGE, source))));
+                new DeadLetter(Reason.NOT_AN_EVENT, FailureText.of(failure), DeadLetterRecords.STAGE, source))));
     }
 
     @Override
@@ -108,7 +108,7 @@ public final class FailureHandler
         }
         List<ProducerRecord<byte[], byte[]>> letters = new ArrayList<>();
         DeadLetter letter =
-                new DeadLetter(Reason.FAILED, FailureText.of(failure), DeadLetters.STAGE, origin.toString());
+                new DeadLetter(Reason.FAILED, FailureText.of(failure), DeadLetterRecords.STAGE, origin.toString());
         letters.add(
                 letter(origin.topic(), context.sourceRawKey(), context.sourceRawValue(), context.headers(), letter));
         if (ManagerTopic.isManager(origin.topic())) {

@@ -20,7 +20,7 @@ public final class ObserverProcessor extends ContextualProcessor<String, byte[],
 
     private final BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening;
     private final boolean first;
-    private GuardedWork work;
+    private AtomicHandler work;
     private Observer observer;
 
     /** Who is shown them. */
@@ -55,7 +55,7 @@ public final class ObserverProcessor extends ContextualProcessor<String, byte[],
     @Override
     public void init(ProcessorContext<String, OutputRecord> context) {
         super.init(context);
-        work = new GuardedWork(first, context);
+        work = new AtomicHandler(first, context);
         observer = opening.apply(work.context(), CommandProcessor.outbox(work.context()));
         Punctuations punctuations = new Punctuations(work.context());
         context.schedule(

@@ -14,10 +14,10 @@ final class Punctuations {
     private static final Logger LOG = LoggerFactory.getLogger(Punctuations.class);
     private static final long LOGGED_EVERY = Duration.ofMinutes(1).toNanos();
 
-    private final AtomicContext atomic;
+    private final UnitOfWork atomic;
     private long nextLog = System.nanoTime();
 
-    Punctuations(AtomicContext atomic) {
+    Punctuations(UnitOfWork atomic) {
         this.atomic = atomic;
     }
 

@@ -14,21 +14,21 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
 /**
- * Writes the devices of missions to {@code service.devices}, a bounded number at a time: what is left is a {@link Rollout}. A device is
+ * Writes the devices of missions to {@code service.devices}, a bounded number at a time: what is left is a {@link PendingAssignment}. A device is
  * on one mission at a time, also while that is still being written.
  */
 final class DeviceAssignments {
-    private final MissionRecords records;
-    private final MissionLists lists;
-    private final MissionOptions options;
-    private final FarmContext farm;
+    private final MissionTables records;
+    private final DeviceListStore lists;
+    private final MissionSettings options;
+    private final SharedStores farm;
     private final EventPublisher outbox;
 
     DeviceAssignments(
-            MissionRecords records,
-            MissionLists lists,
-            MissionOptions options,
-            FarmContext farm,
+            MissionTables records,
+            DeviceListStore lists,
+            MissionSettings options,
+            SharedStores farm,
             EventPublisher outbox) {
         this.records = records;
         this.lists = lists;
@@ -43,7 +43,7 @@ final class DeviceAssignments {
         Set<String> beingWritten = beingWrittenFor(mission);
         checkFree(mission, roster, beingWritten);
         checkRoom(roster, beingWritten);
-        advance(mission, new Rollout(mission.mission(), Rollout.Kind.START, 0, now));
+        advance(mission, new PendingAssignment(mission.mission(), PendingAssignment.Kind.START, 0, now));
         return roster.size();
     }
 
@@ -87,7 +87,8 @@ final class DeviceAssignments {
     private Set<String> beingWrittenFor(Mission mission) {
         Set<String> keys = new HashSet<>();
         records.rollouts().forEach(rollout -> {
-            if (rollout.kind() == Rollout.Kind.START && !rollout.mission().equals(mission.mission())) {
+            if (rollout.kind() == PendingAssignment.Kind.START
+                    && !rollout.mission().equals(mission.mission())) {
                 Mission other = records.missions().get(rollout.mission());
                 roster(other, 0).forEach(device -> keys.add(device.version().key()));
             }
@@ -104,7 +105,7 @@ final class DeviceAssignments {
         for (DeviceState known : of(mission)) {
             simulated += known.device().running() && known.device().simulated() ? 1 : 0;
         }
-        advance(mission, new Rollout(mission.mission(), Rollout.Kind.STOP, 0, now));
+        advance(mission, new PendingAssignment(mission.mission(), PendingAssignment.Kind.STOP, 0, now));
         return simulated;
     }
 
@@ -114,11 +115,11 @@ final class DeviceAssignments {
     }
 
     /** Writes the next devices of a rollout. Answers whether it is done. */
-    boolean advance(Mission mission, Rollout rollout) {
+    boolean advance(Mission mission, PendingAssignment rollout) {
         List<DesiredDevice> roster = roster(mission, rollout.time());
         int end = Math.min(roster.size(), rollout.next() + options.devicesPerStep());
         for (DesiredDevice desired : roster.subList(Math.min(rollout.next(), end), end)) {
-            if (rollout.kind() == Rollout.Kind.START) {
+            if (rollout.kind() == PendingAssignment.Kind.START) {
                 put(desired);
             } else {
                 stop(mission, desired.version().key(), rollout.time());
@@ -177,8 +178,8 @@ final class DeviceAssignments {
         Set<String> kept = new HashSet<>();
         roster(now, 0).forEach(device -> kept.add(device.version().key()));
         forget(before, kept);
-        Rollout rollout = records.rollouts().get(now.mission());
-        if (rollout != null && rollout.kind() == Rollout.Kind.STOP) {
+        PendingAssignment rollout = records.rollouts().get(now.mission());
+        if (rollout != null && rollout.kind() == PendingAssignment.Kind.STOP) {
             kept.forEach(key -> stop(now, key, rollout.time()));
             records.rollouts().put(now.mission(), null);
         }

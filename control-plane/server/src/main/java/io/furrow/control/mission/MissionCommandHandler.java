@@ -22,10 +22,10 @@ import io.furrow.model.topic.Topics;
 
 /** Grants or refuses what is asked of missions, and takes them through their life. What is refused has changed nothing. */
 final class MissionCommandHandler implements DomainMissions {
-    private final MissionRecords records;
+    private final MissionTables records;
     private final Predicate<String> isDomain;
     private final TemplateStore templates;
-    private final MissionLists lists;
+    private final DeviceListStore lists;
     private final MissionPlanner planner;
     private final DeviceAssignments devices;
     private final Sequence sequence;
@@ -34,13 +34,13 @@ final class MissionCommandHandler implements DomainMissions {
     private final EventPublisher outbox;
 
     /** @param farm what there is besides missions */
-    MissionCommandHandler(MissionRecords records, FarmContext farm, MissionOptions options, EventPublisher outbox) {
+    MissionCommandHandler(MissionTables records, SharedStores farm, MissionSettings options, EventPublisher outbox) {
         this.records = records;
         this.isDomain = farm.isDomain();
         this.sequence = farm.sequence();
         this.quota = farm.quota();
         this.templates = new TemplateStore(records.templates(), records.versions(), farm.quota(), outbox);
-        this.lists = new MissionLists(records.lists(), sequence, farm.quota(), outbox);
+        this.lists = new DeviceListStore(records.lists(), sequence, farm.quota(), outbox);
         this.devices = new DeviceAssignments(records, lists, options, farm, outbox);
         this.planner = new MissionPlanner(farm, templates, lists, devices);
         this.timeout = options.timeout().toMillis();
@@ -277,7 +277,7 @@ final class MissionCommandHandler implements DomainMissions {
     }
 
     /** The time for coming up or going counts from the last device on. */
-    private void advance(Rollout rollout, long now) {
+    private void advance(PendingAssignment rollout, long now) {
         if (devices.advance(records.missions().get(rollout.mission()), rollout)) {
             MissionStatus status = records.statuses().get(rollout.mission());
             MissionStatus after = status.written(timeout, now);

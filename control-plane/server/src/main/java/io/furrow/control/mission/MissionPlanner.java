@@ -15,12 +15,12 @@ import io.furrow.model.control.RefusedException;
 final class MissionPlanner {
     private final Predicate<String> isDomain;
     private final TemplateStore templates;
-    private final MissionLists lists;
+    private final DeviceListStore lists;
     private final DeviceAssignments devices;
     private final Quota quota;
 
     /** @param farm what there is besides missions */
-    MissionPlanner(FarmContext farm, TemplateStore templates, MissionLists lists, DeviceAssignments devices) {
+    MissionPlanner(SharedStores farm, TemplateStore templates, DeviceListStore lists, DeviceAssignments devices) {
         this.isDomain = farm.isDomain();
         this.quota = farm.quota();
         this.templates = templates;

@@ -28,7 +28,7 @@ final class PlannedDevices {
     private final Map<String, List<String>> idsByLabel = new HashMap<>();
     private final List<DesiredDevice> devices = new ArrayList<>();
 
-    private PlannedDevices(Mission mission, MissionOptions options, long from) {
+    private PlannedDevices(Mission mission, MissionSettings options, long from) {
         this.mission = mission;
         this.scope = options.scope();
         this.simulatedByDefault = options.simulatedByDefault();
@@ -36,7 +36,7 @@ final class PlannedDevices {
     }
 
     /** All of them, wanted from a time on, with the sequence 0. */
-    static List<DesiredDevice> of(Mission mission, List<ListedGroup> groups, MissionOptions options, long from) {
+    static List<DesiredDevice> of(Mission mission, List<ListedGroup> groups, MissionSettings options, long from) {
         PlannedDevices roster = new PlannedDevices(mission, options, from);
         List<List<String>> ids =
                 groups.stream().map(each -> roster.name(each.group())).toList();

@@ -8,7 +8,7 @@ import java.util.List;
 
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.Table;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RefusedException;
@@ -19,8 +19,8 @@ final class TemplateStore {
     /** The mission of the thesis: one moving camera, three thermometers and one robot. */
     static final String DEMO = "thesis-demo";
 
-    private final Records<MissionTemplate> templates;
-    private final Records<Versions> versions;
+    private final Table<MissionTemplate> templates;
+    private final Table<Versions> versions;
     private final Quota quota;
     private final EventPublisher outbox;
 
@@ -37,7 +37,7 @@ final class TemplateStore {
      * @param versions by name
      * @param quota room for all definitions
      */
-    TemplateStore(Records<MissionTemplate> templates, Records<Versions> versions, Quota quota, EventPublisher outbox) {
+    TemplateStore(Table<MissionTemplate> templates, Table<Versions> versions, Quota quota, EventPublisher outbox) {
         this.templates = templates;
         this.versions = versions;
         this.quota = quota;

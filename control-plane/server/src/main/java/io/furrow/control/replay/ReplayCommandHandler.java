@@ -12,8 +12,8 @@ import java.util.function.Supplier;
 import io.furrow.control.manager.CommandHandler;
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.Records;
 import io.furrow.control.manager.Sequence;
+import io.furrow.control.manager.Table;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
@@ -37,7 +37,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     private static final String REPLAY = "replay";
     private static final String GROUP = "group";
 
-    private final Records<DesiredReplay> replays;
+    private final Table<DesiredReplay> replays;
     private final ReplayReports reports;
     private final RecordedMissions recordings;
     private final ReplayNames names;
@@ -71,7 +71,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
      *
      * @param counters of the sequence, and of the room that is used
      */
-    record ReplayStores(Records<DesiredReplay> replays, Records<ReportedReplay> reports, Records<Long> counters) {}
+    record ReplayStores(Table<DesiredReplay> replays, Table<ReportedReplay> reports, Table<Long> counters) {}
 
     @Override
     public CommandResult answer(ReplayCommand command, long now) throws RefusedException {

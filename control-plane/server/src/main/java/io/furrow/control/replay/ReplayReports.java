@@ -3,7 +3,7 @@ package io.furrow.control.replay;
 import java.util.ArrayList;
 import java.util.List;
 
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.Table;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
@@ -13,9 +13,9 @@ import io.furrow.model.control.ReplayStatus.State;
 
 /** The actual state of desired replays, as reported, and what of a command fits it. */
 final class ReplayReports {
-    private final Records<ReportedReplay> reports;
+    private final Table<ReportedReplay> reports;
 
-    ReplayReports(Records<ReportedReplay> reports) {
+    ReplayReports(Table<ReportedReplay> reports) {
         this.reports = reports;
     }
 

@@ -24,10 +24,10 @@ import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.alarm.Severity;
-import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.Topics;
 
@@ -42,10 +42,10 @@ public final class AlarmsResource {
                     AlarmsResource::severity)
             .thenComparing(alarm -> alarm.path("raised").asLong(), Comparator.reverseOrder());
 
-    private final ServiceView view;
+    private final StateView view;
     private final CommandClient managers;
 
-    AlarmsResource(ServiceView view, CommandClient managers) {
+    AlarmsResource(StateView view, CommandClient managers) {
         this.view = view;
         this.managers = managers;
     }
@@ -111,7 +111,7 @@ public final class AlarmsResource {
             @PathParam("command") String command,
             InputStream body)
             throws IOException {
-        return ask(command, Body.read(body).put("alarm", alarm), request);
+        return ask(command, JsonBodyReader.read(body).put("alarm", alarm), request);
     }
 
     /** Alarms by {@code kind} and {@code subject}, those to come too. */
@@ -120,12 +120,12 @@ public final class AlarmsResource {
     public CompletionStage<Response> commandKind(
             @Context ContainerRequestContext request, @PathParam("command") String command, InputStream body)
             throws IOException {
-        return ask(command, Body.read(body), request);
+        return ask(command, JsonBodyReader.read(body), request);
     }
 
     private CompletionStage<Response> ask(String command, ObjectNode members, ContainerRequestContext request) {
         CommandClient.CommandRequest question =
                 new CommandClient.CommandRequest(Topics.ALARM_MANAGER, command, members);
-        return managers.ask(question, Caller.of(request)).thenApply(answer -> JsonResponses.of(answer, 200));
+        return managers.ask(question, RequestContext.of(request)).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 }

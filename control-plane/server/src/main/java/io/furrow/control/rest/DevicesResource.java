@@ -30,14 +30,14 @@ import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CredentialCsv;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
-import io.furrow.control.device.RefusedCommandException;
-import io.furrow.control.rest.access.Caller;
+import io.furrow.control.device.RejectedCommandException;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
-import io.furrow.control.rest.view.DesiredDevices;
 import io.furrow.control.rest.view.DeviceName;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.DeviceView;
+import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.event.FiwareScope;
@@ -57,10 +57,10 @@ public final class DevicesResource {
     private static final int MAX_AUDITED_LENGTH = 200;
     private static final Pattern COMMAND = Pattern.compile("[A-Za-z][A-Za-z0-9_-]{0,63}");
 
-    private final ServiceView view;
-    private final DesiredDevices devices;
+    private final StateView view;
+    private final DeviceView devices;
     private final CommandClient managers;
-    private final Means means;
+    private final Dependencies means;
 
     /**
      * What devices are reached by.
@@ -68,11 +68,11 @@ public final class DevicesResource {
      * @param commands null if none go to devices
      * @param credentials null if none are given out
      */
-    record Means(FiwareScope scope, DeviceCommands commands, DeviceCredentials credentials) {}
+    record Dependencies(FiwareScope scope, DeviceCommands commands, DeviceCredentials credentials) {}
 
-    DevicesResource(ServiceView view, CommandClient managers, Means means) {
+    DevicesResource(StateView view, CommandClient managers, Dependencies means) {
         this.view = view;
-        this.devices = new DesiredDevices(view);
+        this.devices = new DeviceView(view);
         this.managers = managers;
         this.means = means;
     }
@@ -101,7 +101,7 @@ public final class DevicesResource {
     @Path("{device}/credentials")
     public Response credentials(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
-        audit(Caller.user(request), "credentials", about(name), null);
+        audit(RequestContext.user(request), "credentials", about(name), null);
         return secret(means.credentials().of(device));
     }
 
@@ -112,7 +112,7 @@ public final class DevicesResource {
     @Produces(CSV)
     public Response credentialsAsCsv(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
-        audit(Caller.user(request), "credentials", about(name), null);
+        audit(RequestContext.user(request), "credentials", about(name), null);
         return csv(List.of(means.credentials().of(device)));
     }
 
@@ -123,7 +123,7 @@ public final class DevicesResource {
     @Produces("image/svg+xml")
     public Response qr(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
-        audit(Caller.user(request), "credentials", about(name), null);
+        audit(RequestContext.user(request), "credentials", about(name), null);
         return Response.ok(means.credentials().qr(device))
                 .header("Cache-Control", "no-store")
                 .build();
@@ -137,7 +137,7 @@ public final class DevicesResource {
         DesiredDevice device = provisioned(name);
         return managers.ask(
                         new CommandClient.CommandRequest(Topics.MISSION_MANAGER, "rotate-credentials", about(name)),
-                        Caller.of(request))
+                        RequestContext.of(request))
                 .thenApply(answer -> answer.error().isPresent()
                         ? JsonResponses.of(answer, 0)
                         : secret(means.credentials()
@@ -192,7 +192,7 @@ public final class DevicesResource {
     @Path("{device}/commands")
     public CompletionStage<Response> command(
             @Context ContainerRequestContext request, @BeanParam DeviceName name, InputStream body) throws IOException {
-        ObjectNode members = Body.read(body);
+        ObjectNode members = JsonBodyReader.read(body);
         // A robot that is on no mission can be stopped too. An operator may put any entity on one.
         ObjectNode device = members.hasNonNull("type") ? known(name).orElse(members) : find(name);
         String command = members.path("command").asText();
@@ -211,7 +211,7 @@ public final class DevicesResource {
             throw new ProblemException(
                     501, "no-context-broker", "this control plane was started without a context broker for commands");
         }
-        String user = Caller.user(request);
+        String user = RequestContext.user(request);
         return means.commands()
                 .in(scope)
                 .send(new DeviceCommands.Order(name.id(), type, command, value))
@@ -233,7 +233,7 @@ public final class DevicesResource {
         if (cause instanceof RejectedExecutionException) {
             throw ProblemException.overloaded();
         }
-        int status = cause instanceof RefusedCommandException refused ? refused.status() : 502;
+        int status = cause instanceof RejectedCommandException refused ? refused.status() : 502;
         throw new ProblemException(status, "context-broker", cause.getMessage());
     }
 

@@ -26,8 +26,8 @@ import jakarta.ws.rs.core.Response;
 import jakarta.ws.rs.core.UriBuilder;
 
 import io.furrow.control.audit.AuditEntry;
-import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.MarkerStore;
 import io.furrow.mission.RecordingException;
@@ -61,13 +61,13 @@ public final class MarkersResource {
                 .thenApply(all -> JsonResponses.ok(all.stream().map(Marker::toJson)));
     }
 
-    /** The same {@link Caller#KEY} is the same marker. */
+    /** The same {@link RequestContext#KEY} is the same marker. */
     @POST
     public CompletionStage<Response> add(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
-        ObjectNode members = Body.read(body);
-        Caller caller = Caller.of(request);
+        ObjectNode members = JsonBodyReader.read(body);
+        RequestContext caller = RequestContext.of(request);
         String id = UUID.nameUUIDFromBytes(
                         (mission + "\n" + caller.user() + "\n" + caller.requestId()).getBytes(StandardCharsets.UTF_8))
                 .toString();
@@ -101,7 +101,7 @@ public final class MarkersResource {
             @Context ContainerRequestContext request,
             @PathParam(MISSION) String mission,
             @PathParam(MARKER) String id) {
-        Change change = new Change(Caller.of(request), "remove-marker", mission, id);
+        Change change = new Change(RequestContext.of(request), "remove-marker", mission, id);
         return store.ask(markers -> {
                     if (!markers.remove(mission, id)) {
                         throw new ProblemException(
@@ -118,7 +118,7 @@ public final class MarkersResource {
                 });
     }
 
-    private record Change(Caller caller, String command, String mission, String marker) {}
+    private record Change(RequestContext caller, String command, String mission, String marker) {}
 
     /** Puts it on the audit topic; throws the failure. @param failure null if there is none */
     private void audit(Change change, String result, Throwable failure) {

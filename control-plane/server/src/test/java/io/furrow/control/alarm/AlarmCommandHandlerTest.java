@@ -7,8 +7,8 @@ import java.util.Set;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.manager.KeptOutbox;
-import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.CapturingPublisher;
+import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.Sequence;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
@@ -25,16 +25,16 @@ class AlarmCommandHandlerTest {
     private static final long NOW = 1_700_000_000_000L;
     private static final Duration HOUR = Duration.ofHours(1);
 
-    private final MapRecords<AlarmRecords.Mute> mutes = MapRecords.of(AlarmRecords.Mute.class);
-    private final KeptOutbox outbox = new KeptOutbox();
+    private final MapTable<AlarmTables.Mute> mutes = MapTable.of(AlarmTables.Mute.class);
+    private final CapturingPublisher outbox = new CapturingPublisher();
     private final AlarmCommandHandler handler = new AlarmCommandHandler(
-            new AlarmRecords(
-                    MapRecords.of(Alarm.class),
-                    MapRecords.of(String.class),
+            new AlarmTables(
+                    MapTable.of(Alarm.class),
+                    MapTable.of(String.class),
                     mutes,
-                    MapRecords.of(AlarmLimit.Group.class),
-                    MapRecords.of(AlarmLimit.Counted.class)),
-            new Sequence(MapRecords.of(Long.class)),
+                    MapTable.of(AlarmLimit.Group.class),
+                    MapTable.of(AlarmLimit.Overflow.class)),
+            new Sequence(MapTable.of(Long.class)),
             outbox);
 
     @Test
@@ -71,7 +71,8 @@ class AlarmCommandHandlerTest {
                 .returns(AlarmState.ACKNOWLEDGED, Alarm::state)
                 .returns("ann", Alarm::acknowledgedBy);
         refused(ErrorCode.WRONG_STATE, acknowledge("silent-device-1"));
-        handler.answer(new AlarmCommand.Close("silent-device-1", "bob"), NOW + AlarmLife.CAUSE_LASTS.toMillis());
+        handler.answer(
+                new AlarmCommand.Close("silent-device-1", "bob"), NOW + AlarmStateMachine.CAUSE_LASTS.toMillis());
         assertThat(alarm("silent-device-1"))
                 .returns("closed by bob", Alarm::reason)
                 .returns("ann", Alarm::acknowledgedBy);
@@ -148,7 +149,7 @@ class AlarmCommandHandlerTest {
     @Test
     void refusesToCloseByHandWhatWasSeenWithinTheLastMinute() throws Exception {
         handler.raise(silent("urn:t:1"), NOW);
-        long later = NOW + AlarmLife.CAUSE_LASTS.toMillis() - 1;
+        long later = NOW + AlarmStateMachine.CAUSE_LASTS.toMillis() - 1;
         assertThatThrownBy(() -> handler.answer(new AlarmCommand.Close("silent-device-1", null), later))
                 .isInstanceOf(RefusedException.class)
                 .hasMessage("alarm 'silent-device-1' closes when its cause is over: it is silent (seen 59 s ago)."
@@ -157,8 +158,9 @@ class AlarmCommandHandlerTest {
         assertThatThrownBy(() -> handler.answer(new AlarmCommand.Close("silent-device-1", null), later + 1))
                 .isInstanceOf(RefusedException.class);
         assertThat(alarm("silent-device-1").state()).isEqualTo(AlarmState.OPEN);
-        handler.answer(new AlarmCommand.Close("silent-device-1", null), later + AlarmLife.CAUSE_LASTS.toMillis());
-        handler.raise(silent("urn:t:1"), later + AlarmLife.CAUSE_LASTS.toMillis());
+        handler.answer(
+                new AlarmCommand.Close("silent-device-1", null), later + AlarmStateMachine.CAUSE_LASTS.toMillis());
+        handler.raise(silent("urn:t:1"), later + AlarmStateMachine.CAUSE_LASTS.toMillis());
         assertThat(outbox.compacted(Topics.ALARMS)).hasSize(2);
     }
 
@@ -278,7 +280,7 @@ class AlarmCommandHandlerTest {
     void refusesToMuteMoreSubjectsThanItRemembers() throws Exception {
         for (int i = 0; i < Limits.MUTES; i++) {
             String key = Cause.key(AlarmKind.SILENT_DEVICE, "urn:t:" + i);
-            mutes.put(key, new AlarmRecords.Mute(key, NOW + HOUR.toMillis()));
+            mutes.put(key, new AlarmTables.Mute(key, NOW + HOUR.toMillis()));
         }
 
         assertThatThrownBy(() -> handler.answer(mute("urn:t:further"), NOW))
@@ -329,7 +331,7 @@ class AlarmCommandHandlerTest {
                 AlarmKind.SILENT_DEVICE,
                 device,
                 "it is silent",
-                List.of(new Cause.Device(device, "Thermometer", null, null)),
+                List.of(new Cause.AffectedDevice(device, "Thermometer", null, null)),
                 null);
     }
 

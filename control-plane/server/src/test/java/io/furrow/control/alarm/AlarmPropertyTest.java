@@ -13,8 +13,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInfo;
 import org.junit.jupiter.api.TestReporter;
 
-import io.furrow.control.manager.KeptOutbox;
-import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.CapturingPublisher;
+import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.Sequence;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
@@ -50,15 +50,15 @@ class AlarmPropertyTest {
     }
 
     private static final class Walk {
-        private final MapRecords<Alarm> alarms = MapRecords.of(Alarm.class);
-        private final MapRecords<String> current = MapRecords.of(String.class);
-        private final MapRecords<AlarmRecords.Mute> mutes = MapRecords.of(AlarmRecords.Mute.class);
-        private final KeptOutbox outbox = new KeptOutbox();
-        private final MapRecords<AlarmLimit.Group> groups = MapRecords.of(AlarmLimit.Group.class);
-        private final MapRecords<AlarmLimit.Counted> counted = MapRecords.of(AlarmLimit.Counted.class);
+        private final MapTable<Alarm> alarms = MapTable.of(Alarm.class);
+        private final MapTable<String> current = MapTable.of(String.class);
+        private final MapTable<AlarmTables.Mute> mutes = MapTable.of(AlarmTables.Mute.class);
+        private final CapturingPublisher outbox = new CapturingPublisher();
+        private final MapTable<AlarmLimit.Group> groups = MapTable.of(AlarmLimit.Group.class);
+        private final MapTable<AlarmLimit.Overflow> counted = MapTable.of(AlarmLimit.Overflow.class);
         private final AlarmCommandHandler handler = new AlarmCommandHandler(
-                new AlarmRecords(alarms, current, mutes, groups, counted),
-                new Sequence(MapRecords.of(Long.class)),
+                new AlarmTables(alarms, current, mutes, groups, counted),
+                new Sequence(MapTable.of(Long.class)),
                 outbox);
         private final Map<String, Long> lasting = new HashMap<>();
         private final Set<String> closed = new HashSet<>();
@@ -147,7 +147,8 @@ class AlarmPropertyTest {
 
         private Cause cause(AlarmKind kind) {
             Duration holds = random.nextBoolean() ? null : Duration.ofSeconds(1 + random.nextInt(60));
-            Cause cause = new Cause(kind, subject(), "look", List.of(new Cause.Device("x", null, null, null)), holds);
+            Cause cause =
+                    new Cause(kind, subject(), "look", List.of(new Cause.AffectedDevice("x", null, null, null)), holds);
             return AlarmLimit.KINDS.contains(kind) ? cause.inGroup("g") : cause;
         }
 

@@ -94,7 +94,7 @@ class DeviceCommandsTest {
         Throwable failure = catchThrowable(() -> commands().send("t1", "Thermometer", "on", "a=b"));
 
         assertThat(failure).isInstanceOf(IOException.class);
-        assertThat(failure instanceof RefusedCommandException known ? known.status() : null)
+        assertThat(failure instanceof RejectedCommandException known ? known.status() : null)
                 .isEqualTo(refused);
     }
 

@@ -10,10 +10,10 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.AlarmCommandHandler;
-import io.furrow.control.alarm.AlarmHandlers;
+import io.furrow.control.alarm.AlarmHandlerFixture;
 import io.furrow.control.alarm.Cause;
-import io.furrow.control.manager.KeptOutbox;
-import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.CapturingPublisher;
+import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.device.DesiredDevice;
@@ -33,10 +33,10 @@ class DeviceHealthTrackerTest {
     /** Three periods, and the timeout with devices that come up. */
     private static final long LONG_ENOUGH = 30_000 + DeviceHealthTracker.TIMEOUT.toMillis();
 
-    private final MapRecords<byte[]> desired = new MapRecords<>(Function.identity(), Function.identity());
-    private final MapRecords<DeviceHealth> health = MapRecords.of(DeviceHealth.class);
-    private final KeptOutbox outbox = new KeptOutbox();
-    private final AlarmCommandHandler alarms = AlarmHandlers.writingTo(outbox);
+    private final MapTable<byte[]> desired = new MapTable<>(Function.identity(), Function.identity());
+    private final MapTable<DeviceHealth> health = MapTable.of(DeviceHealth.class);
+    private final CapturingPublisher outbox = new CapturingPublisher();
+    private final AlarmCommandHandler alarms = AlarmHandlerFixture.writingTo(outbox);
     private DeviceConnection connection;
     private DeviceHealthTracker tracker = tracker();
 
@@ -167,9 +167,9 @@ class DeviceHealthTrackerTest {
     private DeviceHealthTracker tracker() {
         return new DeviceHealthTracker(
                 health,
-                new DesiredDevices(desired),
+                new MonitoredDevices(desired),
                 HealthOptions.DEFAULT,
-                new Silence(HealthOptions.DEFAULT, alarms, key -> Optional.ofNullable(connection)),
+                new SilenceAlarmReconciler(HealthOptions.DEFAULT, alarms, key -> Optional.ofNullable(connection)),
                 outbox);
     }
 

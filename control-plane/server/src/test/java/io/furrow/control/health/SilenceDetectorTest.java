@@ -8,7 +8,7 @@ import java.util.function.Function;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.MapTable;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.Entity;
@@ -22,10 +22,10 @@ class SilenceDetectorTest {
     private static final String KEY = "|/|" + ID;
     private static final Duration PERIOD = Duration.ofSeconds(10);
 
-    private final MapRecords<byte[]> desired = new MapRecords<>(Function.identity(), Function.identity());
+    private final MapTable<byte[]> desired = new MapTable<>(Function.identity(), Function.identity());
     private final List<Heartbeat> signs = new ArrayList<>();
     private final SilenceDetector listener =
-            new SilenceDetector(HealthOptions.DEFAULT, new DesiredDevices(desired), (key, sign) -> signs.add(sign));
+            new SilenceDetector(HealthOptions.DEFAULT, new MonitoredDevices(desired), (key, sign) -> signs.add(sign));
     private long now = 1_700_000_000_000L;
 
     @Test

@@ -18,10 +18,10 @@ import org.junit.jupiter.api.TestReporter;
 
 import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.AlarmCommandHandler;
-import io.furrow.control.alarm.AlarmHandlers;
+import io.furrow.control.alarm.AlarmHandlerFixture;
 import io.furrow.control.alarm.AlarmState;
-import io.furrow.control.manager.KeptOutbox;
-import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.CapturingPublisher;
+import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
@@ -57,10 +57,10 @@ class SilencePropertyTest {
     }
 
     private static final class Walk {
-        private final MapRecords<byte[]> desired = new MapRecords<>(Function.identity(), Function.identity());
-        private final MapRecords<DeviceHealth> health = MapRecords.of(DeviceHealth.class);
-        private final KeptOutbox outbox = new KeptOutbox();
-        private final AlarmCommandHandler alarms = AlarmHandlers.writingTo(outbox);
+        private final MapTable<byte[]> desired = new MapTable<>(Function.identity(), Function.identity());
+        private final MapTable<DeviceHealth> health = MapTable.of(DeviceHealth.class);
+        private final CapturingPublisher outbox = new CapturingPublisher();
+        private final AlarmCommandHandler alarms = AlarmHandlerFixture.writingTo(outbox);
         private final Set<String> talking = new HashSet<>();
         private final Map<AlarmKind, Integer> raised = new TreeMap<>();
         private final Random random;
@@ -194,9 +194,9 @@ class SilencePropertyTest {
         private DeviceHealthTracker tracker() {
             return new DeviceHealthTracker(
                     health,
-                    new DesiredDevices(desired),
+                    new MonitoredDevices(desired),
                     HealthOptions.DEFAULT,
-                    new Silence(HealthOptions.DEFAULT, alarms, key -> Optional.empty()),
+                    new SilenceAlarmReconciler(HealthOptions.DEFAULT, alarms, key -> Optional.empty()),
                     outbox);
         }
 

@@ -20,7 +20,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class CredentialsTest {
     private static final String DEVICE = "urn:ngsi-ld:Thermometer:m-1";
 
-    private final Farm farm = new Farm();
+    private final FarmFixture farm = new FarmFixture();
 
     @BeforeEach
     void startAMission() throws Exception {
@@ -100,7 +100,7 @@ class CredentialsTest {
     }
 
     private void start() throws RefusedException {
-        farm.start("m", "north", Farm.group("Thermometer", 2));
+        farm.start("m", "north", FarmFixture.group("Thermometer", 2));
     }
 
     private void stop() throws RefusedException {

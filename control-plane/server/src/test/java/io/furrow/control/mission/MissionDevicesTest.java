@@ -23,7 +23,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class MissionDevicesTest {
-    private final Farm farm = new Farm();
+    private final FarmFixture farm = new FarmFixture();
 
     @BeforeEach
     void makeADomain() throws Exception {
@@ -79,20 +79,20 @@ class MissionDevicesTest {
 
     @Test
     void writesManyDevicesInSeveralTransactions() throws Exception {
-        Farm many = new Farm(10);
+        FarmFixture many = new FarmFixture(10);
         many.domain("north");
-        many.start("m", "north", Farm.group("Camera", 25));
+        many.start("m", "north", FarmFixture.group("Camera", 25));
 
         assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(10);
         assertThat(many.status("m").devices()).isEqualTo(25);
-        many.pass(Farm.TIMEOUT);
+        many.pass(FarmFixture.TIMEOUT);
         assertThat(many.status("m").state()).isEqualTo(MissionState.STARTING);
         many.step();
         assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(20);
         many.step();
         assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(25);
         assertThat(many.step()).isFalse();
-        many.pass(Farm.TIMEOUT - 1);
+        many.pass(FarmFixture.TIMEOUT - 1);
         assertThat(many.status("m").state()).isEqualTo(MissionState.STARTING);
         many.hostAll();
         assertThat(many.status("m").state()).isEqualTo(MissionState.RUNNING);
@@ -108,9 +108,9 @@ class MissionDevicesTest {
 
     @Test
     void stopsAMissionOfWhichSomeDevicesWereNeverAskedFor() throws Exception {
-        Farm many = new Farm(10);
+        FarmFixture many = new FarmFixture(10);
         many.domain("north");
-        many.start("m", "north", Farm.group("Camera", 25));
+        many.start("m", "north", FarmFixture.group("Camera", 25));
         many.ask(new MissionCommand.Stop("m"));
         while (many.step()) {
             many.hostAll();
@@ -121,9 +121,9 @@ class MissionDevicesTest {
 
     @Test
     void givesNoDeviceAwayThatAMissionIsAboutToAskFor() throws Exception {
-        Farm many = new Farm(1);
+        FarmFixture many = new FarmFixture(1);
         many.domain("north");
-        many.start("m", "north", Farm.group("Camera", 2), DeviceGroup.entity("urn:robot"));
+        many.start("m", "north", FarmFixture.group("Camera", 2), DeviceGroup.entity("urn:robot"));
         assertThatThrownBy(() -> many.start("other", "north", DeviceGroup.entity("urn:robot")))
                 .isInstanceOfSatisfying(
                         RefusedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.DEVICE_TAKEN));
@@ -181,13 +181,13 @@ class MissionDevicesTest {
             }
         }
         assertThat(domains).isBetween(30, 40);
-        farm.refused(ErrorCode.QUOTA_EXCEEDED, () -> farm.start("big", "north", Farm.group("Camera", 10_000)));
+        farm.refused(ErrorCode.QUOTA_EXCEEDED, () -> farm.start("big", "north", FarmFixture.group("Camera", 10_000)));
         farm.ask(new DomainCommand.Delete("d0", false));
         farm.ask(new DomainCommand.Create("d0", new DomainDetails(null, null, area, null)));
         for (int i = 0; i < 20; i++) {
             farm.ask(new DomainCommand.Delete("d" + i, false));
         }
-        farm.start("big", "north", Farm.group("Camera", 10_000));
+        farm.start("big", "north", FarmFixture.group("Camera", 10_000));
 
         area.put("more", "x".repeat(Limits.RECORD_BYTES));
         assertThatThrownBy(() -> farm.ask(new DomainCommand.Change("d20", new DomainDetails(null, null, area, null))))

@@ -25,7 +25,7 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MissionLifeTest {
-    private final Farm farm = new Farm();
+    private final FarmFixture farm = new FarmFixture();
 
     @BeforeEach
     void makeADomain() throws Exception {
@@ -34,7 +34,9 @@ class MissionLifeTest {
 
     @Test
     void goesFromStartingToStoppedAsItsDevicesComeUpAndGo() throws Exception {
-        assertThat(farm.start("m", "north", Farm.group("Thermometer", 2)).json().toString())
+        assertThat(farm.start("m", "north", FarmFixture.group("Thermometer", 2))
+                        .json()
+                        .toString())
                 .isEqualTo("{\"type\":\"response\",\"status\":\"created\",\"mission\":\"m\",\"domain\":\"north\","
                         + "\"domain_topic\":\"data.north.realtime\",\"mission_topic\":\"data.north.realtime.m\"}");
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
@@ -82,10 +84,10 @@ class MissionLifeTest {
 
     @Test
     void namesDevicesThatDidNotComeUpInTime() throws Exception {
-        farm.start("m", "north", Farm.group("Camera", 3));
+        farm.start("m", "north", FarmFixture.group("Camera", 3));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-1"), State.RUNNING);
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
-        farm.pass(Farm.TIMEOUT - 1);
+        farm.pass(FarmFixture.TIMEOUT - 1);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
         farm.pass(1);
 
@@ -106,9 +108,9 @@ class MissionLifeTest {
 
     @Test
     void waitsForItsFirstDeviceAndTakesNothingFromAny() throws Exception {
-        farm.start("m", "north", Farm.real("Thermometer", 2), Farm.group("Camera", 2));
+        farm.start("m", "north", FarmFixture.real("Thermometer", 2), FarmFixture.group("Camera", 2));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
-        farm.pass(Farm.TIMEOUT);
+        farm.pass(FarmFixture.TIMEOUT);
         farm.pass(Duration.ofHours(3).toMillis());
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
@@ -132,10 +134,10 @@ class MissionLifeTest {
 
     @Test
     void saysTheBestReasonThatIsKnownOfADeviceThatItMisses() throws Exception {
-        farm.start("m", "north", Farm.real("Thermometer", 1));
+        farm.start("m", "north", FarmFixture.real("Thermometer", 1));
         DesiredDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
         farm.connect(thermometer, null);
-        farm.pass(Farm.TIMEOUT);
+        farm.pass(FarmFixture.TIMEOUT);
         assertThat(reason()).startsWith("it has not connected to the MQTT broker since ");
 
         farm.connect(thermometer, refused(1));
@@ -163,7 +165,7 @@ class MissionLifeTest {
 
     @Test
     void countsARealDeviceAsUpByItsFirstReportSinceItWasAskedFor() throws Exception {
-        farm.start("m", "north", Farm.real("Thermometer", 1), DeviceGroup.entity("urn:robot"));
+        farm.start("m", "north", FarmFixture.real("Thermometer", 1), DeviceGroup.entity("urn:robot"));
         DesiredDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
         farm.hear(thermometer, farm.now - 1);
         farm.report(thermometer, State.RUNNING);
@@ -185,9 +187,9 @@ class MissionLifeTest {
 
     @Test
     void stopsWithoutDevicesThatDoNotGo() throws Exception {
-        farm.start("m", "north", Farm.group("Camera", 1));
+        farm.start("m", "north", FarmFixture.group("Camera", 1));
         farm.ask(new MissionCommand.Stop("m"));
-        farm.pass(Farm.TIMEOUT);
+        farm.pass(FarmFixture.TIMEOUT);
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
         assertThat(farm.status("m").missing())
@@ -196,7 +198,7 @@ class MissionLifeTest {
 
     @Test
     void passesOverReportsOfAnEarlierSequence() throws Exception {
-        farm.start("m", "north", Farm.group("Camera", 1));
+        farm.start("m", "north", FarmFixture.group("Camera", 1));
         DesiredDevice earlier = farm.device("urn:ngsi-ld:Camera:m-1");
         farm.hostAll();
         farm.ask(new MissionCommand.Stop("m"));
@@ -209,7 +211,7 @@ class MissionLifeTest {
     void startsAtItsDateAndStopsAfterItsDuration() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
         farm.ask(new MissionCommand.Start(
-                "m", "north", Farm.devices(Farm.group("Camera", 1)), date, Duration.ofSeconds(5)));
+                "m", "north", FarmFixture.devices(FarmFixture.group("Camera", 1)), date, Duration.ofSeconds(5)));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.CREATED);
         farm.pass(9_999);
         assertThat(farm.all(farm.devices)).isEmpty();
@@ -225,7 +227,8 @@ class MissionLifeTest {
     @Test
     void doesNotStartWhereTheStartWasTakenBack() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
-        farm.ask(new MissionCommand.Start("m", "north", Farm.devices(Farm.group("Camera", 1)), date, null));
+        farm.ask(new MissionCommand.Start(
+                "m", "north", FarmFixture.devices(FarmFixture.group("Camera", 1)), date, null));
         farm.ask(new MissionCommand.Stop("m"));
         farm.pass(20_000);
 
@@ -236,7 +239,7 @@ class MissionLifeTest {
     @Test
     void failsAtItsDateWhereItsDomainIsGone() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
-        farm.ask(new MissionCommand.Start("m", "north", Farm.devices(), date, null));
+        farm.ask(new MissionCommand.Start("m", "north", FarmFixture.devices(), date, null));
         farm.run(() -> farm.domains.put("north", null)); // as before domains were deleted with their missions
         farm.pass(10_000);
 
@@ -247,7 +250,7 @@ class MissionLifeTest {
     @Test
     void refusesWhatCannotBe() throws Exception {
         farm.domain("south");
-        farm.start("m", "north", Farm.group("Camera", 1), DeviceGroup.entity("urn:robot"));
+        farm.start("m", "north", FarmFixture.group("Camera", 1), DeviceGroup.entity("urn:robot"));
 
         farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.start("m", "north"));
         farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.Stop("other")));
@@ -258,7 +261,10 @@ class MissionLifeTest {
         farm.refused(
                 ErrorCode.DEVICE_TAKEN,
                 () -> farm.start(
-                        "other", "south", Farm.group("Camera", 1), DeviceGroup.entity("urn:ngsi-ld:Camera:other-1")));
+                        "other",
+                        "south",
+                        FarmFixture.group("Camera", 1),
+                        DeviceGroup.entity("urn:ngsi-ld:Camera:other-1")));
         farm.refused(
                 ErrorCode.UNKNOWN_TEMPLATE,
                 () -> farm.ask(new MissionCommand.Start(
@@ -276,7 +282,7 @@ class MissionLifeTest {
 
     @Test
     void keepsADomainInWhichMissionsRunUnlessForced() throws Exception {
-        farm.start("m", "north", Farm.group("Camera", 1));
+        farm.start("m", "north", FarmFixture.group("Camera", 1));
         farm.refused(ErrorCode.MISSIONS_RUNNING, () -> farm.ask(new DomainCommand.Delete("north", false)));
 
         farm.ask(new DomainCommand.Delete("north", true));
@@ -287,9 +293,9 @@ class MissionLifeTest {
     @Test
     void deletesADomainWithItsMissionsAndEndsItsFields() throws Exception {
         farm.domain("south");
-        farm.start("runs", "north", Farm.group("Camera", 1));
+        farm.start("runs", "north", FarmFixture.group("Camera", 1));
         farm.ask(new MissionCommand.Create("idle", "north", new MissionPlan.Unsaid()));
-        farm.start("theirs", "south", Farm.group("Camera", 1));
+        farm.start("theirs", "south", FarmFixture.group("Camera", 1));
         farm.field("a", 1, "north");
         farm.field("b", 1, "south");
         farm.field("planned", farm.now + 1, "north");
@@ -311,7 +317,7 @@ class MissionLifeTest {
         assertThat(end.key()).isEqualTo(new FieldVersion.Key("a", farm.now).toString());
         assertThat(end.isEnd()).isTrue();
         farm.domain("north");
-        farm.start("runs", "north", Farm.group("Camera", 1));
+        farm.start("runs", "north", FarmFixture.group("Camera", 1));
     }
 
     @Test

@@ -11,7 +11,7 @@ import java.util.Set;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.manager.KeptOutbox;
+import io.furrow.control.manager.CapturingPublisher;
 import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;
@@ -45,7 +45,7 @@ class MissionPropertyTest {
 
     /** One farm and what happens to it. */
     private static final class Walk {
-        private final Farm farm;
+        private final FarmFixture farm;
         private final Random random;
         private final String said;
         private int refused;
@@ -53,7 +53,7 @@ class MissionPropertyTest {
         Walk(Random random, String said) {
             this.random = random;
             this.said = said;
-            this.farm = new Farm(1 + random.nextInt(4));
+            this.farm = new FarmFixture(1 + random.nextInt(4));
         }
 
         int run() throws Exception {
@@ -118,8 +118,12 @@ class MissionPropertyTest {
             return switch (random.nextInt(4)) {
                 case 0 -> new MissionPlan.FromTemplate(random.nextInt(3) == 0 ? "nosuch" : TemplateStore.DEMO, 0);
                 case 1 -> new MissionPlan.Unsaid();
-                case 2 -> Farm.devices(Farm.group("Camera", 1 + random.nextInt(3)), DeviceGroup.entity("urn:robot"));
-                default -> Farm.devices(Farm.group("Thermometer", 1 + random.nextInt(4)), Farm.real("Camera", 2));
+                case 2 ->
+                    FarmFixture.devices(
+                            FarmFixture.group("Camera", 1 + random.nextInt(3)), DeviceGroup.entity("urn:robot"));
+                default ->
+                    FarmFixture.devices(
+                            FarmFixture.group("Thermometer", 1 + random.nextInt(4)), FarmFixture.real("Camera", 2));
             };
         }
 
@@ -127,7 +131,7 @@ class MissionPropertyTest {
             return new MissionDevices(
                     random.nextBoolean()
                             ? List.of(DeviceGroup.entity("urn:robot"))
-                            : List.of(Farm.group("Camera", 1 + random.nextInt(3))));
+                            : List.of(FarmFixture.group("Camera", 1 + random.nextInt(3))));
         }
 
         private void reportOne() {
@@ -246,7 +250,7 @@ class MissionPropertyTest {
 
         private static <T> Map<String, String> states(List<T> all, java.util.function.Function<T, String> name) {
             Map<String, String> states = new HashMap<>();
-            all.forEach(each -> states.put(name.apply(each), Farm.json(each)));
+            all.forEach(each -> states.put(name.apply(each), FarmFixture.json(each)));
             return states;
         }
 
@@ -271,7 +275,7 @@ class MissionPropertyTest {
 
         private void checkSequences() throws Exception {
             long last = 0;
-            for (KeptOutbox.Written record : farm.outbox.all()) {
+            for (CapturingPublisher.Written record : farm.outbox.all()) {
                 if (record.topic().equals(Topics.DEVICES) && record.value() != null) {
                     long sequence = DeviceVersion.read(record.value()).sequence();
                     assertThat(sequence).as(said).isGreaterThan(last);

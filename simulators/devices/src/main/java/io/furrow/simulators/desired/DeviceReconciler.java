@@ -15,7 +15,7 @@ import io.furrow.model.device.DeviceStatus;
  * the next sequence tries again.
  */
 public final class DeviceReconciler {
-    private final Map<String, Device> devices = new HashMap<>();
+    private final Map<String, RunningDevice> devices = new HashMap<>();
 
     /**
      * State of a device.
@@ -23,7 +23,7 @@ public final class DeviceReconciler {
      * @param asked the newest record, null if the device was deleted and has yet to be stopped
      * @param runs the running device of the key; null if none runs
      */
-    private record Device(DesiredDevice asked, long sequence, DesiredDevice runs) {}
+    private record RunningDevice(DesiredDevice asked, long sequence, DesiredDevice runs) {}
 
     /** A step for the host of the devices. */
     public sealed interface Step {
@@ -49,9 +49,9 @@ public final class DeviceReconciler {
      * @return the step; empty if the record is out of date, or of a device that was never simulated here
      */
     public Optional<Step> take(String key, DesiredDevice desired) {
-        Device known = devices.getOrDefault(key, new Device(null, -1, null));
+        RunningDevice known = devices.getOrDefault(key, new RunningDevice(null, -1, null));
         if (desired == null) {
-            devices.put(key, new Device(null, known.sequence, known.runs));
+            devices.put(key, new RunningDevice(null, known.sequence, known.runs));
             if (known.runs == null) {
                 devices.remove(key);
                 return Optional.empty();
@@ -64,7 +64,7 @@ public final class DeviceReconciler {
         if (!desired.simulated() && known.asked == null) {
             return Optional.empty();
         }
-        devices.put(key, new Device(desired, desired.version().sequence(), known.runs));
+        devices.put(key, new RunningDevice(desired, desired.version().sequence(), known.runs));
         return Optional.of(step(key, desired, known.runs));
     }
 
@@ -98,13 +98,13 @@ public final class DeviceReconciler {
      * @return the record for the status topic under the step's key; empty for a tombstone
      */
     public Optional<DeviceStatus> done(Step step, String failure) {
-        Device known = devices.get(step.key());
+        RunningDevice known = devices.get(step.key());
         if (known.asked == null) {
             devices.remove(step.key());
             return Optional.empty();
         }
         DesiredDevice runs = failure == null && known.asked.running() && known.asked.simulated() ? known.asked : null;
-        devices.put(step.key(), new Device(known.asked, known.sequence, runs));
+        devices.put(step.key(), new RunningDevice(known.asked, known.sequence, runs));
         DeviceStatus.State state = DeviceStatus.State.STOPPED;
         if (failure != null) {
             state = DeviceStatus.State.FAILED;

@@ -20,7 +20,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.model.event.FiwareScope;
-import io.furrow.simulators.device.IotAgent;
+import io.furrow.simulators.device.IotAgentClient;
 import io.furrow.simulators.scenario.Farm;
 import io.furrow.simulators.scenario.SimulatedDevice;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
@@ -44,7 +44,7 @@ public final class FarmFleet implements AutoCloseable {
     private final Map<String, Member> joining = new HashMap<>();
     private final FleetEvents events;
     private final Robots robots;
-    private final Commands commands;
+    private final DeviceCommandExecutor commands;
     private final LongAdder reports = new LongAdder();
     private final Thread thread = new Thread(this::run, "simulated-farm");
     private volatile Tally tally = new Tally(0, 0, 0);
@@ -74,7 +74,7 @@ public final class FarmFleet implements AutoCloseable {
         this.connections = connections;
         this.events = events;
         this.robots = new Robots(access.fiware(), scene, events);
-        this.commands = new Commands(scene, connections, this::send);
+        this.commands = new DeviceCommandExecutor(scene, connections, this::send);
         thread.setDaemon(true);
     }
 
@@ -85,7 +85,7 @@ public final class FarmFleet implements AutoCloseable {
      * @throws IOException if the IoT Agent or the MQTT broker is unavailable or refuses; nothing keeps running then
      */
     public static FarmFleet start(Farm farm, FleetAccess access) throws IOException, InterruptedException {
-        new IotAgent(access.fiware()).provision(farm.apiKey(), Registrations.of(farm));
+        new IotAgentClient(access.fiware()).provision(farm.apiKey(), DeviceRegistrationFactory.of(farm));
         return start(farm, access, Connections.MAX_OWN, Clock.systemUTC());
     }
 

@@ -16,8 +16,8 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.position.Position;
+import io.furrow.simulators.camera.CameraView;
 import io.furrow.simulators.camera.FieldPicture;
-import io.furrow.simulators.camera.View;
 import io.furrow.simulators.robot.FirosEntity;
 import io.furrow.simulators.robot.RobotState;
 import io.furrow.simulators.robot.Trajectory;
@@ -139,7 +139,7 @@ final class FarmSimulation {
                 .filter(robot -> !robot.getKey().equals(camera.place().carrier()))
                 .map(Map.Entry::getValue)
                 .toList();
-        View view = new View(now, pose.place(), heading, robotsAround);
+        CameraView view = new CameraView(now, pose.place(), heading, robotsAround);
         ObjectNode json = NODES.objectNode().put("img", Base64.getEncoder().encodeToString(FieldPicture.png(view)));
         shown(camera.battery(), json, now);
         return Optional.of(new Report.Measures(camera.id(), located(json, pose.place(), camera.place(), now)));

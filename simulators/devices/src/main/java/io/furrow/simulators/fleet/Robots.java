@@ -17,9 +17,9 @@ final class Robots {
     private final FleetSettings settings;
     private final FarmSimulation scene;
     private final FleetEvents events;
-    private final Map<FiwareScope, RobotLink> links = new HashMap<>();
+    private final Map<FiwareScope, RobotClient> links = new HashMap<>();
     private final Map<String, Robot> robots = new HashMap<>();
-    private final Map<String, RobotLink> linkOf = new HashMap<>();
+    private final Map<String, RobotClient> linkOf = new HashMap<>();
     private final Map<String, Instant> restarting = new HashMap<>();
     private Instant polled = Instant.MIN;
 
@@ -34,14 +34,14 @@ final class Robots {
     }
 
     void add(Robot robot, FiwareScope scope) {
-        RobotLink link = links.computeIfAbsent(scope, this::link);
+        RobotClient link = links.computeIfAbsent(scope, this::link);
         link.add(robot.id(), robot.identity().entity());
         robots.put(robot.id(), robot);
         linkOf.put(robot.id(), link);
     }
 
-    private RobotLink link(FiwareScope scope) {
-        return new RobotLink(
+    private RobotClient link(FiwareScope scope) {
+        return new RobotClient(
                 new FleetSettings(
                                 settings.contextBroker(), null, null, null, null, scope.service(), scope.servicePath())
                         .withToken(settings.token()),
@@ -56,7 +56,7 @@ final class Robots {
     }
 
     void send(Report.Update update) {
-        RobotLink link = linkOf.get(update.device());
+        RobotClient link = linkOf.get(update.device());
         if (link != null) {
             link.update(update.entity());
         }
@@ -67,7 +67,7 @@ final class Robots {
         links.values().forEach(link -> link.orders().forEach(order -> obey(link, order, now)));
     }
 
-    private void obey(RobotLink link, RobotLink.Order order, Instant now) {
+    private void obey(RobotClient link, RobotClient.Order order, Instant now) {
         Robot robot = robots.get(order.device());
         switch (order.word()) {
             case "Running", "Resume", "Stop" -> {
@@ -79,7 +79,7 @@ final class Robots {
                 link.answer(order.entity(), true, order.word());
             }
             case RESTART -> {
-                Instant until = now.plus(Commands.RESTART);
+                Instant until = now.plus(DeviceCommandExecutor.RESTART);
                 scene.restart(robot.id(), until);
                 restarting.put(robot.id(), until);
                 link.restart(order.entity());
@@ -107,8 +107,8 @@ final class Robots {
         if (Duration.between(polled, now).compareTo(POLL_INTERVAL) >= 0) {
             polled = now;
             endRestarts(now);
-            links.values().forEach(RobotLink::publishResults);
-            links.values().forEach(RobotLink::poll);
+            links.values().forEach(RobotClient::publishResults);
+            links.values().forEach(RobotClient::poll);
         }
     }
 }

@@ -27,8 +27,8 @@ import io.furrow.simulators.desired.DeviceReconciler.Step;
 import io.furrow.simulators.fleet.FarmFleet;
 import io.furrow.simulators.robot.WorkField;
 import io.furrow.simulators.scenario.DesiredDeviceReader;
+import io.furrow.simulators.scenario.InvalidScenarioException;
 import io.furrow.simulators.scenario.SimulatedDevice;
-import io.furrow.simulators.scenario.UnusableScenarioException;
 
 /**
  * Reconciles a fleet with the desired devices. A device that cannot be created is retried when a field or robot appears
@@ -168,7 +168,7 @@ final class FleetReconciler {
                 board.begun(step.key(), device.device(), running);
                 missions.computeIfAbsent(device.version().mission(), none -> new ArrayList<>())
                         .add(member);
-            } catch (UnusableScenarioException e) {
+            } catch (InvalidScenarioException e) {
                 failed(step, device, e.getMessage());
             } catch (RuntimeException e) { // such as unforeseen geometry; other devices shall run
                 LOG.warn("device {} cannot be simulated", device.device(), e);
@@ -183,19 +183,19 @@ final class FleetReconciler {
         board.ended(step.key(), reconciler.done(step, reason).orElseThrow());
     }
 
-    private FarmFleet.Member member(String key, DesiredDevice device) throws UnusableScenarioException {
+    private FarmFleet.Member member(String key, DesiredDevice device) throws InvalidScenarioException {
         DeviceVersion version = device.version();
         FiwareScope scope = new FiwareScope(version.service(), version.servicePath());
         SimulatedDevice simulated = reader.read(device);
         String taken = board.keyOf(device.device()).orElse(key);
         if (!taken.equals(key)) {
-            throw new UnusableScenarioException(
+            throw new InvalidScenarioException(
                     "device", "'%s' runs here already, for %s".formatted(device.device(), taken));
         }
         if (version.carriedBy() != null) {
             DesiredDevice carrier = desired.get(scope.identity(version.carriedBy()));
             if (carrier == null || !ROBOT.equals(carrier.type()) || !carrier.running()) {
-                throw new UnusableScenarioException(
+                throw new InvalidScenarioException(
                         "carriedBy", "'%s' is no robot that runs here".formatted(version.carriedBy()));
             }
         }

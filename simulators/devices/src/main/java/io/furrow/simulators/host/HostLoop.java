@@ -29,13 +29,13 @@ final class HostLoop implements AutoCloseable {
     private static final Duration RETRY_BACKOFF = Duration.ofSeconds(1);
 
     private final Clock clock = Clock.systemUTC();
-    private final DesiredRecords records;
+    private final DesiredStateConsumer records;
     private final StatusRecords statuses;
     private final FarmFleet fleet;
     private final StatusPublisher board;
     private final FleetReconciler hosting;
     private final FarmSecretCheck secret;
-    private final KnownFields fields = new KnownFields();
+    private final FieldCache fields = new FieldCache();
     private final Queue<Runnable> events = new ConcurrentLinkedQueue<>();
     private volatile boolean caughtUp;
     private volatile Instant lastPoll;
@@ -46,7 +46,7 @@ final class HostLoop implements AutoCloseable {
                 .withToken(settings.token());
         this.secret = new FarmSecretCheck(settings.secret());
         FleetAccess access = new FleetAccess(fiware, settings.mqtt(), FleetAccess.Logins.of(secret));
-        this.records = new DesiredRecords(
+        this.records = new DesiredStateConsumer(
                 kafka,
                 List.of(Topics.DEVICES, Topics.MISSION_DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS, Topics.SECRETS));
         this.statuses = new StatusRecords(kafka);

@@ -27,7 +27,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.position.PositionReading;
 import io.furrow.simulators.device.FleetSettings;
-import io.furrow.simulators.device.Listener;
+import io.furrow.simulators.device.MqttTestClient;
 import io.furrow.simulators.scenario.Farm;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -50,7 +50,7 @@ class FarmFleetTest {
     private static EmbeddedMqtt mqtt;
     private static FiwareStandIn fiware;
     private FarmFleet fleet;
-    private Listener listener;
+    private MqttTestClient listener;
 
     @BeforeAll
     static void startEnds() throws Exception {
@@ -96,7 +96,7 @@ class FarmFleetTest {
 
     @Test
     void putsManyDevicesOfAMissionOnOneConnectionWithTheirOwnTopics() throws Exception {
-        listener = new Listener(settings("plough"));
+        listener = new MqttTestClient(settings("plough"));
         fleet = FarmFleet.start(farm(), access("plough"), 4, Clock.systemUTC());
 
         await().untilAsserted(() -> {
@@ -113,7 +113,7 @@ class FarmFleetTest {
 
     @Test
     void switchesADeviceOffAndOn() throws Exception {
-        listener = new Listener(settings("plough"));
+        listener = new MqttTestClient(settings("plough"));
         fleet = FarmFleet.start(farm(), access("plough"), 500, Clock.systemUTC());
         await().until(() -> !listener.heard("/k/t-1/attrs").isEmpty());
 
@@ -130,7 +130,7 @@ class FarmFleetTest {
 
     @Test
     void answersACommandThatNobodyKnows() throws Exception {
-        listener = new Listener(settings("plough"));
+        listener = new MqttTestClient(settings("plough"));
         fleet = FarmFleet.start(farm(), access("plough"), 500, Clock.systemUTC());
 
         listener.say("/k/t-1/cmd", "off!");

@@ -18,7 +18,7 @@ import io.furrow.simulators.mqtt.MqttAccess;
 
 /** Hears all measures, each told by topic and time; its session outlives the broker's restarts, so that it misses none. */
 record Subscriber(MqttAsyncClient client, Set<String> heard) implements AutoCloseable {
-    static Subscriber to(Mosquitto broker, String name) throws Exception {
+    static Subscriber to(FleetMosquitto broker, String name) throws Exception {
         MqttAsyncClient client = new MqttAsyncClient(broker.uri().toString(), name, new MemoryPersistence());
         Set<String> measures = ConcurrentHashMap.newKeySet();
         client.setCallback(new MqttCallback() {

@@ -17,10 +17,10 @@ import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.topic.Topics;
-import io.furrow.simulators.device.Listener;
+import io.furrow.simulators.device.MqttTestClient;
 
-import static io.furrow.simulators.host.HostBench.entity;
-import static io.furrow.simulators.host.HostBench.topic;
+import static io.furrow.simulators.host.HostFixture.entity;
+import static io.furrow.simulators.host.HostFixture.topic;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -33,13 +33,13 @@ class DeviceHostIT {
     @TempDir
     private static Path directory;
 
-    private static HostBench bench;
+    private static HostFixture bench;
     private DeviceHost host;
-    private Listener listener;
+    private MqttTestClient listener;
 
     @BeforeAll
     static void startBench() throws Exception {
-        bench = new HostBench(directory);
+        bench = new HostFixture(directory);
     }
 
     @AfterAll
@@ -212,8 +212,8 @@ class DeviceHostIT {
     @Test
     void connectsAgainWithTheNewCredentialsOfADevice() throws Exception {
         String device = run("stolen", 1);
-        bench.passwords.remove(HostBench.SECRET.device("stolen", device).user());
-        FarmSecret.Login login = HostBench.SECRET.device("stolen", device, 1);
+        bench.passwords.remove(HostFixture.SECRET.device("stolen", device).user());
+        FarmSecret.Login login = HostFixture.SECRET.device("stolen", device, 1);
         bench.passwords.put(login.user(), login.password());
 
         long sequence = bench.wantRotated("stolen", device, YARD, 1);
@@ -229,9 +229,9 @@ class DeviceHostIT {
     @Test
     void takesUpASecretThatIsRotatedWhileItsDevicesGoOn() throws Exception {
         String device = run("rotated", 1);
-        bench.putFingerprints(HostBench.SECRET);
+        bench.putFingerprints(HostFixture.SECRET);
         Instant now = Instant.now();
-        FarmSecret rotated = HostBench.SECRET.rotated(now, now.plusSeconds(60), false);
+        FarmSecret rotated = HostFixture.SECRET.rotated(now, now.plusSeconds(60), false);
         FarmSecret.Login login = rotated.device("rotated", device);
         bench.passwords.put(login.user(), login.password());
 
@@ -245,10 +245,10 @@ class DeviceHostIT {
         await().atMost(TIMEOUT)
                 .untilAsserted(() ->
                         assertThat(bench.status(second)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        bench.passwords.remove(HostBench.SECRET.device("rotated", device).user());
+        bench.passwords.remove(HostFixture.SECRET.device("rotated", device).user());
         int before = heard("rotated", device);
         await().atMost(TIMEOUT).until(() -> heard("rotated", device) > before + 10);
-        bench.secret = HostBench.SECRET;
+        bench.secret = HostFixture.SECRET;
         bench.delete(device);
         bench.delete(second);
     }

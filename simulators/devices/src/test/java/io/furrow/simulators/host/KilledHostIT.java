@@ -15,10 +15,10 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.simulators.device.Listener;
+import io.furrow.simulators.device.MqttTestClient;
 
-import static io.furrow.simulators.host.HostBench.entity;
-import static io.furrow.simulators.host.HostBench.topic;
+import static io.furrow.simulators.host.HostFixture.entity;
+import static io.furrow.simulators.host.HostFixture.topic;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -31,12 +31,12 @@ class KilledHostIT {
     @TempDir
     private Path directory;
 
-    private HostBench bench;
+    private HostFixture bench;
     private final List<Process> processes = new ArrayList<>();
 
     @BeforeEach
     void start() throws Exception {
-        bench = new HostBench(directory.resolve("kafka"));
+        bench = new HostFixture(directory.resolve("kafka"));
     }
 
     @AfterEach
@@ -73,7 +73,7 @@ class KilledHostIT {
             assertThat(bench.status(stopped)).contains(new DeviceStatus(end, State.STOPPED, null));
             assertThat(bench.status(comes)).contains(new DeviceStatus(begin, State.RUNNING, null));
         });
-        try (Listener listener = bench.listener()) {
+        try (MqttTestClient listener = bench.listener()) {
             await().atMost(TIMEOUT).untilAsserted(() -> {
                 assertThat(listener.heard(topic("killed", stays, "attrs"))).isNotEmpty();
                 assertThat(listener.heard(topic("killed", comes, "attrs"))).isNotEmpty();
@@ -103,7 +103,7 @@ class KilledHostIT {
         assertThat(Files.readString(directory.resolve("host-0.log")))
                 .contains(
                         "this farm has another secret",
-                        HostBench.SECRET.toString(),
+                        HostFixture.SECRET.toString(),
                         "a copy of the control plane's file");
         assertThat(bench.statuses()).isEmpty();
     }
@@ -119,7 +119,7 @@ class KilledHostIT {
     }
 
     private Process host() throws Exception {
-        return run(Files.writeString(directory.resolve("secret"), HostBench.SECRET_TEXT), "host-" + processes.size());
+        return run(Files.writeString(directory.resolve("secret"), HostFixture.SECRET_TEXT), "host-" + processes.size());
     }
 
     private Process run(Path secret, String name) throws Exception {

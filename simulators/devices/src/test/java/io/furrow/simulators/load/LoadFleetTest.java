@@ -13,9 +13,9 @@ import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.simulators.device.FiwareEnds;
+import io.furrow.simulators.device.FiwareServers;
 import io.furrow.simulators.device.FleetSettings;
-import io.furrow.simulators.device.Listener;
+import io.furrow.simulators.device.MqttTestClient;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -23,11 +23,11 @@ import static org.awaitility.Awaitility.await;
 
 @Tag("full")
 class LoadFleetTest {
-    private static FiwareEnds ends;
+    private static FiwareServers ends;
 
     @BeforeAll
     static void start() throws IOException {
-        ends = new FiwareEnds();
+        ends = new FiwareServers();
     }
 
     @AfterAll
@@ -45,21 +45,21 @@ class LoadFleetTest {
         LoadPlan plan = plan(20, Duration.ofMillis(50), 1_000, Duration.ofMillis(520));
         assertThat(plan.messages()).isEqualTo(200);
 
-        try (Listener listener = new Listener(ends.settings());
+        try (MqttTestClient listener = new MqttTestClient(ends.settings());
                 LoadFleet load = LoadFleet.start(ends.settings(), plan)) {
             load.await();
             assertThat(load.sent()).isEqualTo(200);
             assertThat(load.acknowledged()).isEqualTo(200);
             await().until(() -> listener.heard().size() >= 200);
 
-            List<Listener.Heard> heard = listener.heard();
+            List<MqttTestClient.Heard> heard = listener.heard();
             assertThat(heard).hasSize(200);
             assertThat(heard.stream().map(message -> payload(message.json())))
                     .doesNotHaveDuplicates()
                     .allSatisfy(text -> assertThat(text).hasSize(1_000).matches("[A-Za-z0-9.]+"));
             assertThat(heard.stream().map(message -> head(message.json()))).doesNotHaveDuplicates();
             Map<String, Long> shares =
-                    heard.stream().collect(Collectors.groupingBy(Listener.Heard::topic, Collectors.counting()));
+                    heard.stream().collect(Collectors.groupingBy(MqttTestClient.Heard::topic, Collectors.counting()));
             assertThat(shares).hasSize(20).containsEntry("/furrow-load/load-00007/attrs", 10L);
             assertThat(shares.values()).containsOnly(10L);
         }
@@ -68,7 +68,7 @@ class LoadFleetTest {
     @Test
     void spreadsTheDevicesOverThePeriodAndKeepsToTheSchedule() throws Exception {
         LoadPlan plan = plan(10, Duration.ofMillis(200), 100, Duration.ofMillis(600));
-        try (Listener listener = new Listener(ends.settings());
+        try (MqttTestClient listener = new MqttTestClient(ends.settings());
                 LoadFleet load = LoadFleet.start(ends.settings(), plan)) {
             load.await();
             await().until(() -> listener.heard().size() == 30);
@@ -90,7 +90,7 @@ class LoadFleetTest {
 
         LoadFleet.provision(ends.settings(), plan);
 
-        List<FiwareEnds.Asked> asked = ends.asked("/iot/devices");
+        List<FiwareServers.ReceivedRequest> asked = ends.asked("/iot/devices");
         assertThat(asked.stream().map(request -> request.body().path("devices").size()))
                 .hasSize(52)
                 .startsWith(100, 50, 1);

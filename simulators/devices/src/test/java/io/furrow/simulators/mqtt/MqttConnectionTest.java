@@ -63,7 +63,7 @@ class MqttConnectionTest {
     /** As an embedded broker does that is not ready for the subscription though it has accepted the connection. */
     @Test
     void getsOverAConnectionThatIsCutAtTheSubscriptionWithoutAWarning() throws Exception {
-        Warnings warnings = Warnings.record(MqttConnectionTest.class.getPackageName());
+        LoggedWarnings warnings = LoggedWarnings.record(MqttConnectionTest.class.getPackageName());
         try (ForgetfulBroker broker = new ForgetfulBroker(true)) {
             MqttConnection.Plan plan = new MqttConnection.Plan(
                     new MqttAccess.Login("farmer", "plough"), "line", List.of("/k/d/cmd"), 10, 1000);

@@ -125,7 +125,7 @@ class DesiredDeviceReaderTest {
             """)
     void saysWhichSettingIsWrongAndWhatToDo(String type, String settings, String message) {
         assertThatThrownBy(() -> read(type, 1, settings))
-                .isInstanceOf(UnusableScenarioException.class)
+                .isInstanceOf(InvalidScenarioException.class)
                 .hasMessage(message);
     }
 

@@ -170,7 +170,7 @@ class FarmTest {
         assertThat(broken).isNotEqualTo(FARM);
 
         assertThatThrownBy(() -> read(broken))
-                .isInstanceOf(UnusableScenarioException.class)
+                .isInstanceOf(InvalidScenarioException.class)
                 .hasMessage(sentence);
     }
 

@@ -14,13 +14,13 @@ import org.junit.jupiter.params.provider.ValueSource;
 import io.furrow.fiware.Client;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
-import io.furrow.fiware.Receiver;
+import io.furrow.fiware.NotificationReceiver;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 class SubscriptionTest {
-    private final Receiver receiver = new Receiver();
+    private final NotificationReceiver receiver = new NotificationReceiver();
     private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
     private final Client client = Client.of(standIn.contextBroker());
 

@@ -5,7 +5,7 @@ import java.util.List;
 import java.util.Locale;
 import java.util.stream.Collectors;
 
-import io.furrow.cli.compare.Match.Verdict;
+import io.furrow.cli.compare.ResultMatch.Verdict;
 
 /** A comparison as lines of text: of each kind how many results are the same, and a line for each that is not. */
 final class ComparisonTable {
@@ -31,7 +31,7 @@ final class ComparisonTable {
         return lines;
     }
 
-    private static String side(FoundResults side) {
+    private static String side(SideResults side) {
         String name = side.name().equals(Side.LIVE) ? Side.LIVE : side.name() + ", epoch " + side.epoch();
         return side.missing().isEmpty()
                 ? name
@@ -51,7 +51,7 @@ final class ComparisonTable {
                 + List.of(Verdict.values()).stream()
                         .map(verdict -> comparison.count(kind, verdict) + " " + verdict.word())
                         .collect(Collectors.joining(", ")));
-        List<Match> differences = comparison.differences(kind);
+        List<ResultMatch> differences = comparison.differences(kind);
         int width = differences.stream()
                 .limit(most)
                 .mapToInt(match -> match.subject().name().length())
@@ -63,7 +63,7 @@ final class ComparisonTable {
         }
     }
 
-    private static String row(Match match, int width) {
+    private static String row(ResultMatch match, int width) {
         String what = match.verdict() == Verdict.CHANGED
                 ? match.changes().stream().map(ComparisonText::change).collect(Collectors.joining(", "))
                 : ComparisonText.value(match.either());

@@ -93,7 +93,7 @@ public final class Redrive {
     private final Map<String, Long> fed = new TreeMap<>();
     private final Map<String, Long> left = new TreeMap<>();
     private RedriveOffsets memory;
-    private Originals originals;
+    private OriginalReader originals;
 
     /** @param kafka what every client needs, {@code bootstrap.servers} at least */
     public Redrive(Properties kafka, Request wish) {
@@ -104,7 +104,7 @@ public final class Redrive {
     /** @throws IOException if the topic is not there, or its end is not reached */
     public Outcome run() throws IOException {
         try (var consumer = consumer();
-                var found = new Originals(consumer());
+                var found = new OriginalReader(consumer());
                 var producer = wish.dryRun() ? null : producer()) {
             originals = found;
             assign(consumer);
@@ -213,8 +213,8 @@ public final class Redrive {
     }
 
     private ProducerRecord<byte[], byte[]> broughtBack(ConsumerRecord<byte[], byte[]> original) {
-        ProducerRecord<byte[], byte[]> record =
-                new ProducerRecord<>(wish.to(), null, Originals.timeOf(original), original.key(), original.value());
+        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(
+                wish.to(), null, OriginalReader.timeOf(original), original.key(), original.value());
         for (Header header : original.headers()) {
             if (!DeadLetter.HEADERS.contains(header.key())) {
                 record.headers().add(header);

@@ -24,9 +24,9 @@ import io.furrow.cli.Commands;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.ngsi.Entity;
 
-import static io.furrow.cli.compare.FoundRecords.encounter;
-import static io.furrow.cli.compare.FoundRecords.entered;
-import static io.furrow.cli.compare.FoundRecords.left;
+import static io.furrow.cli.compare.ResultRecords.encounter;
+import static io.furrow.cli.compare.ResultRecords.entered;
+import static io.furrow.cli.compare.ResultRecords.left;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -287,13 +287,13 @@ class ReplayWatchTest {
 
     @Test
     void showsTheShareOfWhatIsPlayed() throws Exception {
-        assertThat(ReplayView.block(part("running"), "", false, 80))
+        assertThat(ReplayScreen.block(part("running"), "", false, 80))
                 .contains("[" + "#".repeat(30) + "·".repeat(30) + "]  50 %", "2026-05-01T01:47:10Z  0:00:10 / 0:00:20");
-        assertThat(ReplayView.block(part("ended"), "", false, 80)).contains("[" + "#".repeat(60) + "] 100 %");
+        assertThat(ReplayScreen.block(part("ended"), "", false, 80)).contains("[" + "#".repeat(60) + "] 100 %");
         JsonNode range = NgsiJson.read(replay("running")
                 .replace("\"mission\"", "\"range\":{\"from\":1777600030000,\"to\":1777600050000},\"mission\"")
                 .getBytes(UTF_8));
-        assertThat(ReplayView.block(range, "", false, 80)).contains("[" + "·".repeat(60) + "]   0 %");
+        assertThat(ReplayScreen.block(range, "", false, 80)).contains("[" + "·".repeat(60) + "]   0 %");
     }
 
     /** Of the recording's minute what is from 20 s to 40 s. */
@@ -347,7 +347,7 @@ class ReplayWatchTest {
 
     @Test
     void showsAllOfItWithinNarrowTerminals() throws Exception {
-        assertThat(ReplayView.block(json("running"), "", true, 80))
+        assertThat(ReplayScreen.block(json("running"), "", true, 80))
                 .containsExactly(
                         "m.0a1b2c3d  running  speed 2  epoch 1",
                         "[" + "#".repeat(30) + "·".repeat(30) + "]  50 %",
@@ -355,10 +355,10 @@ class ReplayWatchTest {
                         "12.5 events/s  late 3 ms  70 events",
                         "",
                         "space pause  ←/→ 10 s  [/] 1 min  ./, step  +/- speed  l loop  m marker  q quit");
-        assertThat(ReplayView.block(json("running"), "a notice that is long", false, 20))
+        assertThat(ReplayScreen.block(json("running"), "a notice that is long", false, 20))
                 .hasSize(6)
                 .allMatch(line -> line.length() <= 20);
-        assertThat(ReplayView.block(NgsiJson.read("{\"replay\":\"m.0a1b2c3d\"}".getBytes(UTF_8)), "", false, 79))
+        assertThat(ReplayScreen.block(NgsiJson.read("{\"replay\":\"m.0a1b2c3d\"}".getBytes(UTF_8)), "", false, 79))
                 .contains("not begun", "? help");
     }
 

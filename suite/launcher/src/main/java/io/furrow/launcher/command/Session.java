@@ -37,7 +37,7 @@ final class Session {
     }
 
     /** What runs on top of the suite, for instance simulated devices. */
-    interface Guest {
+    interface Extension {
         AutoCloseable join(Suite suite) throws Exception;
     }
 
@@ -46,7 +46,7 @@ final class Session {
      *
      * @param data kept across restarts; null for a temporary directory
      */
-    public int run(SuiteSettings settings, Path data, Guest guest) throws Exception {
+    public int run(SuiteSettings settings, Path data, Extension guest) throws Exception {
         out.println("Furrow starts; Ctrl-C stops it.");
         try (RunDirectory directory = RunDirectory.open(data)) {
             Runtime.getRuntime().addShutdownHook(new Thread(() -> stopFromOutside(directory), "stop"));

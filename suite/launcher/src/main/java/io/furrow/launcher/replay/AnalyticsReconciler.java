@@ -14,7 +14,7 @@ import java.util.function.LongSupplier;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.cli.control.ReplayAnalyticsJob;
 import io.furrow.model.text.Counts;
 
 /**
@@ -77,7 +77,7 @@ final class AnalyticsReconciler {
             }
         }
         for (String name : running) {
-            AnalyticsJob.named(name)
+            ReplayAnalyticsJob.named(name)
                     .filter(this::hasTopic)
                     .ifPresent(job -> known.computeIfAbsent(
                             job.topic(), topic -> new DesiredAnalytics(topic, List.of(job), true)));
@@ -85,7 +85,7 @@ final class AnalyticsReconciler {
     }
 
     /** A job whose topic is not there may be one of a replay on another Kafka. */
-    private boolean hasTopic(AnalyticsJob job) {
+    private boolean hasTopic(ReplayAnalyticsJob job) {
         try {
             return known.containsKey(job.topic()) || progress.of(job) != null;
         } catch (AnalyticsException e) {
@@ -95,7 +95,7 @@ final class AnalyticsReconciler {
     }
 
     private void end(DesiredAnalytics replay, Set<String> running) throws AnalyticsException {
-        for (AnalyticsJob job : replay.jobs()) {
+        for (ReplayAnalyticsJob job : replay.jobs()) {
             String name = job.name();
             if (!replay.over()) {
                 endings.remove(name);
@@ -119,8 +119,8 @@ final class AnalyticsReconciler {
     }
 
     private void start(DesiredAnalytics replay, Set<String> running) throws AnalyticsException {
-        List<AnalyticsJob> missing = new ArrayList<>();
-        for (AnalyticsJob job : replay.jobs()) {
+        List<ReplayAnalyticsJob> missing = new ArrayList<>();
+        for (ReplayAnalyticsJob job : replay.jobs()) {
             if (!running.contains(job.name()) && !done.contains(job.name()) && isNeeded(job, replay.over())) {
                 missing.add(job);
             }
@@ -131,18 +131,18 @@ final class AnalyticsReconciler {
             return;
         }
         waiting.remove(replay.topic());
-        for (AnalyticsJob job : missing) {
+        for (ReplayAnalyticsJob job : missing) {
             start(job);
         }
     }
 
     /** Of a replay that is over a job is needed only where it has not read all. */
-    private boolean isNeeded(AnalyticsJob job, boolean over) throws AnalyticsException {
+    private boolean isNeeded(ReplayAnalyticsJob job, boolean over) throws AnalyticsException {
         JobProgress now = progress.of(job);
         return now != null && !(over && now.isCaughtUp());
     }
 
-    private void start(AnalyticsJob job) {
+    private void start(ReplayAnalyticsJob job) {
         long now = millis.getAsLong();
         if (now < nextAttempts.getOrDefault(job.name(), Long.MIN_VALUE)) {
             return;
@@ -181,7 +181,7 @@ final class AnalyticsReconciler {
     }
 
     /** Started, and not running yet. */
-    private boolean isStarting(AnalyticsJob job) {
+    private boolean isStarting(ReplayAnalyticsJob job) {
         Long next = nextAttempts.get(job.name());
         return next != null && millis.getAsLong() < next;
     }

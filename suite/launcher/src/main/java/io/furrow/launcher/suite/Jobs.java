@@ -46,7 +46,7 @@ final class Jobs {
         env.setBufferTimeout(AT_ONCE);
         StreamGraph graph = env.getStreamGraph();
         graph.setJobName(name);
-        NewestState.below(directory.resolve(name))
+        LatestCheckpoint.below(directory.resolve(name))
                 .ifPresent(state -> graph.setSavepointRestoreSettings(
                         SavepointRestoreSettings.forPath(JobFolder.location(state), false, RecoveryClaimMode.CLAIM)));
         running.put(name, flink.submit(graph));
@@ -65,7 +65,7 @@ final class Jobs {
             if (flink.status(job) == JobStatus.FAILED) {
                 Path state = directory.resolve(name);
                 throw new CommandException(
-                        NewestState.below(state).isEmpty()
+                        LatestCheckpoint.below(state).isEmpty()
                                 ? "Job %s failed; see furrow.log.".formatted(name)
                                 : ("Job %s cannot continue from its state in %s; see furrow.log. Move that folder away,"
                                                 + " and the job begins anew: it reads again what Kafka still has.")

@@ -27,7 +27,7 @@ import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.replay.ReplayAnalytics;
 import io.furrow.model.topic.Topics;
-import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.simulators.device.FleetSettings;
 
 /**
@@ -63,7 +63,7 @@ public final class Suite implements AutoCloseable {
     private URI contextBroker;
     private SuiteControl control;
     private ReplayAnalytics replays;
-    private final LiveAccounts accounts = new LiveAccounts();
+    private final InMemoryAccounts accounts = new InMemoryAccounts();
     private final String agentPassword = UUID.randomUUID().toString();
     private Connectors connectors;
     private URI listener;
@@ -121,7 +121,7 @@ public final class Suite implements AutoCloseable {
         startDashboard();
         replays = ReplayAnalytics.start(
                 kafka.clientProperties(),
-                new EmbeddedAnalytics(flink, jobs, new JobPlans(settings, kafka, mongo, directory)));
+                new EmbeddedAnalytics(flink, jobs, new SuiteJobs(settings, kafka, mongo, directory)));
     }
 
     private URI joinControl() {
@@ -136,7 +136,7 @@ public final class Suite implements AutoCloseable {
         DashboardSettings page = DashboardSettings.of(
                         settings.ports().dashboard(), kafka.clientProperties(), control.api())
                 .withAllowed(settings.allowed())
-                .withPage(new PageSettings(null, null, null, List.of(directory.resolve(JobPlans.IMAGES))));
+                .withPage(new PageSettings(null, null, null, List.of(directory.resolve(SuiteJobs.IMAGES))));
         dashboard = parts.add("dashboard", progress.step("dashboard", () -> Dashboard.start(page)))
                 .uri();
     }
@@ -197,7 +197,7 @@ public final class Suite implements AutoCloseable {
         });
         jobs = new Jobs(flink, directory.resolve("jobs"));
         progress.step("jobs", () -> {
-            new JobPlans(settings, kafka, mongo, directory).all().forEach(jobs::submit);
+            new SuiteJobs(settings, kafka, mongo, directory).all().forEach(jobs::submit);
             jobs.awaitStarted();
             return jobs.running();
         });
@@ -220,7 +220,7 @@ public final class Suite implements AutoCloseable {
                         settings.fiware().listening().mqttHost(),
                         settings.ports().mqtt(),
                         passwords(),
-                        new LiveUsers(accounts)));
+                        new EmbeddedUsers(accounts)));
         fiware = farm.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
         contextBroker = fiware.contextBroker();
     }

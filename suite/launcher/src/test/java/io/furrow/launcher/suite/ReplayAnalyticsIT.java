@@ -61,7 +61,7 @@ class ReplayAnalyticsIT {
             new SuiteFields(new FieldsTopic(access.clientProperties())).write(settings, directory);
             Jobs jobs = new Jobs(flink, directory.resolve("jobs"));
             EmbeddedAnalytics analytics =
-                    new EmbeddedAnalytics(flink, jobs, new JobPlans(settings, access, null, directory));
+                    new EmbeddedAnalytics(flink, jobs, new SuiteJobs(settings, access, null, directory));
             for (String id : IDS) {
                 want(id, null);
                 play(id);

@@ -10,7 +10,7 @@ import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.ThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 
-import io.furrow.control.alarm.watch.DeviceTypes;
+import io.furrow.control.alarm.watch.DeviceTypeCache;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.kafka.PartStatus;
 import io.furrow.kafka.RestartingWorker;
@@ -60,11 +60,11 @@ public final class AlarmActions implements AutoCloseable {
                 TimeUnit.MINUTES,
                 new ArrayBlockingQueue<>(MAX_STOPS_WAITING),
                 task -> new Thread(task, "furrow-stop"));
-        RestartingWorker follower = new RestartingWorker(StopFollower.NAME, clock);
-        DeviceTypes types = new DeviceTypes(client);
+        RestartingWorker follower = new RestartingWorker(PredictionConsumer.NAME, clock);
+        DeviceTypeCache types = new DeviceTypeCache(client);
         StopRobots robots = new StopRobots(settings, types, entry -> note(entry, follower), stops, clock);
-        followers.add(new RestartingWorker(DeviceTypes.NAME, clock).start(types, types::detail));
-        followers.add(follower.start(new StopFollower(client, robots, types, clock), () -> stopsWaiting(types)));
+        followers.add(new RestartingWorker(DeviceTypeCache.NAME, clock).start(types, types::detail));
+        followers.add(follower.start(new PredictionConsumer(client, robots, types, clock), () -> stopsWaiting(types)));
     }
 
     private void note(AuditEntry entry, RestartingWorker follower) {
@@ -76,7 +76,7 @@ public final class AlarmActions implements AutoCloseable {
         audit.accept(entry);
     }
 
-    private String stopsWaiting(DeviceTypes types) {
+    private String stopsWaiting(DeviceTypeCache types) {
         if (!types.isLoaded()) {
             return "waits until the types of devices are read";
         }

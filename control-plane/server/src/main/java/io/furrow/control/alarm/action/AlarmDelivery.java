@@ -249,12 +249,12 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
             }
         }
         long since = clock.millis() - NEWS.toMillis();
-        store(new DeliveryQueue.Update(SINCE, new Delivered(0, AlarmState.CLOSED, since, 0, false)));
+        store(new DeliveryQueue.Update(SINCE, new DeliveryState(0, AlarmState.CLOSED, since, 0, false)));
         return since;
     }
 
-    private static Delivered delivered(ConsumerRecord<String, byte[]> record) {
-        return record.value() == null ? null : StateJson.read(record.value(), Delivered.class);
+    private static DeliveryState delivered(ConsumerRecord<String, byte[]> record) {
+        return record.value() == null ? null : StateJson.read(record.value(), DeliveryState.class);
     }
 
     @Override

@@ -59,14 +59,14 @@ final class DeliveryQueue {
      *
      * @param delivered null to delete the entry
      */
-    record Update(String alarm, Delivered delivered) {}
+    record Update(String alarm, DeliveryState delivered) {}
 
     /** State of one alarm. */
     private static final class Entry {
         /** Null until the alarm was read. */
         private Alarm newest;
         /** Null until the alarm is posted. */
-        private Delivered delivered;
+        private DeliveryState delivered;
 
         private boolean removed;
         private boolean underWay;
@@ -83,7 +83,7 @@ final class DeliveryQueue {
     }
 
     /** Restores an entry that an earlier queue stored. */
-    void restore(String alarm, Delivered delivered) {
+    void restore(String alarm, DeliveryState delivered) {
         entry(alarm).delivered = delivered;
     }
 
@@ -137,7 +137,7 @@ final class DeliveryQueue {
         Alarm alarm = entry.newest;
         boolean first = entry.delivered == null;
         if (first) {
-            entry.delivered = Delivered.attempted(now);
+            entry.delivered = DeliveryState.attempted(now);
         }
         boolean again = entry.delivered.sequence() == alarm.sequence();
         int repeats = again ? entry.delivered.repeats() + 1 : 0;
@@ -158,7 +158,7 @@ final class DeliveryQueue {
             failed(entry, answer, now);
             return entry == null ? Optional.empty() : forgetIfDone(alarm.alarm(), entry);
         }
-        Delivered delivered = new Delivered(
+        DeliveryState delivered = new DeliveryState(
                 alarm.sequence(), alarm.state(), now, post.repeats(), answer.outcome() == Webhook.Outcome.REFUSED);
         if (failuresInARow >= AWAY_AFTER) {
             waiting.forEach(each -> each.notBefore = each.failures > 0 ? now : each.notBefore);
@@ -207,7 +207,7 @@ final class DeliveryQueue {
 
     private boolean isNeeded(Entry entry, long now) {
         Alarm alarm = entry.newest;
-        Delivered known = entry.delivered;
+        DeliveryState known = entry.delivered;
         if (alarm == null || entry.removed || known != null && known.sequence() > alarm.sequence()) {
             return false;
         }

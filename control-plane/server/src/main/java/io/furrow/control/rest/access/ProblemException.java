@@ -51,7 +51,7 @@ public final class ProblemException extends RuntimeException {
         return new ProblemException(
                 ErrorCode.REQUEST_ID_REUSED,
                 "the header %s was given to another request, or by somebody else; give each request its own"
-                        .formatted(Caller.KEY));
+                        .formatted(RequestContext.KEY));
     }
 
     /** @param bytes below 0 if they were not counted */

@@ -24,7 +24,7 @@ public final class RoleFilter implements ContainerRequestFilter {
 
     @Override
     public void filter(ContainerRequestContext request) {
-        if (!(request.getProperty(BearerTokens.TOKEN) instanceof ApiToken token)) {
+        if (!(request.getProperty(TokenFilter.TOKEN) instanceof ApiToken token)) {
             return;
         }
         Role least = least(operation.getResourceMethod(), request.getMethod());

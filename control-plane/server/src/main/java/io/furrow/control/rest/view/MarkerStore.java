@@ -35,7 +35,7 @@ public final class MarkerStore implements AutoCloseable {
     private Markers markers;
 
     /** What is asked. @param <T> the answer */
-    public interface Question<T> {
+    public interface Query<T> {
         T ask(Markers markers) throws RefusedMarkerException, RecordingException;
     }
 
@@ -50,7 +50,7 @@ public final class MarkerStore implements AutoCloseable {
      *
      * @throws ProblemException if there is no MongoDB, or too much waits already
      */
-    public <T> CompletionStage<T> ask(Question<T> question) {
+    public <T> CompletionStage<T> ask(Query<T> question) {
         if (settings.mongo() == null) {
             throw new ProblemException(
                     501, "no-mongodb", "this control plane was started without --mongo, where markers are kept");
@@ -64,7 +64,7 @@ public final class MarkerStore implements AutoCloseable {
         return answer.whenCompleteAsync((given, failure) -> {}, answering);
     }
 
-    private <T> void ask(Question<T> question, CompletableFuture<T> answer) {
+    private <T> void ask(Query<T> question, CompletableFuture<T> answer) {
         try {
             if (markers == null) {
                 markers = Markers.open(settings.mongo(), settings.database());

@@ -15,10 +15,10 @@ import org.junit.jupiter.api.TestReporter;
 
 import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.AlarmCommandHandler;
-import io.furrow.control.alarm.AlarmHandlers;
+import io.furrow.control.alarm.AlarmHandlerFixture;
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.alarm.Cause;
-import io.furrow.control.manager.KeptOutbox;
+import io.furrow.control.manager.CapturingPublisher;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
@@ -48,9 +48,9 @@ class DeliveryPropertyTest {
     private static final class Walk {
         private final Random random;
         private final String said;
-        private final KeptOutbox outbox = new KeptOutbox();
-        private final AlarmCommandHandler handler = AlarmHandlers.writingTo(outbox);
-        private final Map<String, Delivered> stored = new HashMap<>();
+        private final CapturingPublisher outbox = new CapturingPublisher();
+        private final AlarmCommandHandler handler = AlarmHandlerFixture.writingTo(outbox);
+        private final Map<String, DeliveryState> stored = new HashMap<>();
         /** What the webhook took, the newest of each alarm. */
         private final Map<String, Alarm> received = new HashMap<>();
 
@@ -149,9 +149,9 @@ class DeliveryPropertyTest {
         }
 
         private void show() {
-            List<KeptOutbox.Written> all = outbox.all();
+            List<CapturingPublisher.Written> all = outbox.all();
             for (; shown < all.size(); shown++) {
-                KeptOutbox.Written written = all.get(shown);
+                CapturingPublisher.Written written = all.get(shown);
                 if (written.value() == null) {
                     queue.remove(written.key()).ifPresent(this::store);
                 } else {

@@ -25,7 +25,7 @@ class DeliveryQueueTest {
     private static final Webhook.Answer REFUSED = new Webhook.Answer(Webhook.Outcome.REFUSED, "410", null);
     private static final Webhook.Answer FAILED = Webhook.Answer.failed("503");
 
-    private final Map<String, Delivered> stored = new HashMap<>();
+    private final Map<String, DeliveryState> stored = new HashMap<>();
     private DeliveryQueue queue = new DeliveryQueue(SETTINGS, NOW, new Random(7));
     private long now = NOW;
     private long sequence;
@@ -264,7 +264,7 @@ class DeliveryQueueTest {
         assertThat(queue.completed(post, TAKEN, now)).contains(new DeliveryQueue.Update(underWay.alarm(), null));
         assertThat(queue.underWay()).isZero();
 
-        queue.restore("nosuch", new Delivered(1, AlarmState.OPEN, now, 0, false));
+        queue.restore("nosuch", new DeliveryState(1, AlarmState.OPEN, now, 0, false));
         assertThat(queue.forgetMissing()).containsExactly(new DeliveryQueue.Update("nosuch", null));
         assertThat(queue.forgetMissing()).isEmpty();
     }

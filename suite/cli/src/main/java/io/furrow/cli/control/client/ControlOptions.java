@@ -20,7 +20,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.CredentialList;
-import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
@@ -39,7 +39,7 @@ public final class ControlOptions {
     @Option(
             names = "--api",
             paramLabel = "URL",
-            converter = HttpUri.class,
+            converter = HttpUriConverter.class,
             defaultValue = "${env:FURROW_API:-http://127.0.0.1:8085}",
             description = "REST API of the control plane. Default: $FURROW_API, else http://127.0.0.1:8085.")
     private URI api;
