@@ -1,20 +1,20 @@
 /** What the records of each topic change in the store. */
-import { named, newEntity, takePast, takeReport } from './entity.js';
+import { named, newEntity, applyPast, applyReport } from './entity.js';
 import { fullKey, scopeOf } from './identities.js';
 
-/** Most entities that are kept; beyond it those not heard of for longest go. */
-const MOST_ENTITIES = 5_000;
+/** Entities in the store at most; beyond it the ones that have not reported for longest are removed. */
+const MAX_ENTITIES = 5_000;
 
-/** @template T @param {T} Base @returns {T} with `take…` */
-export const Taking = (Base) => class extends Base {
+/** @template T @param {T} Base @returns {T} whose `apply…` methods change the store by a record */
+export const Reducers = (Base) => class extends Base {
   /** @param {import('./stream.js').TopicRecord} record of an entity @returns {string[]} the keys of the entities that it changes */
-  takeEntity(record) {
+  applyEntity(record) {
     if (record.value === null && !record.cut) {
       const deleted = this.identities.deletedBy(record);
       deleted.forEach((each) => this.forgetEntity(each));
       return deleted;
     }
-    const identity = this.identities.take(record);
+    const identity = this.identities.identify(record);
     if (!identity) {
       return [];
     }
@@ -24,17 +24,17 @@ export const Taking = (Base) => class extends Base {
       entity = newEntity(identity);
       this.entities.set(key, entity);
       this.nameAll(identity);
-      this.entities.size > MOST_ENTITIES && this.forgetOldest();
+      this.entities.size > MAX_ENTITIES && this.forgetOldest();
     }
     if (record.cut) {
       entity.cut = record.cut;
       entity.time = Math.max(entity.time, record.time);
     } else if (typeof record.value === 'object' && !Array.isArray(record.value)) {
-      takeReport(entity, record);
+      applyReport(entity, record);
     }
     entity.suspect = this.suspects.has(key);
     entity.state = this.stateOf(entity);
-    this.tell('entities', key);
+    this.notify('entities', key);
     return [key];
   }
 
@@ -45,7 +45,7 @@ export const Taking = (Base) => class extends Base {
       this.identities.forget(entity.identity);
       this.nameAll(entity.identity);
       this.all = true;
-      this.tell('entities', key);
+      this.notify('entities', key);
     }
   }
 
@@ -56,7 +56,7 @@ export const Taking = (Base) => class extends Base {
       if (entity) {
         entity.difference = this.identities.difference(entity.identity);
         entity.name = named(entity);
-        this.tell('entities', key);
+        this.notify('entities', key);
       }
     }
   }
@@ -66,24 +66,24 @@ export const Taking = (Base) => class extends Base {
    *
    * @param {import('./stream.js').TopicRecord[]} records oldest first
    */
-  takePast(records) {
+  applyPast(records) {
     const reports = new Map();
     for (const record of records) {
       const isDeleted = record.value === null && !record.cut;
-      const keys = isDeleted ? this.identities.deletedBy(record) : [this.identities.take(record)?.key ?? null];
+      const keys = isDeleted ? this.identities.deletedBy(record) : [this.identities.identify(record)?.key ?? null];
       keys.forEach((key) => reports.has(key) ? reports.get(key).push(record) : reports.set(key, [record]));
     }
     reports.delete(null);
     for (const [key, of] of reports) {
-      const known = this.entities.get(key)?.time ?? -Infinity;
-      const newer = of.filter((each) => each.time > known);
+      const latest = this.entities.get(key)?.time ?? -Infinity;
+      const newer = of.filter((each) => each.time > latest);
       const deleted = newer.findLastIndex((each) => each.value === null && !each.cut);
-      newer.slice(Math.max(0, deleted)).forEach((each) => this.takeEntity(each));
+      newer.slice(Math.max(0, deleted)).forEach((each) => this.applyEntity(each));
       const entity = this.entities.get(key);
-      if (entity && known > -Infinity) {
-        takePast(entity, of.filter((each) => each.time <= known));
+      if (entity && latest > -Infinity) {
+        applyPast(entity, of.filter((each) => each.time <= latest));
         entity.state = this.stateOf(entity);
-        this.tell('entities', key);
+        this.notify('entities', key);
       }
     }
   }
@@ -101,7 +101,7 @@ export const Taking = (Base) => class extends Base {
     return ids.map((id, i) => this.identities.keyOf(id, scopeOf(headers), types?.[i]));
   }
 
-  takeEncounter(record) {
+  applyEncounter(record) {
     const value = record.value;
     if (!value || value.type !== 'Analytics:Collision') {
       return;
@@ -113,11 +113,11 @@ export const Taking = (Base) => class extends Base {
     }
     const [a, b] = this.keysOf(record, [of('Device1_ID'), of('Device2_ID')], [of('Device1_type'), of('Device2_type')]);
     const pair = `${a}|${b}`;
-    const known = this.encounters.get(pair);
-    if (known && known.time > record.time) {
+    const existing = this.encounters.get(pair);
+    if (existing && existing.time > record.time) {
       return;
     }
-    if (phase === 'predicted' && known && (known.phase === 'started' || known.phase === 'ongoing')) {
+    if (phase === 'predicted' && existing && (existing.phase === 'started' || existing.phase === 'ongoing')) {
       return;
     }
     this.encounters.set(pair, {
@@ -126,10 +126,10 @@ export const Taking = (Base) => class extends Base {
       time: record.time, start: of('startTime') ?? record.time, tcpa: of('tcpa'),
       at: [[of('Device1_longitude'), of('Device1_latitude')], [of('Device2_longitude'), of('Device2_latitude')]],
     });
-    this.tell('encounters');
+    this.notify('encounters');
   }
 
-  takeTemperature(record) {
+  applyTemperature(record) {
     const value = record.value;
     const of = (name) => value?.[name]?.value;
     const field = of('field');
@@ -152,8 +152,8 @@ export const Taking = (Base) => class extends Base {
       this.suspects.set(device, { field, mean: of('averageTemperature'), time: record.time });
       this.remark(device);
     }
-    this.tell('suspects');
-    this.tell('fields');
+    this.notify('suspects');
+    this.notify('fields');
   }
 
   remark(id) {
@@ -161,12 +161,12 @@ export const Taking = (Base) => class extends Base {
     if (entity) {
       entity.suspect = this.suspects.has(id);
       entity.state = this.stateOf(entity);
-      this.tell('entities', id);
+      this.notify('entities', id);
     }
   }
 
   /** A version of a field, or that it is taken back; a key without a time stands for all of them. */
-  takeField({ key, value }) {
+  applyField({ key, value }) {
     const [, id, time] = /^(.+)@([^@]*)$/s.exec(key) ?? [null, key, null];
     const versions = this.fieldVersions.get(id) ?? new Map();
     if (value) {
@@ -196,15 +196,15 @@ export const Taking = (Base) => class extends Base {
     } else if (!this.fields.delete(id)) {
       return;
     }
-    this.tell('fields');
+    this.notify('fields');
   }
 
-  takeImage(record) {
+  applyImage(record) {
     const image = record.value;
     if (image?.entity) {
       // the camera itself may come later, while another one has its id
       this.images.set(fullKey(scopeOf(record.headers), image.type ?? '', image.entity), { ...image, time: record.time });
-      this.keysOf(record, [image.entity], [image.type]).forEach((key) => this.tell('images', key));
+      this.keysOf(record, [image.entity], [image.type]).forEach((key) => this.notify('images', key));
     }
   }
 
@@ -213,14 +213,14 @@ export const Taking = (Base) => class extends Base {
     return this.images.get(fullKey(identity, identity.type, identity.id)) ?? this.images.get(fullKey(identity, '', identity.id));
   }
 
-  takeAlarm(record) {
+  applyAlarm(record) {
     record.value ? this.alarms.set(record.key, record.value) : this.alarms.delete(record.key);
-    this.tell('alarms');
+    this.notify('alarms');
   }
 
   /** All alarms that there were are known. */
   alarmsRead() {
-    this.alarmsKnown = true;
-    this.tell('alarms');
+    this.alarmsLoaded = true;
+    this.notify('alarms');
   }
 };
