@@ -58,7 +58,7 @@ public final class NumberedResults {
                 Topics.realtime(SoakFarm.DOMAIN), Topics.realtime(SoakFarm.DOMAIN, SoakFarm.MISSION), NORMALIZED)) {
             try (TopicLog log = new TopicLog(bootstrapServers, topic)) {
                 comparisons.put(topic, compared(log, expected.numbers(), Long.MAX_VALUE));
-                System.out.printf("%-32s nothing for %.1f s at most%n", topic, log.longestSilence() / 1000.0);
+                System.out.printf("%-32s nothing for %.1f s at most%n", topic, log.maxSilence() / 1000.0);
             }
         }
         for (Map.Entry<String, List<Result>> topic : results().entrySet()) {

@@ -34,7 +34,7 @@ class ResultComparisonTest {
     }
 
     @Test
-    void namesWhatSaysSomethingElse() {
+    void namesWhatDiffers() {
         ResultComparison comparison = ResultComparison.of(List.of(FIRST), List.of(new Result("number 1", "c", 10)), 20);
 
         assertThat(comparison.wrong()).containsExactly("number 1 says c instead of a");

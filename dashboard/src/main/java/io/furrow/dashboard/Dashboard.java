@@ -134,8 +134,8 @@ public final class Dashboard implements AutoCloseable {
         AccessRule rule = AccessRule.allowing(settings.allowed(), OPTIONS)
                 .servedAs(settings.host())
                 .withProbes(StatusPages.HEALTH, StatusPages.READY);
-        Handler known = new ProxyHeaders(settings.proxy(), users, streams.counters()::refused, paths);
-        Handler working = new RequestWorkers(path -> path.startsWith(WAITING), streams.counters()::refused, known);
+        Handler signedIn = new ProxyHeaders(settings.proxy(), users, streams.counters()::refused, paths);
+        Handler working = new RequestWorkers(path -> path.startsWith(WAITING), streams.counters()::refused, signedIn);
         server.setHandler(new AccessHandler(
                 rule,
                 refused -> {

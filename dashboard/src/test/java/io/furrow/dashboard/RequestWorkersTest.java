@@ -72,7 +72,7 @@ class RequestWorkersTest {
         server.stop();
     }
 
-    private CompletableFuture<HttpResponse<String>> ask(String path) {
+    private CompletableFuture<HttpResponse<String>> request(String path) {
         return http.sendAsync(HttpRequest.newBuilder(uri.resolve(path)).build(), HttpResponse.BodyHandlers.ofString());
     }
 
@@ -80,11 +80,11 @@ class RequestWorkersTest {
     void answersTheOthersWhileRequestsWait() {
         List<CompletableFuture<HttpResponse<String>>> waiting = new ArrayList<>();
         for (int i = 0; i < RequestWorkers.THREADS + SERVER_THREADS; i++) {
-            waiting.add(ask("/api/topics"));
+            waiting.add(request("/api/topics"));
         }
         await().until(() -> working.get() == RequestWorkers.THREADS);
 
-        assertThat(ask("/health").join().statusCode()).isEqualTo(200);
+        assertThat(request("/health").join().statusCode()).isEqualTo(200);
         assertThat(waiting).noneMatch(CompletableFuture::isDone);
         released.countDown();
         assertThat(waiting).allMatch(each -> each.join().statusCode() == 200);
@@ -92,10 +92,10 @@ class RequestWorkersTest {
     }
 
     @Test
-    void refusesMoreThanMayWait() {
+    void rejectsMoreThanMayWait() {
         List<CompletableFuture<HttpResponse<String>>> waiting = new ArrayList<>();
         for (int i = 0; i < RequestWorkers.THREADS + RequestWorkers.WAITING + 1; i++) {
-            waiting.add(ask("/api/topics"));
+            waiting.add(request("/api/topics"));
         }
         await().until(() -> waiting.stream().anyMatch(CompletableFuture::isDone));
 
@@ -115,7 +115,7 @@ class RequestWorkersTest {
 
     @Test
     void answersForAHandlerThatDoesNotOrFails() {
-        assertThat(ask("/api/nothing").join().statusCode()).isEqualTo(404);
-        assertThat(ask("/api/broken").join().statusCode()).isEqualTo(500);
+        assertThat(request("/api/nothing").join().statusCode()).isEqualTo(404);
+        assertThat(request("/api/broken").join().statusCode()).isEqualTo(500);
     }
 }

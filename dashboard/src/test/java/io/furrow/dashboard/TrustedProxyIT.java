@@ -215,7 +215,7 @@ class TrustedProxyIT {
     }
 
     @Test
-    void refusesWhoIsNotNamedOnceOrHasNoRole() throws Exception {
+    void rejectsWhoIsNotNamedOnceOrHasNoRole() throws Exception {
         start(HERE, DASHBOARD);
 
         assertThat(error(get("/api/me", USER, "vera"))).isEqualTo("403 no-role");

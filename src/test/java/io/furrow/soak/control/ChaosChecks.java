@@ -159,10 +159,10 @@ final class ChaosChecks {
     /** Requests that have not exactly one answer. */
     List<String> answers(Requester requester, AnswerLog log) {
         List<String> faults = new ArrayList<>();
-        requester.sent().forEach((id, words) -> {
+        requester.sent().forEach((id, text) -> {
             List<CommandResult> answers = log.to(id);
             if (answers.size() != 1) {
-                faults.add("request %s, %s, has %d answers: %s".formatted(id, words, answers.size(), answers));
+                faults.add("request %s, %s, has %d answers: %s".formatted(id, text, answers.size(), answers));
             }
         });
         return faults;

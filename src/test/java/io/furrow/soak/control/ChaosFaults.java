@@ -52,12 +52,12 @@ final class ChaosFaults {
     }
 
     /** What is away now. */
-    String away() {
-        String away = faults.stream()
+    String unavailable() {
+        String unavailable = faults.stream()
                 .filter(RecurringFault::isActive)
                 .map(RecurringFault::name)
                 .collect(Collectors.joining(", "));
-        return away.isEmpty() ? "nothing" : away;
+        return unavailable.isEmpty() ? "nothing" : unavailable;
     }
 
     /** Whether Kafka or a control plane is away, without which not all serve. */

@@ -19,12 +19,12 @@ final class DeviceViews {
     private static final long SILENT_WITHOUT_A_PERIOD_MILLIS = 180_000;
 
     private final UpProcess up;
-    private final ProgramPlan roster;
+    private final ProgramPlan plan;
     private final CheckResults verdicts;
 
-    DeviceViews(UpProcess up, ProgramPlan roster, CheckResults verdicts) {
+    DeviceViews(UpProcess up, ProgramPlan plan, CheckResults verdicts) {
         this.up = up;
-        this.roster = roster;
+        this.plan = plan;
         this.verdicts = verdicts;
     }
 
@@ -32,7 +32,7 @@ final class DeviceViews {
     void missions() {
         List<String> differences = new ArrayList<>();
         int up = 0;
-        for (ProgramPlan.Mission mission : roster.missions()) {
+        for (ProgramPlan.Mission mission : plan.missions()) {
             int reporting = (int) mission.devices().stream()
                     .filter(ProgramPlan.Device::reports)
                     .count();
@@ -49,7 +49,7 @@ final class DeviceViews {
             }
         }
         Set<String> missing = missing();
-        roster.devices().stream()
+        plan.devices().stream()
                 .filter(each -> each.reports() == missing.contains(each.id()))
                 .forEach(each -> differences.add("missing, or not: " + each.id()));
         verdicts.add(
@@ -81,7 +81,7 @@ final class DeviceViews {
     void soundDevices(String when) throws IOException, InterruptedException {
         check(
                 "device show of the others, " + when,
-                roster.devices().stream().filter(ProgramPlan.Device::isSound).toList(),
+                plan.devices().stream().filter(ProgramPlan.Device::isSound).toList(),
                 (device, shown) -> shown.at("/connection/loggedIn").isNumber()
                                 && shown.at("/connection/registered").asBoolean()
                                 && !shown.path("connection").has("cause")
@@ -154,7 +154,7 @@ final class DeviceViews {
     }
 
     private List<ProgramPlan.Device> faulty(String fault) {
-        return roster.devices().stream()
+        return plan.devices().stream()
                 .filter(each -> each.fault().equals(fault))
                 .toList();
     }

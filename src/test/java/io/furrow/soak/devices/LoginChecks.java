@@ -23,13 +23,13 @@ final class LoginChecks {
     private static final long CUT_WITHIN_MILLIS = 2_000;
 
     private final RealFarm farm;
-    private final ProgramPlan roster;
+    private final ProgramPlan plan;
     private final Programs programs;
     private final CheckResults verdicts;
 
-    LoginChecks(RealFarm farm, ProgramPlan roster, Programs programs, CheckResults verdicts) {
+    LoginChecks(RealFarm farm, ProgramPlan plan, Programs programs, CheckResults verdicts) {
         this.farm = farm;
-        this.roster = roster;
+        this.plan = plan;
         this.programs = programs;
         this.verdicts = verdicts;
     }
@@ -126,11 +126,11 @@ final class LoginChecks {
 
     /** Whose program was asked since then, and of whom the context broker has the answer. */
     private Set<String> answered(String command, List<ProgramPlan.Device> devices, long since) {
-        Set<String> asked = new HashSet<>();
+        Set<String> requested = new HashSet<>();
         programs.events().stream()
                 .filter(each -> each.is("asked") && each.at() >= since)
                 .filter(each -> each.json().at("/command/0").asText().equals(command))
-                .forEach(each -> asked.add(each.device()));
+                .forEach(each -> requested.add(each.device()));
         Set<String> types = new HashSet<>();
         devices.forEach(each -> types.add(each.id().split(":")[2]));
         Set<String> answered = new HashSet<>();
@@ -144,21 +144,20 @@ final class LoginChecks {
                 }
             }
         }
-        answered.retainAll(asked);
+        answered.retainAll(requested);
         return answered;
     }
 
     /** Rotates the login of each, over REST and with {@code ./furrow device rotate} in turn, and brings the program its new one. */
     void rotate(List<ProgramPlan.Device> devices) throws IOException, InterruptedException {
         List<String> differences = new ArrayList<>();
-        long longest = 0;
+        long max = 0;
         for (int i = 0; i < devices.size(); i++) {
-            longest = Math.max(longest, rotate(devices.get(i), i % 2 == 1, differences));
+            max = Math.max(max, rotate(devices.get(i), i % 2 == 1, differences));
         }
         verdicts.add(
                 "rotated logins",
-                "%d cut off after at most %d ms, then refused, and in with the new one"
-                        .formatted(devices.size(), longest),
+                "%d cut off after at most %d ms, then refused, and in with the new one".formatted(devices.size(), max),
                 differences);
     }
 
@@ -166,20 +165,20 @@ final class LoginChecks {
     private long rotate(ProgramPlan.Device device, boolean byCommand, List<String> differences)
             throws IOException, InterruptedException {
         String old = connected().get(device.id());
-        long asked = System.currentTimeMillis();
+        long requested = System.currentTimeMillis();
         if (byCommand) {
             farm.up().run("device", "rotate", device.id());
         } else {
             Http.send("POST", farm.up().api("/api/devices/" + device.id() + "/credentials"), null)
                     .join();
         }
-        long from = byCommand ? System.currentTimeMillis() : asked;
-        boolean isCut = Until.within(TIMEOUT, () -> time("cut", device, old, asked) > 0);
-        long delay = time("cut", device, old, asked) - from;
+        long from = byCommand ? System.currentTimeMillis() : requested;
+        boolean isCut = Until.within(TIMEOUT, () -> time("cut", device, old, requested) > 0);
+        long delay = time("cut", device, old, requested) - from;
         if (!isCut || delay > CUT_WITHIN_MILLIS) {
             differences.add("%s was cut off %d ms after its login was rotated".formatted(device.id(), delay));
         }
-        if (!Until.within(TIMEOUT, () -> time("refused", device, old, asked) > 0)) {
+        if (!Until.within(TIMEOUT, () -> time("refused", device, old, requested) > 0)) {
             differences.add("%s was let in again with its old login, or did not try".formatted(device.id()));
         }
         programs.bring(

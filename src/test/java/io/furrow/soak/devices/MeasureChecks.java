@@ -19,17 +19,17 @@ import io.furrow.soak.TopicLog;
 final class MeasureChecks {
     private static final Duration QUIET = Duration.ofMillis(200);
     /** A window is written when its end is the out-of-orderness ago, and the job has committed. */
-    static final Duration KNOWN_AFTER = Duration.ofSeconds(15);
+    static final Duration VISIBLE_AFTER = Duration.ofSeconds(15);
 
     private static final ExpectedAverages AVERAGES = new ExpectedAverages(10_000);
 
     private final String kafka;
-    private final ProgramPlan roster;
+    private final ProgramPlan plan;
     private final CheckResults verdicts;
 
-    MeasureChecks(String kafka, ProgramPlan roster, CheckResults verdicts) {
+    MeasureChecks(String kafka, ProgramPlan plan, CheckResults verdicts) {
         this.kafka = kafka;
-        this.roster = roster;
+        this.plan = plan;
         this.verdicts = verdicts;
     }
 
@@ -40,7 +40,7 @@ final class MeasureChecks {
     void arrived(String when, List<ProgramEvent> events, long from, long to, boolean once) throws UnreadableException {
         List<String> differences = new ArrayList<>();
         int sent = 0;
-        for (ProgramPlan.Mission mission : roster.missions()) {
+        for (ProgramPlan.Mission mission : plan.missions()) {
             Map<String, Integer> found = arrivals(mission.name());
             Set<String> ids = new HashSet<>(
                     mission.devices().stream().map(ProgramPlan.Device::id).toList());
@@ -87,7 +87,7 @@ final class MeasureChecks {
 
     void averages(String when, List<ProgramEvent> events, long from, long to) throws UnreadableException {
         Map<String, String> fields = new HashMap<>();
-        roster.devices().stream()
+        plan.devices().stream()
                 .filter(each -> each.field() != null)
                 .forEach(each -> fields.put(each.id(), each.field()));
         Set<String> late = late(Topics.TEMPERATURE_LATE);
@@ -112,7 +112,7 @@ final class MeasureChecks {
 
     void encounters(String when, List<ProgramEvent> events, long from, long to) throws UnreadableException {
         Set<String> late = late(Topics.COLLISION_LATE);
-        Set<String> tractors = new HashSet<>(roster.devices().stream()
+        Set<String> tractors = new HashSet<>(plan.devices().stream()
                 .filter(ProgramPlan.Device::isTractor)
                 .map(ProgramPlan.Device::id)
                 .toList());
@@ -126,12 +126,12 @@ final class MeasureChecks {
         expected.stream().filter(each -> !found.contains(each)).forEach(each -> differences.add("missing: " + each));
         found.stream().filter(each -> !expected.contains(each)).forEach(each -> differences.add("too many: " + each));
         ExpectedEncounters.pairs(results).stream()
-                .filter(each -> !roster.pairs().contains(each))
+                .filter(each -> !plan.pairs().contains(each))
                 .forEach(each -> differences.add("must not meet: " + each));
         verdicts.add(
                 "encounters, " + when,
                 "%d encounters of %d pairs, nobody else ever met"
-                        .formatted(expected.size(), roster.pairs().size()),
+                        .formatted(expected.size(), plan.pairs().size()),
                 expected.isEmpty() ? List.of("there was no encounter") : differences);
     }
 

@@ -11,7 +11,7 @@ import io.furrow.soak.control.Until;
 
 /** Two hundred devices on a farm of processes: first undisturbed, then while agent, control plane and broker are killed in turn. */
 public final class RealDevices {
-    private static final Duration AWAY = Duration.ofSeconds(8);
+    private static final Duration UNAVAILABLE = Duration.ofSeconds(8);
     private static final Duration TIMEOUT = Duration.ofMinutes(1);
     private static final Duration SETTLED = Duration.ofSeconds(10);
     /** The stand-in writes its file so often at least. */
@@ -20,7 +20,7 @@ public final class RealDevices {
     private final Path home;
     private final Path folder;
     private final Duration undisturbed;
-    private final ProgramPlan roster = new ProgramPlan();
+    private final ProgramPlan plan = new ProgramPlan();
     private final CheckResults verdicts = new CheckResults();
     private final RealFarm farm;
     private final Programs programs;
@@ -32,11 +32,11 @@ public final class RealDevices {
         this.home = home;
         this.folder = folder;
         this.undisturbed = undisturbed;
-        farm = new RealFarm(home, folder, roster);
+        farm = new RealFarm(home, folder, plan);
         programs = new Programs(program(), folder.resolve("programs"));
-        logins = new LoginChecks(farm, roster, programs, verdicts);
-        measures = new MeasureChecks(farm.up().kafka(), roster, verdicts);
-        shown = new DeviceViews(farm.up(), roster, verdicts);
+        logins = new LoginChecks(farm, plan, programs, verdicts);
+        measures = new MeasureChecks(farm.up().kafka(), plan, verdicts);
+        shown = new DeviceViews(farm.up(), plan, verdicts);
     }
 
     private Path program() {
@@ -63,11 +63,11 @@ public final class RealDevices {
     }
 
     private boolean run() throws Exception {
-        say("Mosquitto, the stand-ins of Orion and IoT Agent, and ./furrow up start");
+        print("Mosquitto, the stand-ins of Orion and IoT Agent, and ./furrow up start");
         farm.start();
         long began = System.currentTimeMillis();
-        startMissions(farm.up(), programs, roster.missions());
-        say("%d devices in %d processes".formatted(roster.devices().size(), programs.processes()));
+        startMissions(farm.up(), programs, plan.missions());
+        print("%d devices in %d processes".formatted(plan.devices().size(), programs.processes()));
         shown.missions();
         undisturbed("undisturbed", began);
         shown.soundDevices("undisturbed");
@@ -75,7 +75,7 @@ public final class RealDevices {
         logins.obey(every(60));
         logins.answer("undisturbed", commanded());
         logins.rotate(every(40));
-        killEachInTurn();
+        killEachOnce();
         undisturbed("after all came back", System.currentTimeMillis());
         shown.soundDevices("after all came back");
         shown.nobodyIsSilent(quiet());
@@ -89,17 +89,17 @@ public final class RealDevices {
 
     /** The same faults where broker and agent are the suite's own, which know more of them. */
     private void faultsAtTheSuitesOwnBroker() throws Exception {
-        say("./furrow up starts with its own broker and agent");
+        print("./furrow up starts with its own broker and agent");
         try (UpProcess up = new UpProcess(home, folder.resolve("own"), List.of("--start-timeout", "20s"));
                 Programs faulty = new Programs(program(), folder.resolve("own").resolve("programs"))) {
             up.start();
             startMissions(
                     up,
                     faulty,
-                    roster.missions().stream()
+                    plan.missions().stream()
                             .filter(mission -> mission.name().equals(ProgramPlan.FAULTY))
                             .toList());
-            new DeviceViews(up, roster, verdicts).faultsOfTheSuite();
+            new DeviceViews(up, plan, verdicts).faultsOfTheSuite();
         }
     }
 
@@ -129,37 +129,37 @@ public final class RealDevices {
         long from = System.currentTimeMillis();
         Thread.sleep(undisturbed.toMillis());
         long to = System.currentTimeMillis();
-        Thread.sleep(MeasureChecks.KNOWN_AFTER.toMillis());
+        Thread.sleep(MeasureChecks.VISIBLE_AFTER.toMillis());
         List<ProgramEvent> events = programs.events();
         measures.arrived(when, events, since, to, true);
         measures.averages(when, events, from, to);
         measures.encounters(when, events, from, to);
     }
 
-    private void killEachInTurn() throws Exception {
+    private void killEachOnce() throws Exception {
         Thread.sleep(STORED.toMillis());
         Map<String, String> before = logins.connected();
         long killed = System.currentTimeMillis();
-        say("kill -9 of context broker and IoT Agent");
+        print("kill -9 of context broker and IoT Agent");
         farm.standIn().kill();
-        Thread.sleep(AWAY.toMillis());
+        Thread.sleep(UNAVAILABLE.toMillis());
         farm.standIn().start();
         isBack("the agent's end", before, killed, false);
 
         killed = System.currentTimeMillis();
-        say("kill -9 of ./furrow up, with control plane, Kafka, Connect and Flink");
+        print("kill -9 of ./furrow up, with control plane, Kafka, Connect and Flink");
         farm.up().kill();
-        Thread.sleep(AWAY.toMillis());
+        Thread.sleep(UNAVAILABLE.toMillis());
         farm.up().start();
         isBack("the control plane's end", before, killed, false);
         shown.soundDevices("after the control plane's end");
         shown.faultsBesideMosquitto("after it");
 
         killed = System.currentTimeMillis();
-        say("kill -9 of Mosquitto");
+        print("kill -9 of Mosquitto");
         long subscriptions = farm.agentSubscriptions();
         farm.mosquitto().kill();
-        Thread.sleep(AWAY.toMillis());
+        Thread.sleep(UNAVAILABLE.toMillis());
         farm.mosquitto().start();
         Until.isTrue("the agent is back at Mosquitto", TIMEOUT, () -> farm.agentSubscriptions() > subscriptions);
         isBack("the broker's end", before, killed, true);
@@ -167,15 +167,15 @@ public final class RealDevices {
 
     private void isBack(String after, Map<String, String> before, long since, boolean mayBeCut) throws Exception {
         logins.remain(after, before, since, mayBeCut);
-        long asked = System.currentTimeMillis();
+        long requested = System.currentTimeMillis();
         logins.answer("after " + after, commanded());
         Thread.sleep(SETTLED.toMillis());
-        measures.arrived("after " + after, programs.events(), asked, System.currentTimeMillis() - 5_000, false);
+        measures.arrived("after " + after, programs.events(), requested, System.currentTimeMillis() - 5_000, false);
     }
 
     /** Devices with a period of 15 min that are not sent anything until the end. */
     private List<ProgramPlan.Device> quiet() {
-        return roster.devices().stream()
+        return plan.devices().stream()
                 .filter(each -> each.mission().equals("quarter-hour"))
                 .skip(15)
                 .toList();
@@ -183,7 +183,7 @@ public final class RealDevices {
 
     private List<ProgramPlan.Device> commanded() {
         List<ProgramPlan.Device> quiet = quiet();
-        return roster.devices().stream()
+        return plan.devices().stream()
                 .filter(each -> each.reports() && !quiet.contains(each))
                 .toList();
     }
@@ -196,7 +196,7 @@ public final class RealDevices {
                 .toList();
     }
 
-    private static void say(String words) {
-        System.out.println(words);
+    private static void print(String arguments) {
+        System.out.println(arguments);
     }
 }

@@ -23,13 +23,13 @@ final class RealFarm implements AutoCloseable {
     private final UpProcess up;
     private final AtomicBoolean closed = new AtomicBoolean();
 
-    RealFarm(Path home, Path folder, ProgramPlan roster) throws IOException, InterruptedException {
+    RealFarm(Path home, Path folder, ProgramPlan plan) throws IOException, InterruptedException {
         Path broker = folder.resolve("mosquitto").toAbsolutePath();
         log = broker.resolve("broker.log");
         mosquitto = new MosquittoProcess(broker, "log_dest file %s%nlog_type all".formatted(log));
         standIn = new StandInProcess(folder, mosquitto.uri());
         Path fields = Files.writeString(
-                folder.resolve("fields.geojson"), roster.fields().toString());
+                folder.resolve("fields.geojson"), plan.fields().toString());
         up = new UpProcess(
                 home,
                 folder.resolve("up"),

@@ -164,9 +164,9 @@ public record IngestOutcome(SortedMap<String, List<String>> lines) {
     }
 
     private static List<String> only(String where, List<String> some, List<String> others) {
-        var known = new java.util.HashSet<>(others);
+        var existing = new java.util.HashSet<>(others);
         return some.stream()
-                .filter(line -> !known.contains(line))
+                .filter(line -> !existing.contains(line))
                 .limit(SHOWN)
                 .map(line -> "only " + where + ": " + line)
                 .toList();

@@ -34,7 +34,7 @@ final class SourceGroup implements AutoCloseable {
     private final String bootstrapServers;
     private final boolean exactlyOnce;
     private final List<Member> members = new ArrayList<>();
-    private final List<Member> gone = new ArrayList<>();
+    private final List<Member> departed = new ArrayList<>();
 
     SourceGroup(Path folder, String bootstrapServers, boolean exactlyOnce) {
         this.folder = folder;
@@ -65,7 +65,7 @@ final class SourceGroup implements AutoCloseable {
                 folder.resolve(name), bootstrapServers, environment, SourceWorker.settings(exactlyOnce, SETTINGS));
         Member member = new Member(name, own, port, process, new WorkerGauges(process.jmxPort()));
         members.add(member);
-        gone.removeIf(other -> other.disk().equals(own));
+        departed.removeIf(other -> other.disk().equals(own));
         process.start();
         return member;
     }
@@ -74,18 +74,18 @@ final class SourceGroup implements AutoCloseable {
     void restart(Member member) throws IOException {
         member.process().start();
         members.add(member);
-        gone.remove(member);
+        departed.remove(member);
     }
 
     void kill(Member member) throws InterruptedException {
         members.remove(member);
-        gone.add(member);
+        departed.add(member);
         member.process().kill();
     }
 
     void stop(Member member) {
         members.remove(member);
-        gone.add(member);
+        departed.add(member);
         member.process().close();
     }
 
@@ -94,8 +94,8 @@ final class SourceGroup implements AutoCloseable {
     }
 
     /** Those that were killed or stopped, and whose disk no other has. */
-    List<Member> gone() {
-        return List.copyOf(gone);
+    List<Member> departed() {
+        return List.copyOf(departed);
     }
 
     void createSource(URI contextBroker, String publicUrl) {
@@ -162,7 +162,7 @@ final class SourceGroup implements AutoCloseable {
     /** What each worker shows now. */
     Map<String, WorkerGauges.Shown> shown() {
         Map<String, WorkerGauges.Shown> shown = new TreeMap<>();
-        members().forEach(member -> shown.put(member.name(), member.gauges().look()));
+        members().forEach(member -> shown.put(member.name(), member.gauges().read()));
         return shown;
     }
 

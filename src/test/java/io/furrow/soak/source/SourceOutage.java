@@ -13,7 +13,7 @@ public final class SourceOutage {
     private static final Duration WARM_UP = Duration.ofSeconds(15);
     private static final Duration POLL_INTERVAL = Duration.ofSeconds(10);
     /** The worker has a heap of 384 MiB; threads, classes, code and network buffers come beside it. */
-    private static final long RESIDENT_MIB_AT_MOST = 700;
+    private static final long MAX_RESIDENT_MIB = 700;
 
     private SourceOutage() {}
 
@@ -44,8 +44,8 @@ public final class SourceOutage {
             System.out.printf(
                     "sent during the outage %d; drained %.1f s after Kafka was back%n", sentDuring, drained / 1e9);
             long peak = worker.peakResidentMib();
-            System.out.printf("resident at most %d MiB; allowed are %d%n", peak, RESIDENT_MIB_AT_MOST);
-            good &= drained < outage.toNanos() && peak <= RESIDENT_MIB_AT_MOST;
+            System.out.printf("resident at most %d MiB; allowed are %d%n", peak, MAX_RESIDENT_MIB);
+            good &= drained < outage.toNanos() && peak <= MAX_RESIDENT_MIB;
         } finally {
             kafka.close();
         }

@@ -23,7 +23,7 @@ final class WorkersFarm implements AutoCloseable {
 
     private static final Duration LOAD = Duration.ofSeconds(2);
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
-    private static final Duration REPAIRED_WITHIN = Duration.ofSeconds(60);
+    private static final Duration REPAIR_TIMEOUT = Duration.ofSeconds(60);
 
     private final EmbeddedKafka kafka;
     private final FiwareStandIn contextBroker;
@@ -111,7 +111,7 @@ final class WorkersFarm implements AutoCloseable {
                     && shown.stream().allMatch(one -> one.onDisk() == 0 && one.adopted() == 0 && one.orphaned() == 0);
         });
         List<NumberedChange> newest = changes.newest();
-        Conditions.within(REPAIRED_WITHIN, () -> {
+        Conditions.within(REPAIR_TIMEOUT, () -> {
             topic.read();
             return topic.notNewest(newest).isEmpty();
         });

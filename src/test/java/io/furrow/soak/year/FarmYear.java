@@ -28,13 +28,13 @@ public final class FarmYear implements AutoCloseable {
 
     private static final int DAYS_OF_A_WEEK = 7;
     private static final int WEEKS_OF_A_MONTH = 4;
-    private static final int KEPT_DAYS = 7;
+    private static final int RETENTION_DAYS = 7;
     private static final int DAY_OF_REPLAY = 3;
     /** Until the jobs know a mission's devices. */
     private static final Duration KNOWN = Duration.ofSeconds(2);
 
     private static final Duration SETTLED = Duration.ofSeconds(30);
-    private static final Duration BETWEEN_LOOKS = Duration.ofSeconds(1);
+    private static final Duration POLL_INTERVAL = Duration.ofSeconds(1);
     private static final double MAX_GROWTH = 1.2;
     private static final double MAX_START_GROWTH = 1.5;
     private static final long MAX_OPENING_MILLIS = 3_000;
@@ -51,7 +51,7 @@ public final class FarmYear implements AutoCloseable {
     private final SilentDevices silent;
     private final YearReplays replays;
     private final PowerCut power;
-    private final Deque<String> kept = new ArrayDeque<>();
+    private final Deque<String> stored = new ArrayDeque<>();
     private final Map<Integer, Map<String, Double>> footprints = new TreeMap<>();
     private List<DayMission> ofTheWeek = new ArrayList<>();
     private long from = System.currentTimeMillis();
@@ -98,9 +98,10 @@ public final class FarmYear implements AutoCloseable {
     }
 
     void run() throws Exception {
-        say("Mosquitto, the stand-ins of Orion and IoT Agent, and ./furrow up start");
+        print("Mosquitto, the stand-ins of Orion and IoT Agent, and ./furrow up start");
         start(farm::start);
-        farm.ask("POST", "/api/domains", JsonNodeFactory.instance.objectNode().put("domain", DOMAIN));
+        farm.request(
+                "POST", "/api/domains", JsonNodeFactory.instance.objectNode().put("domain", DOMAIN));
         plots.start();
         fleet.start();
         for (int week = 1; week <= weeks; week++) {
@@ -113,7 +114,7 @@ public final class FarmYear implements AutoCloseable {
             }
             endOfWeek(week);
             farm.retain(Duration.ofNanos(System.nanoTime() - began));
-            say("week %d took %.1f s".formatted(week, (System.nanoTime() - began) / 1e9));
+            print("week %d took %.1f s".formatted(week, (System.nanoTime() - began) / 1e9));
         }
         fleet.close();
         compare();
@@ -129,7 +130,7 @@ public final class FarmYear implements AutoCloseable {
         }
         Thread.sleep(day.toMillis() / 2);
         if (number == DAYS_OF_A_WEEK - 1) {
-            add(silent.told("week " + week, week));
+            add(silent.checkSilent("week " + week, week));
             add(replays.playedAndDeleted("week " + week));
             openPage(week);
         }
@@ -147,7 +148,7 @@ public final class FarmYear implements AutoCloseable {
             ObjectNode plan = JsonNodeFactory.instance.objectNode().put("domain", DOMAIN);
             ArrayNode devices = plan.putArray("devices");
             YearFleet.devices(mission).forEach(devices::add);
-            farm.ask("POST", "/api/missions/" + name + "/start", plan);
+            farm.request("POST", "/api/missions/" + name + "/start", plan);
             missions.add(name);
         }
         Thread.sleep(KNOWN.toMillis());
@@ -171,11 +172,11 @@ public final class FarmYear implements AutoCloseable {
                 ? new DayMission(each.name(), each.devices(), each.begun(), until)
                 : each);
         for (String name : missions) {
-            farm.ask("POST", "/api/missions/" + name + "/stop", null);
-            kept.add(name);
+            farm.request("POST", "/api/missions/" + name + "/stop", null);
+            stored.add(name);
         }
-        while (kept.size() > KEPT_DAYS * YearFleet.MISSIONS) {
-            farm.forget(kept.remove());
+        while (stored.size() > RETENTION_DAYS * YearFleet.MISSIONS) {
+            farm.forget(stored.remove());
         }
     }
 
@@ -199,17 +200,17 @@ public final class FarmYear implements AutoCloseable {
         }
         start(farm.up()::start);
         String when = "week %d (%s)".formatted(week, end);
-        add(silent.told("after the end of " + when, week));
+        add(silent.checkSilent("after the end of " + when, week));
         silent.end(week);
         Thread.sleep(day.toMillis() / 2);
         long until = System.currentTimeMillis();
         end(missions, until);
         settle(new Span(when, from, until, end.equals("restart")));
-        add(silent.gone(when, week));
+        add(silent.checkRemoved(when, week));
         silent.forget(week);
         from = until;
         footprints.put(week, Footprint.of(farm, startSeconds));
-        say("week %d: %s".formatted(week, footprints.get(week)));
+        print("week %d: %s".formatted(week, footprints.get(week)));
     }
 
     /** Awaits what is under way. */
@@ -217,7 +218,7 @@ public final class FarmYear implements AutoCloseable {
         long end = System.nanoTime() + SETTLED.toNanos();
         List<YearCheck> checks = checks(span);
         while (!checks.stream().allMatch(YearCheck::holds) && System.nanoTime() < end) {
-            Thread.sleep(BETWEEN_LOOKS.toMillis());
+            Thread.sleep(POLL_INTERVAL.toMillis());
             checks = checks(span);
         }
         checks.forEach(this::add);
@@ -277,16 +278,16 @@ public final class FarmYear implements AutoCloseable {
         }
         Map<String, Double> before = footprints.get(WEEKS_OF_A_MONTH);
         footprints.get(weeks).forEach((what, now) -> {
-            double most = before.get(what) * (what.equals("start s") ? MAX_START_GROWTH : MAX_GROWTH);
+            double max = before.get(what) * (what.equals("start s") ? MAX_START_GROWTH : MAX_GROWTH);
             verdicts.add(
                     what + " at the end",
                     String.format(Locale.ROOT, "%.1f, after the fourth week %.1f", now, before.get(what)),
-                    now <= most ? List.of() : List.of(String.format(Locale.ROOT, "more than %.1f", most)));
+                    now <= max ? List.of() : List.of(String.format(Locale.ROOT, "more than %.1f", max)));
         });
     }
 
-    private static void say(String words) {
-        System.out.println(words);
+    private static void print(String text) {
+        System.out.println(text);
     }
 
     @Override

@@ -56,7 +56,7 @@ final class Plots {
                 where.get(1).put(time, "");
             }
             case ENDS -> {
-                farm.ask(
+                farm.request(
                         "PATCH",
                         "/api/fields/" + season,
                         JsonNodeFactory.instance
@@ -87,7 +87,7 @@ final class Plots {
                     .add(YearFleet.LONGITUDE - 0.001 + corner[0] * 0.006)
                     .add(latitude - 0.001 + corner[1] * 0.002);
         }
-        farm.ask("POST", "/api/fields", all);
+        farm.request("POST", "/api/fields", all);
         now.put(id, shown(name, latitude - 0.001));
     }
 

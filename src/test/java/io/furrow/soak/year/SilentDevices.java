@@ -40,7 +40,7 @@ final class SilentDevices {
         for (String id : new String[] {FALLS_SILENT, NEVER_REPORTS}) {
             devices.addObject().put("id", id).put("type", "Thermometer").put("period", "PT1S");
         }
-        farm.ask("POST", "/api/missions/" + mission(week) + "/start", plan);
+        farm.request("POST", "/api/missions/" + mission(week) + "/start", plan);
     }
 
     /** When its mission is known. */
@@ -49,7 +49,7 @@ final class SilentDevices {
     }
 
     void end(int week) {
-        farm.ask("POST", "/api/missions/" + mission(week) + "/stop", null);
+        farm.request("POST", "/api/missions/" + mission(week) + "/stop", null);
     }
 
     void forget(int week) {
@@ -57,7 +57,7 @@ final class SilentDevices {
     }
 
     /** Both alarms are there, and they are of this mission. */
-    YearCheck told(String when, int week) {
+    YearCheck checkSilent(String when, int week) {
         Until.within(TIMEOUT, () -> open(week).equals(ALARMS));
         return new YearCheck(
                 "alarms of silent devices, " + when,
@@ -65,7 +65,7 @@ final class SilentDevices {
                 YearCheck.differences(ALARMS, open(week)));
     }
 
-    YearCheck gone(String when, int week) {
+    YearCheck checkRemoved(String when, int week) {
         Until.within(TIMEOUT, () -> open(week).isEmpty());
         return new YearCheck(
                 "no alarm once their mission has ended, " + when, "", YearCheck.differences(Map.of(), open(week)));

@@ -87,7 +87,7 @@ final class YearFarm implements AutoCloseable {
     }
 
     /** Asks until it is granted: what it asks for is allowed, but perhaps not yet. @return the answer */
-    JsonNode ask(String method, String path, ObjectNode body) {
+    JsonNode request(String method, String path, ObjectNode body) {
         byte[] bytes = body == null ? null : NgsiJson.write(body);
         AtomicReference<Http.Answer> answer = new AtomicReference<>();
         Until.isTrue(method + " " + path, TIMEOUT, () -> {
@@ -99,7 +99,7 @@ final class YearFarm implements AutoCloseable {
 
     /** Deletes a mission, and does what the control plane does a day later and a retention of missions would do. */
     void forget(String mission) {
-        ask("DELETE", "/api/missions/" + mission, null);
+        request("DELETE", "/api/missions/" + mission, null);
         try (MongoClient client = MongoClients.create(mongo())) {
             deleteTopics(Topics.realtime(FarmYear.DOMAIN, mission));
             client.getDatabase(MongoAccess.DATABASE)
@@ -114,8 +114,9 @@ final class YearFarm implements AutoCloseable {
 
     void deleteTopics(String... topics) throws InterruptedException, ExecutionException {
         try (Admin admin = admin()) {
-            Set<String> known = admin.listTopics().names().get();
-            admin.deleteTopics(List.of(topics).stream().filter(known::contains).toList())
+            Set<String> existing = admin.listTopics().names().get();
+            admin.deleteTopics(
+                            List.of(topics).stream().filter(existing::contains).toList())
                     .all()
                     .get();
         }

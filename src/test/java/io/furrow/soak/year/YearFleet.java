@@ -151,9 +151,9 @@ final class YearFleet implements AutoCloseable {
         int number = number(id);
         double meters = number == 1 ? near ? 2 : 20 : number * 100.0;
         double latitude = latitude(TRACTORS) + meters * METER;
-        ObjectNode told = NODES.objectNode().put("time", now);
-        told.putArray("position").add(latitude).add(LONGITUDE);
-        tractors.put(new Report(id, now), new ProgramEvent(now, id, "sent", told));
+        ObjectNode reported = NODES.objectNode().put("time", now);
+        reported.putArray("position").add(latitude).add(LONGITUDE);
+        tractors.put(new Report(id, now), new ProgramEvent(now, id, "sent", reported));
         ObjectNode entity = entity(id, now);
         attribute(entity, "Latitude", latitude);
         return attribute(entity, "Longitude", LONGITUDE);

@@ -28,7 +28,7 @@ final class YearReplays {
     /** @param mission one that is over */
     void start(String mission) {
         this.mission = mission;
-        replay = farm.ask(
+        replay = farm.request(
                 "POST",
                 "/api/replays",
                 JsonNodeFactory.instance.objectNode().put("mission", mission).put("speed", 10));
@@ -50,7 +50,7 @@ final class YearReplays {
                     .forEach((each, times) -> expected.put(each.toString(), 1));
             log.all(topic).forEach((each, times) -> found.put(each.toString(), times));
         }
-        farm.ask("DELETE", path, null);
+        farm.request("DELETE", path, null);
         boolean deleted =
                 Until.within(TIMEOUT, () -> Http.get(farm.up().api(path)).status() == 404);
         if (!deleted) {

@@ -122,8 +122,8 @@ final class YearResults {
         return new TreeMap<>(averages.expected(readings, plots::fieldOf, span.from(), span.until()));
     }
 
-    private List<ProgramEvent> stored(Map<Report, ProgramEvent> told) {
-        return told.entrySet().stream()
+    private List<ProgramEvent> stored(Map<Report, ProgramEvent> reported) {
+        return reported.entrySet().stream()
                 .filter(each -> accounts.isTaken(each.getKey()))
                 .map(Map.Entry::getValue)
                 .sorted(Comparator.comparingLong(ProgramEvent::time))

@@ -54,12 +54,12 @@ class AlarmsIT {
 
     @Tag("full")
     @Test
-    void saysWhyAnAlarmCannotBeClosed(PageSuite suite) {
+    void reportsWhyAnAlarmCannotBeClosed(PageSuite suite) {
         FarmPage farm = suite.open("").expectingError("status of 4\\d\\d.*/close");
-        String known =
+        String existing =
                 "[...store.alarms.values()].find((each) => each.kind.includes('suspect') && each.state !== 'closed')?.alarm";
-        farm.untilStore(known + " !== undefined");
-        Locator row = rowOf(farm, (String) farm.store(known));
+        farm.untilStore(existing + " !== undefined");
+        Locator row = rowOf(farm, (String) farm.store(existing));
 
         close(row);
 
@@ -72,15 +72,15 @@ class AlarmsIT {
     void closesAnAlarm(PageSuite suite) {
         FarmPage farm = suite.open("");
         farm.untilStore("store.alarmsLoaded");
-        AtomicInteger asked = new AtomicInteger();
+        AtomicInteger requested = new AtomicInteger();
         farm.page().route("**/api/alarms/over-1/close", route -> {
-            asked.incrementAndGet();
+            requested.incrementAndGet();
             route.fulfill(new Route.FulfillOptions().setStatus(202));
         });
         take(farm, "open");
         Locator row = rowOf(farm, "over-1");
         close(row);
-        farm.page().waitForCondition(() -> asked.get() == 1);
+        farm.page().waitForCondition(() -> requested.get() == 1);
 
         take(farm, "closed");
         assertThat(row).hasCount(0);
@@ -107,7 +107,7 @@ class AlarmsIT {
 
     @Tag("full")
     @Test
-    void tellsANewAlarmToScreenReadersAndCountsIt(PageSuite suite) throws Exception {
+    void reportsANewAlarmToScreenReadersAndCountsIt(PageSuite suite) throws Exception {
         FarmPage farm = suite.open("");
         farm.untilStore("store.primed && store.alarmsLoaded");
         int robot = meet(suite);
@@ -120,7 +120,7 @@ class AlarmsIT {
 
     @Tag("full")
     @Test
-    void findsAlarmsByWhatTheySay(PageSuite suite) {
+    void findsAlarmsByWhatTheyReport(PageSuite suite) {
         FarmPage farm = suite.open("");
         Locator open = farm.find("furrow-alarms > .alarm-list > li.alarm");
         farm.untilStore("[...store.alarms.values()].some((each) => each.state === 'open')");
@@ -137,7 +137,7 @@ class AlarmsIT {
     @Tag("full")
     @Test
     void notifiesOfANewAlarmWhileThePageIsHidden(PageSuite suite) throws Exception {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESK);
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
         farm.page().context().grantPermissions(List.of("notifications"));
         farm.page().addInitScript("""
                 window.notified = [];

@@ -39,7 +39,7 @@ class CardsIT {
 
     @Tag("full")
     @Test
-    void saysHowADeviceIsConnected(PageSuite suite) {
+    void reportsHowADeviceIsConnected(PageSuite suite) {
         FarmPage farm = suite.open("");
         farm.page()
                 .route("**/api/devices/*Thermometer*", route -> route.fulfill(new Route.FulfillOptions().setBody("""
@@ -134,7 +134,7 @@ class CardsIT {
     }
 
     @Test
-    void sendsACommandAndSaysWhatBecameOfIt(PageSuite suite) {
+    void sendsACommandAndReportsWhatBecameOfIt(PageSuite suite) {
         FarmPage farm = suite.open("");
         Locator card = farm.card(ROBOT);
         card.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
@@ -149,7 +149,7 @@ class CardsIT {
     /** Nobody keeps it: the context broker has no such entity. */
     @Tag("full")
     @Test
-    void saysWhyACommandWasNotSent(PageSuite suite) throws Exception {
+    void reportsWhyACommandWasNotSent(PageSuite suite) throws Exception {
         String lost = "urn:ngsi-ld:Robot:lost";
         suite.produce("data.raw", lost, robot(lost, "Running", Instant.now()));
         FarmPage farm = suite.open("").expectingError("status of 404.*commands");
@@ -162,7 +162,7 @@ class CardsIT {
 
     @Tag("full")
     @Test
-    void saysThatADeviceIsSilent(PageSuite suite) throws Exception {
+    void reportsThatADeviceIsSilent(PageSuite suite) throws Exception {
         String silent = "urn:ngsi-ld:Robot:silent";
         Instant before = Instant.now().minusSeconds(300);
         suite.produce("data.raw", silent, robot(silent, "Running", before), before);

@@ -100,7 +100,7 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void gathersManyRobotsAndOpensWhatNoZoomTellsApart(PageSuite suite) {
+    void gathersManyRobotsAndOpensWhatNoZoomDistinguishes(PageSuite suite) {
         FarmPage farm = suite.open("");
         farm.untilStore("store.primed && store.entities.size >= 17");
         report(farm, 200, 40.312998, -3.483058);
@@ -291,7 +291,7 @@ class MapIT {
     /** On the map of a phone too, where only some fields have room for it inside their outline. */
     @Tag("full")
     @Test
-    void saysTheAverageOfEachFieldAndCoversNoSymbolWithIt(PageSuite suite) {
+    void reportsTheAverageOfEachFieldAndCoversNoSymbolWithIt(PageSuite suite) {
         FarmPage farm = suite.open("", WindowStyle.PHONE);
         farm.untilStore("store.primed && store.entities.size >= 17"
                 + " && ['field-1', 'field-2', 'field-3'].every((id) => store.averages.has(id))");

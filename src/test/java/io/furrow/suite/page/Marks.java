@@ -56,7 +56,7 @@ final class Marks {
     }
 
     static Delays measure(PageSuite suite, int events, long millisBetween) throws Exception {
-        FarmPage farm = suite.open("", WindowStyle.DESK);
+        FarmPage farm = suite.open("", WindowStyle.DESKTOP);
         farm.untilStore("store.primed && store.entities.size >= 17");
         farm.page().getByPlaceholder("Find a device, field or alarm").fill("thermometer mark");
         Properties properties = suite.running().suite().kafka().clientProperties();

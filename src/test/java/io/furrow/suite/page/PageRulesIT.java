@@ -127,7 +127,7 @@ class PageRulesIT {
 
     /** Neither tenant nor type is part of the id. */
     @Test
-    void tellsEntitiesOfOneIdApart() {
+    void distinguishesEntitiesOfOneId() {
         assertThat(run(TAKE + """
                 const at = (longitude) => ({ Latitude: { value: 10 }, Longitude: { value: longitude } });
                 for (let i = 0; i < 4; i++) {

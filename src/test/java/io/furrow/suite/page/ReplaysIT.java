@@ -111,7 +111,7 @@ class ReplaysIT {
     /** The hour at the end of summer time comes twice: the last event is written 02:40, or even before the first one. */
     @Test
     void plansAWholeMissionAcrossTheEndOfSummerTime(PageSuite suite) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESK);
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
         farm.page()
                 .route(
                         "**/api/recordings",

@@ -75,9 +75,9 @@ class SignInIT {
     }
 
     @Test
-    void asksForATokenAgainWhenItIsTakenBackAndGoesOnAtTheSamePlace(PageSuite suite) throws Exception {
+    void requestsATokenAgainWhenItIsTakenBackAndGoesOnAtTheSamePlace(PageSuite suite) throws Exception {
         try (Dashboard dashboard = Dashboard.start(settings())) {
-            FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESK)
+            FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESKTOP)
                     .expectingError("status of 401|status of 404.*images");
             farm.page().navigate(dashboard.uri().resolve("/#/missions").toString());
             signIn(farm, VERA);
@@ -113,7 +113,7 @@ class SignInIT {
                 DASHBOARD);
         PageSettings pages = PageSettings.DEFAULT.withSignIn("/oauth2/start?rd={page}", "/oauth2/sign_out?rd={page}");
         try (Dashboard dashboard = Dashboard.start(settings().withProxy(proxy).withPage(pages))) {
-            FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESK)
+            FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESKTOP)
                     .expectingError("status of 401|status of 404.*images");
             farm.page().route("**/*", this::asTheProxy);
             farm.open("").go("Missions");
@@ -136,7 +136,7 @@ class SignInIT {
     void doesNotGoRoundAndRoundWhereTheProxyTakesTheUserAndTheDashboardDoesNot(PageSuite suite) throws Exception {
         PageSettings pages = PageSettings.DEFAULT.withSignIn("/oauth2/start?rd={page}", null);
         try (Dashboard dashboard = Dashboard.start(settings().withPage(pages))) {
-            FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESK)
+            FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESKTOP)
                     .expectingError("status of 401|status of 404.*images");
             farm.page().route("**/*", this::asTheProxy);
             farm.page().navigate(dashboard.uri().resolve("/").toString());

@@ -84,7 +84,7 @@ class TimelineIT {
     }
 
     @Test
-    void knowsWhatCameInTheNewestBucketBeforeThePageWasOpened(PageSuite suite) {
+    void findsWhatCameInTheNewestBucketBeforeThePageWasOpened(PageSuite suite) {
         FarmPage farm = suite.open("");
 
         Object newest = farm.page().evaluate("""

@@ -33,7 +33,7 @@ class TopicsIT {
     @Tag("full")
     @Test
     void listsCollisionsAndTheCanaryBeforeThereAreAny(PageSuite suite) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESK);
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
         farm.page()
                 .route(
                         "**/api/topics",
@@ -76,7 +76,7 @@ class TopicsIT {
 
     @Tag("full")
     @Test
-    void saysOnASmallScreenThatNotAllIsShown(PageSuite suite) {
+    void reportsOnASmallScreenThatNotAllIsShown(PageSuite suite) {
         FarmPage farm = suite.open("#/topics", WindowStyle.PHONE);
         assertThat(farm.find(".crumbs")).isHidden();
         farm.button("Show only scouting on the map").click();

@@ -51,11 +51,11 @@ final class Antimeridian {
             return area;
         }
         List<Polygon> parts = new ArrayList<>();
-        for (int turn = -2; turn <= 2; turn++) {
-            Envelope side = new Envelope(turn * ROUND - 180, turn * ROUND + 180, -90, 90);
+        for (int shift = -2; shift <= 2; shift++) {
+            Envelope side = new Envelope(shift * ROUND - 180, shift * ROUND + 180, -90, 90);
             if (side.intersects(reach)) {
                 Geometry inside = area.intersection(area.getFactory().toGeometry(side));
-                add(AffineTransformation.translationInstance(-turn * ROUND, 0).transform(inside), parts);
+                add(AffineTransformation.translationInstance(-shift * ROUND, 0).transform(inside), parts);
             }
         }
         return parts.size() == 1 ? parts.get(0) : area.getFactory().createMultiPolygon(parts.toArray(Polygon[]::new));

@@ -37,19 +37,19 @@ final class AreaRepair {
     }
 
     static RepairedArea repair(Outline outline, Georeference georeference) throws RejectedFeatureException {
-        return new AreaRepair(georeference).mended(outline);
+        return new AreaRepair(georeference).repaired(outline);
     }
 
     static String closed(int rings) {
         return "closed " + Counts.of(rings, "ring");
     }
 
-    private RepairedArea mended(Outline outline) throws RejectedFeatureException {
+    private RepairedArea repaired(Outline outline) throws RejectedFeatureException {
         List<Polygon> polygons = new ArrayList<>();
         for (List<List<Coordinate>> polygon : outline.polygons()) {
-            Polygon mended = polygon(polygon);
-            if (mended != null) {
-                polygons.add(mended);
+            Polygon repaired = polygon(polygon);
+            if (repaired != null) {
+                polygons.add(repaired);
             }
         }
         if (polygons.isEmpty()) {

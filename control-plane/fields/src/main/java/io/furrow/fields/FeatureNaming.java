@@ -34,12 +34,12 @@ final class FeatureNaming {
             throws UnusableFileException {
         Set<String> attributes = new TreeSet<>();
         features.forEach(feature -> feature.properties().fieldNames().forEachRemaining(attributes::add));
-        known(file, "--id-property", options.idProperty(), attributes);
-        known(file, "--name-property", options.nameProperty(), attributes);
+        require(file, "--id-property", options.idProperty(), attributes);
+        require(file, "--name-property", options.nameProperty(), attributes);
         return new FeatureNaming(options, attributes);
     }
 
-    private static void known(Path file, String option, String name, Set<String> attributes)
+    private static void require(Path file, String option, String name, Set<String> attributes)
             throws UnusableFileException {
         if (name != null && attributes.stream().noneMatch(name::equalsIgnoreCase)) {
             throw new UnusableFileException("%s %s: no feature of %s has this attribute; there are %s"

@@ -57,13 +57,13 @@ public final class FieldFiles {
         if (feature.fault() != null) {
             throw new RejectedFeatureException(feature.fault());
         }
-        RepairedArea mended = AreaRepair.repair(feature.outline(), georeference);
+        RepairedArea repaired = AreaRepair.repair(feature.outline(), georeference);
         return new ImportedField(
                 feature.number(),
-                naming.version(feature, GeoJsonArea.of(mended.area())),
-                EllipsoidArea.hectares(mended.area()),
-                mended.notes(),
-                mended.edgeErrorMeters());
+                naming.version(feature, GeoJsonArea.of(repaired.area())),
+                EllipsoidArea.hectares(repaired.area()),
+                repaired.notes(),
+                repaired.edgeErrorMeters());
     }
 
     private static FieldLayer layer(Path file, ImportOptions options) throws UnusableFileException {

@@ -84,9 +84,10 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
             GeographicCRS base = projected.getBaseCRS();
             MathTransform toBase =
                     projected.getConversionFromBase().getMathTransform().inverse();
-            Integer known = CRS.getAxisOrder(base) == CRS.AxisOrder.NORTH_EAST ? null : CRS.lookupEpsgCode(base, true);
-            if (known != null) {
-                Georeference fromBase = ofCode(known);
+            Integer identified =
+                    CRS.getAxisOrder(base) == CRS.AxisOrder.NORTH_EAST ? null : CRS.lookupEpsgCode(base, true);
+            if (identified != null) {
+                Georeference fromBase = ofCode(identified);
                 return new Georeference(
                         crs.getName().getCode(),
                         ConcatenatedTransform.create(toBase, fromBase.transform()),
@@ -94,9 +95,9 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
                         fromBase.accuracyMeters());
             }
         } else {
-            Integer known = CRS.lookupEpsgCode(crs, true);
-            if (known != null) {
-                return ofCode(known);
+            Integer identified = CRS.lookupEpsgCode(crs, true);
+            if (identified != null) {
+                return ofCode(identified);
             }
         }
         Georeference strict = toWgs84(crs.getName().getCode(), crs);

@@ -253,19 +253,19 @@ final class AgentRegistrationCache {
 
     private boolean mayBeRemoved(Group group) {
         return removals.allows(group)
-                && keptDevices().noneMatch(device -> device.apiKey().equals(group.apiKey()));
+                && retainedDevices().noneMatch(device -> device.apiKey().equals(group.apiKey()));
     }
 
     /** What is desired may be removed, to be made again otherwise. */
-    private Stream<AgentRegistration> keptDevices() {
+    private Stream<AgentRegistration> retainedDevices() {
         return own().filter(device -> !removals.allows(device));
     }
 
     /** What stays of ours though this Kafka does not want it, or wants it in another mission. */
-    Retained kept(Set<String> apiKeys) {
+    Retained retained(Set<String> apiKeys) {
         return new Retained(
                 List.of(),
-                keptDevices().map(AgentRegistration::device).toList(),
+                retainedDevices().map(AgentRegistration::device).toList(),
                 undesiredGroups(apiKeys)
                         .filter(group -> !mayBeRemoved(group))
                         .map(Group::mission)

@@ -44,7 +44,7 @@ final class FailureReporter {
     }
 
     /** Of those that were wanted before nothing is said: they may well run. */
-    void away(String reason) {
+    void unavailable(String reason) {
         desired.all().keySet().stream().filter(desired::isFresh).toList().forEach(key -> count(absences, key, reason));
     }
 

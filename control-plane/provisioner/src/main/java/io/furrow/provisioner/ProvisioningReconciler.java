@@ -44,7 +44,7 @@ final class ProvisioningReconciler {
     private final BatchSize batchSize = new BatchSize();
     private final RemovalGuard removals = new RemovalGuard();
     private final Map<FiwareScope, AgentRegistrationCache> registries = new HashMap<>();
-    private final Map<AgentRegistration, String> held = new HashMap<>();
+    private final Map<AgentRegistration, String> rejected = new HashMap<>();
     private FarmSecret used;
     private Set<String> registered;
     private boolean verified;
@@ -52,7 +52,7 @@ final class ProvisioningReconciler {
     private boolean started;
     private boolean settled;
     /** When the agent was last asked, by {@link #nanos}. */
-    private long asked;
+    private long refreshedAt;
     /** Since when all that the agent says that it has is wanted, by {@link #nanos}; null while it is not so. */
     private Long agreed;
 
@@ -64,7 +64,7 @@ final class ProvisioningReconciler {
         this.forgets = settings.forgets();
         this.desired = desired;
         this.nanos = nanos;
-        this.asked = nanos.getAsLong();
+        this.refreshedAt = nanos.getAsLong();
     }
 
     /**
@@ -72,23 +72,23 @@ final class ProvisioningReconciler {
      *
      * @param refused why, by key of the device
      * @param stuck why something that is no longer wanted could not be removed; null if nothing was in the way
-     * @param kept what is not wanted and may not be removed; null for nothing
+     * @param retained what is not wanted and may not be removed; null for nothing
      * @param done whether nothing is left to be done but what was refused, is stuck or kept
      */
-    record Outcome(Map<String, String> refused, String stuck, Retained kept, boolean done) {}
+    record Outcome(Map<String, String> refused, String stuck, Retained retained, boolean done) {}
 
     /** Asks the agent again before the next step, and offers it again what it has refused. */
-    void lookAgain() {
-        asked = nanos.getAsLong();
+    void refresh() {
+        refreshedAt = nanos.getAsLong();
         registries.clear();
-        held.clear();
+        rejected.clear();
         accounts.retryRefused();
         verified = false;
     }
 
     /** The same, and takes nothing of the accounts for granted. */
     void startAnew(RemovalGuard.Origin newOrigin) {
-        lookAgain();
+        refresh();
         registered = null;
         accounts.startAnew();
         origin = newOrigin;
@@ -98,8 +98,8 @@ final class ProvisioningReconciler {
     /** What the brokers' files say of it counts more than what Kafka says of itself. */
     private void start() throws IOException {
         if (!started) {
-            Set<String> noted = accounts.origins();
-            boolean same = noted.isEmpty() ? origin.provisioned() : noted.equals(Set.of(origin.topic()));
+            Set<String> recorded = accounts.origins();
+            boolean same = recorded.isEmpty() ? origin.provisioned() : recorded.equals(Set.of(origin.topic()));
             removals.startAnew(forgets || same);
             started = true;
             settled = false;
@@ -138,39 +138,39 @@ final class ProvisioningReconciler {
         for (FiwareScope scope : desired.scopes()) {
             added &= add(scope, budget, there, refused);
         }
-        Map<String, DesiredDevice> known = new LinkedHashMap<>();
-        there.keySet().forEach(key -> known.put(key, desired.all().get(key)));
-        refused.putAll(accounts.grant(known, added));
+        Map<String, DesiredDevice> existing = new LinkedHashMap<>();
+        there.keySet().forEach(key -> existing.put(key, desired.all().get(key)));
+        refused.putAll(accounts.grant(existing, added));
         desired.provisioned(there.keySet());
         registered = Set.copyOf(there.keySet());
         boolean removed = true;
         String stuck = null;
-        List<String> keptDevices = new ArrayList<>();
-        List<String> keptGroups = new ArrayList<>();
+        List<String> retainedDevices = new ArrayList<>();
+        List<String> retainedGroups = new ArrayList<>();
         for (FiwareScope scope : desired.scopes()) {
             if (AgentRegistrationFactory.hasTenant(scope)) {
                 String failure = remove(scope, budget);
                 stuck = failure == null ? stuck : failure;
                 removed &= failure != null || isClean(scope);
-                Retained here = registry(scope).kept(desiredKeys(scope));
-                keptDevices.addAll(here.devices());
-                keptGroups.addAll(here.groups());
+                Retained here = registry(scope).retained(desiredKeys(scope));
+                retainedDevices.addAll(here.devices());
+                retainedGroups.addAll(here.groups());
             }
         }
-        Retained kept = new Retained(accounts.kept(), keptDevices, keptGroups);
+        Retained retained = new Retained(accounts.retained(), retainedDevices, retainedGroups);
         boolean done = added && removed;
-        if (!kept.isEmpty()) {
+        if (!retained.isEmpty()) {
             agreed = null;
         } else if (done && !there.isEmpty()) { // an agent that has nothing says nothing of this Kafka
             settle();
         }
-        return new Outcome(refused, stuck, kept.isEmpty() ? null : kept, done);
+        return new Outcome(refused, stuck, retained.isEmpty() ? null : retained, done);
     }
 
     private void settle() throws IOException {
         if (agreed == null) {
             agreed = nanos.getAsLong();
-        } else if (!settled && asked - agreed >= AGREEMENT.toNanos()) {
+        } else if (!settled && refreshedAt - agreed >= AGREEMENT.toNanos()) {
             accounts.noteOrigin(origin.topic());
             removals.allowAll();
             settled = true;
@@ -196,8 +196,8 @@ final class ProvisioningReconciler {
                 AgentRegistration registration = registrations.of(each.getValue());
                 if (registry(scope).has(registration)) {
                     there.put(each.getKey(), registration);
-                } else if (held.containsKey(registration)) {
-                    refused.put(each.getKey(), held.get(registration));
+                } else if (rejected.containsKey(registration)) {
+                    refused.put(each.getKey(), rejected.get(registration));
                 } else {
                     missing.put(registration, each.getKey());
                 }
@@ -210,11 +210,11 @@ final class ProvisioningReconciler {
         if (batch.isEmpty()) {
             return true;
         }
-        held.putAll(add(registry(scope), batch, budget));
+        rejected.putAll(add(registry(scope), batch, budget));
         int settled = 0;
         for (AgentRegistration device : batch) {
-            if (held.containsKey(device)) {
-                refused.put(missing.get(device), held.get(device));
+            if (rejected.containsKey(device)) {
+                refused.put(missing.get(device), rejected.get(device));
                 settled++;
             } else if (registry(scope).has(device)) {
                 there.put(missing.get(device), device);

@@ -67,20 +67,21 @@ final class ProvisioningWorker implements AutoCloseable {
     private CommittedReader<String> lists;
 
     private final ProvisioningReconciler provisioning;
-    private final RetrySchedule pace;
+    private final RetrySchedule retrySchedule;
     private final FailureReporter failures;
     private final ConnectionPublisher connections;
     private final Map<TopicPartition, Long> unread = new HashMap<>();
     private boolean active;
     private String failure = "";
-    private Retained kept;
-    private long keptReported;
-    private boolean noted;
+    private Retained retained;
+    private long retainedReported;
+    private boolean reported;
 
     ProvisioningWorker(ProvisioningSettings settings) {
         this.desired = new DesiredDeviceTable(settings.scope());
         this.provisioning = new ProvisioningReconciler(settings, desired, System::nanoTime);
-        this.pace = new RetrySchedule(System::nanoTime, settings.agent().interval());
+        this.retrySchedule =
+                new RetrySchedule(System::nanoTime, settings.agent().interval());
         this.client = settings.client();
         this.agent = settings.agent().base().toString();
         this.consumer =
@@ -104,18 +105,18 @@ final class ProvisioningWorker implements AutoCloseable {
 
     /** Takes what is new and, where it is this one's turn, does some of what is to be done: some seconds at most. */
     void next() throws InterruptedException {
-        take(consumer.poll(pace.pause(POLL_INTERVAL)));
+        take(consumer.poll(retrySchedule.pause(POLL_INTERVAL)));
         if (active && readLists()) {
-            pace.hurry();
+            retrySchedule.hurry();
         }
         if (active && provisioning.isSecretChanged()) {
-            pace.hurry();
+            retrySchedule.hurry();
         }
         if (active && isCaughtUp()) {
-            if (pace.isDue()) {
+            if (retrySchedule.isDue()) {
                 step();
             }
-            reportKept();
+            reportRetained();
             connections.publish(provisioning.registered());
         }
     }
@@ -141,7 +142,7 @@ final class ProvisioningWorker implements AutoCloseable {
             }
         }
         if (!records.isEmpty()) {
-            pace.hurry();
+            retrySchedule.hurry();
         }
     }
 
@@ -180,61 +181,61 @@ final class ProvisioningWorker implements AutoCloseable {
         if (unread.entrySet().removeIf(each -> consumer.position(each.getKey()) >= each.getValue())
                 && unread.isEmpty()) {
             desired.caughtUp();
-            pace.hurry();
+            retrySchedule.hurry();
         }
         return unread.isEmpty() && lists.isCaughtUp();
     }
 
     private void step() throws InterruptedException {
-        if (pace.looksAgain()) {
-            provisioning.lookAgain();
+        if (retrySchedule.isRefreshDue()) {
+            provisioning.refresh();
         }
         try {
             ProvisioningReconciler.Outcome outcome = provisioning.step();
             failures.reached();
             if (!outcome.done()) {
-                pace.goOn();
+                retrySchedule.goOn();
                 return;
             }
             failures.refused(outcome.refused());
-            failure = outcome.kept() == null ? "" : outcome.kept().summary();
-            if (outcome.kept() != null && !outcome.kept().equals(kept)) {
-                LOG.warn(outcome.kept().text());
-                keptReported = System.nanoTime() - REPORT_INTERVAL.toNanos();
+            failure = outcome.retained() == null ? "" : outcome.retained().summary();
+            if (outcome.retained() != null && !outcome.retained().equals(retained)) {
+                LOG.warn(outcome.retained().text());
+                retainedReported = System.nanoTime() - REPORT_INTERVAL.toNanos();
             }
-            kept = outcome.kept();
+            retained = outcome.retained();
             noteProvisioned();
             if (outcome.refused().isEmpty() && outcome.stuck() == null) {
-                pace.rest();
-            } else if (pace.failed() && outcome.stuck() != null) {
+                retrySchedule.rest();
+            } else if (retrySchedule.failed() && outcome.stuck() != null) {
                 LOG.warn("what is no longer wanted stays at the IoT Agent; it is tried again: {}", outcome.stuck());
             }
         } catch (IOException e) {
             failure = FailureText.of(e);
-            if (pace.failed()) {
+            if (retrySchedule.failed()) {
                 LOG.warn("devices wait to be provisioned: {}", e.getMessage(), e);
             }
-            failures.away(FailureText.of(e));
+            failures.unavailable(FailureText.of(e));
         }
     }
 
     /** An alarm is raised of it, as long as it is repeated. */
-    private void reportKept() {
-        if (kept != null && System.nanoTime() - keptReported >= REPORT_INTERVAL.toNanos()) {
-            keptReported = System.nanoTime();
-            producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner", new Fault(kept.text()).toBytes()));
+    private void reportRetained() {
+        if (retained != null && System.nanoTime() - retainedReported >= REPORT_INTERVAL.toNanos()) {
+            retainedReported = System.nanoTime();
+            producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner", new Fault(retained.text()).toBytes()));
         }
     }
 
     /** Nothing reads by this offset: it says that the devices of this Kafka were provisioned at this IoT Agent. */
     private void noteProvisioned() {
-        if (provisioning.isSettled() && !noted) {
+        if (provisioning.isSettled() && !reported) {
             Map<TopicPartition, OffsetAndMetadata> offsets = new HashMap<>();
             consumer.assignment()
                     .forEach(partition ->
                             offsets.put(partition, new OffsetAndMetadata(consumer.position(partition), agent)));
             consumer.commitSync(offsets);
-            noted = true;
+            reported = true;
         }
     }
 
@@ -267,8 +268,8 @@ final class ProvisioningWorker implements AutoCloseable {
             failures.clear();
             connections.startAnew(publishedConnections());
             provisioning.startAnew(origin(partitions));
-            kept = null;
-            noted = false;
+            retained = null;
+            reported = false;
             closeLists();
             lists = CommittedReader.open(client, Topics.MISSION_DEVICES);
             consumer.seekToBeginning(partitions);

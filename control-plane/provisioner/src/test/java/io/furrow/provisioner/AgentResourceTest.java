@@ -73,7 +73,7 @@ class AgentResourceTest {
 
     /** The agent keeps one group of a resource and a key in all tenants, and lists those of the scope only. */
     @Test
-    void refusesADeviceWhoseGroupIsInAnotherTenant() throws Exception {
+    void rejectsADeviceWhoseGroupIsInAnotherTenant() throws Exception {
         agent.hidden.put(FakeAgent.key("/iot/json", API_KEY), JsonNodeFactory.instance.objectNode());
 
         Outcome outcome = provisioning("/iot/json").step();
@@ -86,7 +86,7 @@ class AgentResourceTest {
     @Test
     void sendsTheTokenOfTheFileWithEachRequest(@TempDir Path directory) throws Exception {
         AccessToken token =
-                AccessToken.of(Files.writeString(directory.resolve("token"), "s3cret\n"), "X-Farm", said -> {});
+                AccessToken.of(Files.writeString(directory.resolve("token"), "s3cret\n"), "X-Farm", problem -> {});
         AgentSettings settings = AgentSettings.at(agent.uri()).withToken(token);
 
         assertThat(provisioning(settings).step()).isEqualTo(DONE);
@@ -96,7 +96,7 @@ class AgentResourceTest {
     }
 
     @Test
-    void refusesSettingsThatCannotBeRight() {
+    void rejectsSettingsThatCannotBeRight() {
         AgentSettings settings = AgentSettings.at(URI.create("http://127.0.0.1:4041"));
 
         assertThatThrownBy(() -> settings.withResource("iot/json"))

@@ -48,7 +48,7 @@ class ConnectionPublisherTest {
                     : Optional.empty()));
 
     @BeforeEach
-    void want() {
+    void addDesired() {
         desired.take(key, device);
     }
 
@@ -132,7 +132,7 @@ class ConnectionPublisherTest {
     }
 
     @Test
-    void saysThatNobodyObservesLogins() throws Exception {
+    void reportsThatNobodyObservesLogins() throws Exception {
         ConnectionPublisher unsure = publisher(ConnectionSources.NONE);
         now.addAndGet(INTERVAL);
         unsure.publish(Set.of(key));

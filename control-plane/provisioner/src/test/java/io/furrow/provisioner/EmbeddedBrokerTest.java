@@ -45,8 +45,8 @@ class EmbeddedBrokerTest {
     static void startBroker() {
         mqtt = EmbeddedMqtt.start(0, Map.of("agent", "plough"), new EmbeddedMqtt.Users() {
             @Override
-            public boolean knows(String user, byte[] password) {
-                return ACCOUNTS.knows(user, password);
+            public boolean authenticates(String user, byte[] password) {
+                return ACCOUNTS.authenticates(user, password);
             }
 
             @Override
@@ -142,7 +142,7 @@ class EmbeddedBrokerTest {
     }
 
     @Test
-    void letsADeviceHearItsOwnCommandsOnly() throws MqttException {
+    void letsADeviceReceiveItsOwnCommandsOnly() throws MqttException {
         MqttClient device = connect(DEVICE);
         Map<String, String> commands = new ConcurrentHashMap<>();
         assertThatThrownBy(() -> device.subscribe("#", 1)).isInstanceOf(MqttException.class);

@@ -23,19 +23,19 @@ class FailureReporterTest {
     private final String key = device.version().key();
 
     @BeforeEach
-    void want() {
+    void addDesired() {
         desired.caughtUp();
         desired.take(key, device);
     }
 
     @Test
-    void saysThatTheAgentIsAwayAfterThreeFailuresInARow() throws Exception {
-        failures.away("no answer");
-        failures.away("no answer");
+    void reportsThatTheAgentIsUnavailableAfterThreeFailuresInARow() throws Exception {
+        failures.unavailable("no answer");
+        failures.unavailable("no answer");
         assertThat(producer.history()).isEmpty();
 
-        failures.away("no answer");
-        failures.away("no answer");
+        failures.unavailable("no answer");
+        failures.unavailable("no answer");
 
         assertThat(producer.history()).hasSize(1);
         DeviceStatus status = DeviceStatus.read(producer.history().get(0).value());
@@ -43,10 +43,10 @@ class FailureReporterTest {
     }
 
     @Test
-    void saysNothingOfAnAgentThatIsSlowButGetsOn() {
+    void reportsNothingOfAnAgentThatIsSlowButGetsOn() {
         for (int i = 0; i < 10; i++) {
-            failures.away("no answer");
-            failures.away("no answer");
+            failures.unavailable("no answer");
+            failures.unavailable("no answer");
             failures.reached();
         }
 
@@ -54,7 +54,7 @@ class FailureReporterTest {
     }
 
     @Test
-    void saysWhatTheAgentRefusedThreeTimesThoughItIsReached() {
+    void reportsWhatTheAgentRefusedThreeTimesThoughItIsReached() {
         for (int i = 0; i < 3; i++) {
             failures.reached();
             failures.refused(Map.of(key, "not you"));

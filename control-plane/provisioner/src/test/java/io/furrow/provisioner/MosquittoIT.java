@@ -99,7 +99,7 @@ class MosquittoIT {
     }
 
     @Test
-    void letsADeviceHearItsOwnCommandsOnly() throws Exception {
+    void letsADeviceReceiveItsOwnCommandsOnly() throws Exception {
         try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
             device.subscribe("#");
             device.subscribe(KEY + "/" + DEVICE + "/cmd");
@@ -128,7 +128,7 @@ class MosquittoIT {
     }
 
     @Test
-    void shutsADeviceOutThatIsNoLongerDesiredAndKeepsTheAgent() throws Exception {
+    void shutsADeviceOutThatIsNoLongerDesiredAndRetainsTheAgent() throws Exception {
         try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
             files.replace(List.of(), Set.of());
 
@@ -175,7 +175,7 @@ class MosquittoIT {
 
     /** The thief may be connected: he is cut off, and nobody else is. */
     @Test
-    void refusesTheOldPasswordOnceCredentialsAreRotatedAndCutsItsConnectionOff() throws Exception {
+    void rejectsTheOldPasswordOnceCredentialsAreRotatedAndCutsItsConnectionOff() throws Exception {
         List<MqttAccount> rotated = new ArrayList<>(MqttAccount.devices(SECRET, "hoeing", DEVICE, 1));
         rotated.add(MqttAccount.device(SECRET, "weeding", "other"));
         try (MqttPeer thief = broker.comesIn(SECRET.device("hoeing", DEVICE));

@@ -24,7 +24,7 @@ class MosquittoLogIT {
     Path directory;
 
     @Test
-    void saysWhenADeviceConnectedAndWhereItPublishedThoughItMayNot() throws Exception {
+    void reportsWhenADeviceConnectedAndWhereItPublishedThoughItMayNot() throws Exception {
         long start = Instant.now().getEpochSecond() * 1000;
         try (ProvisionedMosquitto broker = new ProvisionedMosquitto(directory)) {
             broker.files().replace(List.of(MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d")), Set.of());

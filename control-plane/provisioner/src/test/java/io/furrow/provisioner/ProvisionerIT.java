@@ -89,7 +89,7 @@ class ProvisionerIT {
     }
 
     @Test
-    void saysWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() {
+    void reportsWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() {
         DesiredDevice before = DesiredDeviceFixture.thermometer("hoeing", 1);
         DesiredDevice after = DesiredDeviceFixture.thermometer("hoeing", 2);
         DesiredDevice disliked = DesiredDeviceFixture.thermometer("hoeing", 3);
@@ -99,7 +99,7 @@ class ProvisionerIT {
             put(disliked);
             await().atMost(TIMEOUT)
                     .until(() -> statuses().containsKey(disliked.version().key()));
-            agent.away = true;
+            agent.unavailable = true;
             put(after);
             await().atMost(TIMEOUT)
                     .until(() -> statuses().containsKey(after.version().key()));
@@ -112,7 +112,7 @@ class ProvisionerIT {
             assertThat(status.reason()).contains("not provisioned", "answers 503");
 
             agent.disliked.clear();
-            agent.away = false;
+            agent.unavailable = false;
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 3);
             assertThat(provisioner).isNotNull();
         }
@@ -136,7 +136,7 @@ class ProvisionerIT {
 
     /** A Kafka that knows nothing of them says so on a topic until it is told to forget them. */
     @Test
-    void keepsWhatAnotherKafkaHasProvisioned() throws Exception {
+    void retainsWhatAnotherKafkaHasProvisioned() throws Exception {
         put(DesiredDeviceFixture.thermometer("hoeing", 1));
         try (Provisioner provisioner = provisioner()) {
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);

@@ -76,18 +76,18 @@ abstract class ProvisioningFixture {
                 gateways);
     }
 
-    void want(DesiredDevice device) {
+    void addDesired(DesiredDevice device) {
         desired.take(device.version().key(), device);
     }
 
     /** The next step asks the agent again, so late that an answer as before counts. */
-    void askLater() {
+    void stepLater() {
         passed.addAndGet(ProvisioningReconciler.AGREEMENT.toNanos());
-        provisioning.lookAgain();
+        provisioning.refresh();
     }
 
-    boolean knows(FarmSecret.Login login) {
-        return accounts.knows(login.user(), login.password().getBytes(StandardCharsets.UTF_8));
+    boolean authenticates(FarmSecret.Login login) {
+        return accounts.authenticates(login.user(), login.password().getBytes(StandardCharsets.UTF_8));
     }
 
     /** Counts accounts at each change, and refuses users that somebody else has. */
@@ -95,8 +95,8 @@ abstract class ProvisioningFixture {
         private final Set<String> users = new HashSet<>();
 
         @Override
-        public Map<String, String> replace(List<MqttAccount> all, Set<String> kept) {
-            users.retainAll(kept);
+        public Map<String, String> replace(List<MqttAccount> all, Set<String> retained) {
+            users.retainAll(retained);
             all.forEach(account -> users.add(account.login().user()));
             counts.add(users.size());
             return Map.copyOf(refused);

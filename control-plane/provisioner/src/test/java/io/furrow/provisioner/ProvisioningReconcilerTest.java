@@ -23,8 +23,8 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
 
     @Test
     void provisionsTheDevicesOfAMissionUnderItsKeyWithItsNameInEveryMeasure() throws Exception {
-        want(DesiredDeviceFixture.thermometer("hoeing", 1));
-        want(DesiredDeviceFixture.device("WeatherStation", "hoeing", "station", 1));
+        addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
+        addDesired(DesiredDeviceFixture.device("WeatherStation", "hoeing", "station", 1));
 
         assertThat(provisioning.step()).isEqualTo(DONE);
 
@@ -49,8 +49,8 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
 
     @Test
     void leavesRobotsAndWhatReportsByItselfAlone() throws Exception {
-        want(DesiredDeviceFixture.device("Robot", "hoeing", "robot", 1));
-        want(DesiredDevice.simulated(
+        addDesired(DesiredDeviceFixture.device("Robot", "hoeing", "robot", 1));
+        addDesired(DesiredDevice.simulated(
                 DesiredDeviceFixture.thermometer("hoeing", 1).version(),
                 null,
                 null,
@@ -65,27 +65,28 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void givesEachDeviceAnAccountOnceTheAgentKnowsIt() throws Exception {
-        want(DesiredDeviceFixture.thermometer("hoeing", 1));
-        want(DesiredDeviceFixture.thermometer("hoeing", 2));
-        agent.away = true;
+    void givesEachDeviceAnAccountOnceTheAgentHasIt() throws Exception {
+        addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
+        addDesired(DesiredDeviceFixture.thermometer("hoeing", 2));
+        agent.unavailable = true;
         assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("503");
         assertThat(counts).isEmpty();
 
-        agent.away = false;
+        agent.unavailable = false;
         provisioning.step();
 
         assertThat(counts).containsExactly(2);
         String device = "urn:ngsi-ld:Thermometer:hoeing-1";
         var login = DesiredDeviceFixture.SECRET.device("hoeing", device);
-        assertThat(accounts.knows(login.user(), login.password().getBytes())).isTrue();
+        assertThat(accounts.authenticates(login.user(), login.password().getBytes()))
+                .isTrue();
         assertThat(accounts.mayWrite(login.user(), "/" + KEY + "/" + device + "/attrs"))
                 .isTrue();
     }
 
     @Test
     void givesMissionsAGatewayOnlyWhereOneIsUsed() throws Exception {
-        want(DesiredDeviceFixture.thermometer("hoeing", 1));
+        addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
         String gateway = DesiredDeviceFixture.SECRET.gateway("hoeing").user();
         provisioning.step();
         assertThat(accounts.mayRead(gateway, "/" + KEY + "/+/cmd")).isFalse();
@@ -98,14 +99,14 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void takesAwayWhatIsStoppedAndWhatIsDeleted() throws Exception {
+    void removesWhatIsStoppedAndWhatIsDeleted() throws Exception {
         DesiredDevice first = DesiredDeviceFixture.thermometer("hoeing", 1);
         DesiredDevice second = DesiredDeviceFixture.thermometer("weeding", 1);
-        want(first);
-        want(second);
+        addDesired(first);
+        addDesired(second);
         provisioning.step();
 
-        want(DesiredDeviceFixture.stopped(first));
+        addDesired(DesiredDeviceFixture.stopped(first));
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.deviceIds()).containsExactly(second.device());
         assertThat(agent.apiKeys()).containsExactly(DesiredDeviceFixture.SECRET.apiKey("weeding"));
@@ -125,8 +126,8 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
 
     @Test
     void changesNothingAfterARestartButLeftoversOfItsOwn() throws Exception {
-        want(DesiredDeviceFixture.thermometer("hoeing", 1));
-        want(DesiredDeviceFixture.thermometer("gone", 1));
+        addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
+        addDesired(DesiredDeviceFixture.thermometer("gone", 1));
         provisioning.step();
         ObjectNode foreign = JsonNodeFactory.instance
                 .objectNode()
@@ -136,7 +137,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         agent.changes.clear();
 
         desired.clear();
-        want(DesiredDeviceFixture.thermometer("hoeing", 1));
+        addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
         assertThat(provisioning().step()).isEqualTo(DONE);
 
         assertThat(agent.changes)
@@ -146,9 +147,9 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
 
     @Test
     void provisionsAnewWhatTheAgentHasOtherwise() throws Exception {
-        want(DesiredDeviceFixture.device("Thermometer", "hoeing", "d", 1));
+        addDesired(DesiredDeviceFixture.device("Thermometer", "hoeing", "d", 1));
         provisioning.step();
-        want(DesiredDeviceFixture.device("Camera", "hoeing", "d", 2));
+        addDesired(DesiredDeviceFixture.device("Camera", "hoeing", "d", 2));
 
         assertThat(provisioning.step()).isEqualTo(DONE);
 
@@ -156,20 +157,20 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void refusesADeviceThatSomebodyElseHasProvisioned() throws Exception {
+    void rejectsADeviceThatSomebodyElseHasProvisioned() throws Exception {
         agent.devices.put(
                 "d", JsonNodeFactory.instance.objectNode().put("device_id", "d").put("apikey", "secret"));
         DesiredDevice device = DesiredDeviceFixture.device("Thermometer", "hoeing", "d", 1);
-        want(device);
+        addDesired(device);
 
         assertThat(provisioning.step().refused().get(device.version().key())).contains("somebody else has provisioned");
         assertThat(agent.devices.get("d").path("apikey").asText()).isEqualTo("secret");
     }
 
     @Test
-    void makesTheOthersOfABatchThoughTheAgentRefusesSome() throws Exception {
+    void makesTheOthersOfABatchThoughTheAgentRejectsSome() throws Exception {
         for (int i = 1; i <= 250; i++) {
-            want(DesiredDeviceFixture.thermometer("hoeing", i));
+            addDesired(DesiredDeviceFixture.thermometer("hoeing", i));
             if (i <= 120) {
                 agent.disliked.add("urn:ngsi-ld:Thermometer:hoeing-" + i);
             }
@@ -188,7 +189,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         assertThat(counts.get(counts.size() - 1)).isEqualTo(130);
 
         agent.disliked.clear();
-        provisioning.lookAgain();
+        provisioning.refresh();
         while (!provisioning.step().done()) {
             assertThat(agent.deviceIds()).hasSizeLessThan(250);
         }
@@ -198,7 +199,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     @Test
     void takesNoAccountAwayWhileAnAgentThatHasLostItsMemoryLearns() throws Exception {
         for (int i = 1; i <= 250; i++) {
-            want(DesiredDeviceFixture.thermometer("hoeing", i));
+            addDesired(DesiredDeviceFixture.thermometer("hoeing", i));
         }
         while (!provisioning.step().done()) {
             assertThat(agent.deviceIds()).hasSizeLessThan(250);
@@ -206,7 +207,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         agent.restart();
         counts.clear();
 
-        provisioning.lookAgain();
+        provisioning.refresh();
         while (!provisioning.step().done()) {
             assertThat(agent.deviceIds()).hasSizeLessThan(250);
         }
@@ -216,10 +217,10 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
     }
 
     @Test
-    void saysOfADeviceThatSomebodyElseHasItsUser() throws Exception {
+    void reportsForADeviceThatSomebodyElseHasItsUser() throws Exception {
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
-        want(device);
-        want(DesiredDeviceFixture.thermometer("hoeing", 2));
+        addDesired(device);
+        addDesired(DesiredDeviceFixture.thermometer("hoeing", 2));
         refused.put(
                 DesiredDeviceFixture.SECRET.device("hoeing", device.device()).user(), "somebody else's");
 
@@ -227,7 +228,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
                 .containsExactly(Map.entry(device.version().key(), "somebody else's"));
 
         refused.clear();
-        provisioning.lookAgain();
+        provisioning.refresh();
         assertThat(provisioning.step()).isEqualTo(DONE);
     }
 
@@ -237,8 +238,8 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
                 {"at": {"latitude": 40.3, "longitude": -3.5}, "attributes": [
                   {"object_id": "t", "name": "Temperature", "unit": "CEL"}, {"object_id": "ph", "name": "Acidity", "type": "Float"}]}""");
         DeviceVersion version = DesiredDeviceFixture.thermometer("hoeing", 1).version();
-        want(new DesiredDevice(version, "Thermometer", "probe", true, null, false, settings, null, 0));
-        want(new DesiredDevice(
+        addDesired(new DesiredDevice(version, "Thermometer", "probe", true, null, false, settings, null, 0));
+        addDesired(new DesiredDevice(
                 DesiredDeviceFixture.thermometer("hoeing", 2).version(),
                 "Thermometer",
                 "simulated",
@@ -261,7 +262,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
                 .contains("{\"name\":\"Latitude\",\"type\":\"Float\",\"value\":40.3}");
         assertThat(agent.devices.get("simulated").path("attributes").findValuesAsText("object_id"))
                 .contains("temp", "lat", "lon");
-        provisioning.lookAgain();
+        provisioning.refresh();
         int changes = agent.changes.size();
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.changes).as("the agent has it as desired").hasSize(changes);

@@ -132,7 +132,7 @@ class RotationIT {
     }
 
     @Test
-    void keepsEverythingAsItIsWhereTheFileIsReplacedByAnothersSecret() throws Exception {
+    void retainsEverythingAsItIsWhereTheFileIsReplacedByAnothersSecret() throws Exception {
         MqttPeer device = open(broker.comesIn(old.device("hoeing", first.device())));
         Files.writeString(file, FarmSecretCodec.write(FarmSecret.generate()));
         await().atMost(TIMEOUT)

@@ -20,7 +20,7 @@ class SecretRotationTest extends ProvisioningFixture {
         Secret secret = new Secret();
         provisioning = provisioning(settings(secret, false), SAME);
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
-        want(device);
+        addDesired(device);
         provisioning.step();
         assertThat(provisioning.isSecretChanged()).isFalse();
         agent.changes.clear();
@@ -30,16 +30,16 @@ class SecretRotationTest extends ProvisioningFixture {
         secret.current = rotated.at(until.minusSeconds(1));
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(knows(DesiredDeviceFixture.SECRET.device("hoeing", device.device())))
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", device.device())))
                 .isTrue();
-        assertThat(knows(rotated.device("hoeing", device.device()))).isTrue();
+        assertThat(authenticates(rotated.device("hoeing", device.device()))).isTrue();
 
         secret.current = rotated.at(until);
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(knows(DesiredDeviceFixture.SECRET.device("hoeing", device.device())))
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", device.device())))
                 .isFalse();
-        assertThat(knows(rotated.device("hoeing", device.device()))).isTrue();
+        assertThat(authenticates(rotated.device("hoeing", device.device()))).isTrue();
         assertThat(agent.changes).isEmpty();
         assertThat(counts).containsExactly(1, 2, 1);
     }
@@ -48,8 +48,8 @@ class SecretRotationTest extends ProvisioningFixture {
     void movesWhatHasAnApiKeyOfAnOlderKeyAndLeavesWhatOthersHave() throws Exception {
         Secret secret = new Secret();
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
-        want(device);
-        want(DesiredDeviceFixture.thermometer("gone", 1));
+        addDesired(device);
+        addDesired(DesiredDeviceFixture.thermometer("gone", 1));
         provisioning(settings(secret, false), SAME).step();
         agent.devices.put(
                 "foreign",
@@ -58,7 +58,7 @@ class SecretRotationTest extends ProvisioningFixture {
                         .put("device_id", "foreign")
                         .put("apikey", "secret"));
         desired.clear();
-        want(device);
+        addDesired(device);
         secret.current = DesiredDeviceFixture.SECRET
                 .rotated(Instant.now(), Instant.EPOCH, true)
                 .at(Instant.now());
@@ -69,34 +69,35 @@ class SecretRotationTest extends ProvisioningFixture {
         assertThat(agent.apiKeys()).containsExactly(secret.current.apiKey("hoeing"));
         assertThat(agent.devices.get(device.device()).path("apikey").asText())
                 .isEqualTo(secret.current.apiKey("hoeing"));
-        assertThat(knows(secret.current.device("hoeing", device.device()))).isTrue();
+        assertThat(authenticates(secret.current.device("hoeing", device.device())))
+                .isTrue();
     }
 
     /** A stolen device must not wait for an agent. */
     @Test
-    void refusesAnOldPasswordThoughTheAgentIsAway() throws Exception {
+    void rejectsAnOldPasswordThoughTheAgentIsUnavailable() throws Exception {
         DesiredDevice stolen = DesiredDeviceFixture.thermometer("hoeing", 1);
         DesiredDevice other = DesiredDeviceFixture.thermometer("hoeing", 2);
-        want(stolen);
-        want(other);
+        addDesired(stolen);
+        addDesired(other);
         provisioning.step();
-        agent.away = true;
-        provisioning.lookAgain();
-        want(stolen.withGeneration(1));
+        agent.unavailable = true;
+        provisioning.refresh();
+        addDesired(stolen.withGeneration(1));
 
         assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("503");
-        assertThat(knows(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device())))
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device())))
                 .isFalse();
-        assertThat(knows(DesiredDeviceFixture.SECRET.device("hoeing", other.device())))
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", other.device())))
                 .isTrue();
 
-        agent.away = false;
+        agent.unavailable = false;
         provisioning.step();
-        assertThat(knows(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device(), 1)))
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device(), 1)))
                 .isTrue();
-        assertThat(knows(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device())))
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device())))
                 .isFalse();
-        assertThat(knows(DesiredDeviceFixture.SECRET.device("hoeing", other.device())))
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", other.device())))
                 .isTrue();
         assertThat(agent.changes)
                 .filteredOn(change -> change.startsWith("DELETE"))
@@ -105,7 +106,7 @@ class SecretRotationTest extends ProvisioningFixture {
 
     @Test
     void doesNothingWithASecretThatIsNotTheFarms() throws Exception {
-        want(DesiredDeviceFixture.thermometer("hoeing", 1));
+        addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
         provisioning.step();
         agent.changes.clear();
         counts.clear();
@@ -118,7 +119,7 @@ class SecretRotationTest extends ProvisioningFixture {
 
         assertThat(agent.changes).isEmpty();
         assertThat(counts).isEmpty();
-        assertThat(knows(DesiredDeviceFixture.SECRET.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")))
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")))
                 .isTrue();
     }
 

@@ -32,7 +32,7 @@ public record ControlSettings(
     static final String APPLICATION = "furrow-control-plane";
 
     /** A rebalance waits no longer for a member that does not join; the default of five minutes is as long as nobody would be answered. */
-    private static final Duration REBALANCED_WITHIN = Duration.ofSeconds(60);
+    private static final Duration REBALANCE_TIMEOUT = Duration.ofSeconds(60);
 
     private static final Duration TAKEN_OVER_AFTER = Duration.ofSeconds(10);
 
@@ -84,7 +84,7 @@ public record ControlSettings(
         streams.put(StreamsConfig.topicPrefix("max.message.bytes"), Limits.MESSAGE_BYTES);
         streams.put(StreamsConfig.consumerPrefix("auto.offset.reset"), "earliest");
         streams.put(StreamsConfig.mainConsumerPrefix("session.timeout.ms"), (int) TAKEN_OVER_AFTER.toMillis());
-        streams.put(StreamsConfig.mainConsumerPrefix("max.poll.interval.ms"), (int) REBALANCED_WITHIN.toMillis());
+        streams.put(StreamsConfig.mainConsumerPrefix("max.poll.interval.ms"), (int) REBALANCE_TIMEOUT.toMillis());
         return streams;
     }
 }

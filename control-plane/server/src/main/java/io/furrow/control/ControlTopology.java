@@ -32,7 +32,7 @@ final class ControlTopology {
         DomainManager.add(
                 builder,
                 remembered,
-                (context, outbox) -> MissionManager.handler(context, outbox, missions),
+                (context, publisher) -> MissionManager.handler(context, publisher, missions),
                 MissionManager.stores());
 
         MissionManager.add(builder, remembered, missions);

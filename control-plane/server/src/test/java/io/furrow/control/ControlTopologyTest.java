@@ -38,7 +38,7 @@ class ControlTopologyTest {
     /** As the WeLASER dashboard asks. */
     @Test
     void answersARequestForANewDomainOnTheTopicOfTheRequest() throws Exception {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
 
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
         assertThat(ManagerFixture.text(answer.value()))
@@ -54,8 +54,8 @@ class ControlTopologyTest {
     @Test
     void givesTheSameRequestOneEffectAndOneAnswer() {
         String request = "{'type':'request','requestId':'r-1','domain':'north'}";
-        farm.ask(Topics.DOMAIN_MANAGER, "mine", request);
-        farm.ask(Topics.DOMAIN_MANAGER, "mine", "{'domain':'north','type':'request','requestId':'r-1'}");
+        farm.request(Topics.DOMAIN_MANAGER, "mine", request);
+        farm.request(Topics.DOMAIN_MANAGER, "mine", "{'domain':'north','type':'request','requestId':'r-1'}");
 
         assertThat(farm.only(Topics.DOMAIN_MANAGER).key()).isEqualTo("r-1");
         assertThat(farm.read(Topics.DOMAINS)).hasSize(1);
@@ -63,25 +63,25 @@ class ControlTopologyTest {
 
     /** Else whoever asks for something new would take the answer of something old for its own. */
     @Test
-    void refusesAnotherRequestUnderTheSameId() {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
+    void rejectsAnotherRequestUnderTheSameId() {
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
         assertThat(ManagerFixture.response(farm.only(Topics.DOMAIN_MANAGER)).status())
                 .isEqualTo("created");
         for (String other : List.of(
                 "'user':'ann','domain':'south'",
                 "'user':'bob','domain':'north'",
                 "'user':'ann','command':'nonsense','domain':'north'")) {
-            farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1'," + other + "}");
+            farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1'," + other + "}");
             assertThat(ManagerFixture.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("request-id-reused");
         }
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).isEmpty();
         assertThat(farm.read(Topics.DOMAINS)).hasSize(1);
     }
 
     @Test
-    void endsTheFieldsOfADomainThatIsDeletedAndSaysSo() throws Exception {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+    void endsTheFieldsOfADomainThatIsDeletedAndReportsSo() throws Exception {
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
         FieldVersion field = new FieldVersion(
                 "f",
                 0,
@@ -89,7 +89,7 @@ class ControlTopologyTest {
                 (ObjectNode) NgsiJson.read("{\"Domain\":\"north\"}".getBytes(StandardCharsets.UTF_8)));
         farm.pipe(Topics.FIELDS, field.key(), field.toBytes());
         farm.pipe(Topics.FIELDS, "g", new byte[] {'?'});
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
 
         TestRecord<String, byte[]> end = farm.only(Topics.FIELDS);
         assertThat(end.key()).isEqualTo("f@2026-03-01T08:00:00.000Z");
@@ -100,11 +100,11 @@ class ControlTopologyTest {
     }
 
     @Test
-    void refusesARequestThatIsTooLarge() {
+    void rejectsARequestThatIsTooLarge() {
         String domain = "{'type':'request','requestId':'r-1','domain':'north','description':'%s'}"
                 .formatted("x".repeat(Limits.REQUEST_BYTES));
-        farm.ask(Topics.DOMAIN_MANAGER, null, domain);
-        farm.ask(Topics.DOMAIN_MANAGER, null, domain);
+        farm.request(Topics.DOMAIN_MANAGER, null, domain);
+        farm.request(Topics.DOMAIN_MANAGER, null, domain);
 
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
         assertThat(ManagerFixture.error(answer)).isEqualTo("too-large");
@@ -119,9 +119,9 @@ class ControlTopologyTest {
     @Test
     void answersARefusedRequestOnceToo() {
         String request = "{'type':'request','requestId':'r-1','command':'nonsense','mission':'m'}";
-        farm.ask(Topics.MISSION_MANAGER, "mine", request);
-        farm.ask(Topics.MISSION_MANAGER, "mine", request);
-        farm.ask(Topics.MISSION_MANAGER, "mine", "{'type':'request',");
+        farm.request(Topics.MISSION_MANAGER, "mine", request);
+        farm.request(Topics.MISSION_MANAGER, "mine", request);
+        farm.request(Topics.MISSION_MANAGER, "mine", "{'type':'request',");
 
         List<TestRecord<String, byte[]>> answers = farm.read(Topics.MISSION_MANAGER);
         assertThat(answers)
@@ -133,33 +133,33 @@ class ControlTopologyTest {
     @Test
     void forgetsIdsOfRequestsAfterTheTimeForThat() {
         String request = "{'type':'request','requestId':'r-1','domain':'north'}";
-        farm.ask(Topics.DOMAIN_MANAGER, null, request);
+        farm.request(Topics.DOMAIN_MANAGER, null, request);
         farm.pass(ManagerFixture.REMEMBERED.minusSeconds(1));
-        farm.ask(Topics.DOMAIN_MANAGER, null, request);
+        farm.request(Topics.DOMAIN_MANAGER, null, request);
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).hasSize(1);
         farm.pass(ManagerFixture.REMEMBERED.dividedBy(4));
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-2','domain':'south'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-2','domain':'south'}");
         farm.read(Topics.DOMAIN_MANAGER);
-        farm.ask(Topics.DOMAIN_MANAGER, null, request);
+        farm.request(Topics.DOMAIN_MANAGER, null, request);
         assertThat(ManagerFixture.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("domain-exists");
         assertThat(farm.remembered("domain-answers")).isEqualTo(2);
     }
 
     @Test
     void passesOverAnswersAndRecordsWithoutAValue() {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
         farm.pipe(Topics.DOMAIN_MANAGER, answer.key(), answer.value());
         farm.pipe(Topics.DOMAIN_MANAGER, null, null);
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).isEmpty();
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'south'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'south'}");
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).hasSize(1);
     }
 
     @Test
     void takesAMissionThroughItsLifeAsHostsReport() throws Exception {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
-        farm.ask(
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(
                 Topics.MISSION_MANAGER,
                 null,
                 "{'type':'request','command':'start','mission':'m','domain':'north','devices':[{'type':'Camera','count':2,'simulated':true}]}");
@@ -167,8 +167,8 @@ class ControlTopologyTest {
         assertThat(farm.hostAll(DeviceStatus.State.RUNNING)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("running");
 
-        farm.ask(Topics.MISSION_MANAGER, null, "{'type':'request','command':'stop','mission':'m'}");
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.MISSION_MANAGER, null, "{'type':'request','command':'stop','mission':'m'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
         assertThat(farm.read(Topics.DOMAIN_MANAGER))
                 .extracting(record -> ManagerFixture.response(record)
                         .error()
@@ -178,15 +178,15 @@ class ControlTopologyTest {
         assertThat(farm.hostAll(DeviceStatus.State.STOPPED)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("stopped");
 
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
         assertThat(farm.only(Topics.MISSIONS_STATUS).value()).isNull();
         assertThat(farm.read(Topics.DEVICES)).extracting(TestRecord::value).containsOnlyNulls();
     }
 
     @Test
-    void countsARealDeviceByTheReportThatTheFarmWatchHeard() throws Exception {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
-        farm.ask(
+    void countsARealDeviceByTheReportThatTheFarmWatchSaw() throws Exception {
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(
                 Topics.MISSION_MANAGER,
                 null,
                 "{'type':'request','command':'start','mission':'m','domain':'north','devices':[{'type':'Camera'}]}");
@@ -204,8 +204,8 @@ class ControlTopologyTest {
 
     @Test
     void startsAMissionAtItsDateAndHasTheMissionOfTheThesisAtHand() throws Exception {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
-        farm.ask(
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(
                 Topics.MISSION_MANAGER,
                 null,
                 "{'type':'request','command':'start','mission':'m','domain':'north','template':'thesis-demo','start':'2026-03-01T08:01:00Z'}");
@@ -232,7 +232,7 @@ class ControlTopologyTest {
 
     @Test
     void handsReplaysOnAndForgetsThemWhenTheyAreOver() throws Exception {
-        farm.ask(
+        farm.request(
                 Topics.REPLAY_MANAGER,
                 null,
                 "{'type':'request','command':'start','mission':'m','speed':'max','from':1000,'devices':['urn:x']}");
@@ -242,7 +242,7 @@ class ControlTopologyTest {
         assertThat(created.json().path("topic").asText()).isEqualTo("data.m.replay." + replay.substring(2));
 
         for (String command : List.of("step", "pause", "step", "step", "seek", "resume", "resume", "stop", "stop")) {
-            farm.ask(
+            farm.request(
                     Topics.REPLAY_MANAGER,
                     null,
                     "{'type':'request','command':'" + command + "','to':5000,'replay':'" + replay + "'}");
@@ -279,12 +279,12 @@ class ControlTopologyTest {
                 replay,
                 "{\"sequence\":7,\"state\":\"stopped\"}".getBytes(StandardCharsets.UTF_8));
         assertThat(farm.only(Topics.REPLAYS).value()).isNull();
-        farm.ask(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'stop','replay':'" + replay + "'}");
+        farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'stop','replay':'" + replay + "'}");
         assertThat(ManagerFixture.error(farm.only(Topics.REPLAY_MANAGER))).isEqualTo("unknown-replay");
     }
 
     private String startReplay(String members) {
-        farm.ask(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'start','mission':'m'" + members + "}");
+        farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'start','mission':'m'" + members + "}");
         String replay = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER))
                 .json()
                 .path("replay")
@@ -294,7 +294,8 @@ class ControlTopologyTest {
     }
 
     private CommandResult steer(String replay, String command) {
-        farm.ask(Topics.REPLAY_MANAGER, null, "{'type':'request','replay':'" + replay + "','command':" + command + "}");
+        farm.request(
+                Topics.REPLAY_MANAGER, null, "{'type':'request','replay':'" + replay + "','command':" + command + "}");
         return ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
     }
 
@@ -312,7 +313,7 @@ class ControlTopologyTest {
             replays.add(startReplay(""));
         }
         String group = "{'type':'request','command':'start','missions':['a','b'],'from':1000,'to':9000}";
-        farm.ask(Topics.REPLAY_MANAGER, null, group);
+        farm.request(Topics.REPLAY_MANAGER, null, group);
         CommandResult refused = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
         assertThat(refused.error()).contains("quota-exceeded");
         assertThat(refused.json().path("reason").asText())
@@ -320,7 +321,7 @@ class ControlTopologyTest {
                         "255 replays are not over, of at most 256 (--max-replays); stop one that is not needed any more");
 
         report(replays.get(0), 1, ReplayStatus.State.ENDED, false);
-        farm.ask(Topics.REPLAY_MANAGER, null, group);
+        farm.request(Topics.REPLAY_MANAGER, null, group);
 
         assertThat(ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER)).status())
                 .isEqualTo("created");
@@ -370,7 +371,7 @@ class ControlTopologyTest {
     }
 
     @Test
-    void answersFromWhatAReplayIsNotFromWhatWasAskedOfIt() {
+    void answersFromWhatAReplayIsNotFromWhatWasRequestedOfIt() {
         String replay = startReplay("");
         report(replay, 1, ReplayStatus.State.ENDED, false);
         for (String command : List.of("'pause'", "'resume'", "'step'", "'step','count':2")) {
@@ -401,7 +402,7 @@ class ControlTopologyTest {
     }
 
     @Test
-    void refusesASeekToWhatIsNotPlayed() {
+    void rejectsASeekToWhatIsNotPlayed() {
         String whole = startReplay("");
         assertThat(steer(whole, "'seek','to':99000").error())
                 .as("of what nobody knows")

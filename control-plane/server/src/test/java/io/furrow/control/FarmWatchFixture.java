@@ -118,11 +118,11 @@ final class FarmWatchFixture implements AutoCloseable {
                 .pipeInput(record);
     }
 
-    void want(String id, String type, boolean running) {
-        want(id, type, "m", running);
+    void addDesired(String id, String type, boolean running) {
+        addDesired(id, type, "m", running);
     }
 
-    void want(String id, String type, String mission, boolean running) {
+    void addDesired(String id, String type, String mission, boolean running) {
         Long until = running ? null : Long.valueOf(now.toEpochMilli());
         DeviceVersion version =
                 new DeviceVersion(id, "farm", "/", "north", mission, START.toEpochMilli(), until, 1, null);

@@ -38,10 +38,10 @@ final class ManagerFixture implements AutoCloseable {
         this(false);
     }
 
-    /** @param knowsRecordings whether only missions that {@code service.recordings} lists can be played back */
-    ManagerFixture(boolean knowsRecordings) {
+    /** @param hasRecordings whether only missions that {@code service.recordings} lists can be played back */
+    ManagerFixture(boolean hasRecordings) {
         MissionSettings missions = new MissionSettings(Duration.ofSeconds(30), new FiwareScope("farm", "/"), false);
-        ReplaySettings replays = ReplaySettings.DEFAULT.withMongo(knowsRecordings ? "mongodb://unused" : null);
+        ReplaySettings replays = ReplaySettings.DEFAULT.withMongo(hasRecordings ? "mongodb://unused" : null);
         driver = new TopologyTestDriver(ControlTopology.of(REMEMBERED, missions, replays), settings(), START);
     }
 
@@ -65,7 +65,7 @@ final class ManagerFixture implements AutoCloseable {
         return remembered;
     }
 
-    void ask(String topic, String key, String json) {
+    void request(String topic, String key, String json) {
         pipe(topic, key, json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
     }
 
@@ -97,12 +97,12 @@ final class ManagerFixture implements AutoCloseable {
 
     /** Reports a state of each device that was asked for since. */
     int hostAll(DeviceStatus.State state) throws Exception {
-        List<TestRecord<String, byte[]>> asked = new ArrayList<>(read(Topics.DEVICES));
-        for (TestRecord<String, byte[]> record : asked) {
+        List<TestRecord<String, byte[]>> requested = new ArrayList<>(read(Topics.DEVICES));
+        for (TestRecord<String, byte[]> record : requested) {
             long sequence = DeviceVersion.read(record.value()).sequence();
             pipe(Topics.DEVICES_STATUS, record.key(), new DeviceStatus(sequence, state, null).toBytes());
         }
-        return asked.size();
+        return requested.size();
     }
 
     static String error(TestRecord<String, byte[]> record) {

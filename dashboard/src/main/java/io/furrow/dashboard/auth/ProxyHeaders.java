@@ -67,12 +67,12 @@ public final class ProxyHeaders extends Handler.Wrapper {
         }
         headers.remove(proxy.userHeader());
         headers.remove(proxy.groupsHeader());
-        boolean asks = Request.getPathInContext(request).startsWith("/api/"); // the page itself is everybody's
-        if (asks && given.contains(proxy.userHeader()) && proxy.isAt(address(request))) {
+        boolean isApi = Request.getPathInContext(request).startsWith("/api/"); // the page itself is everybody's
+        if (isApi && given.contains(proxy.userHeader()) && proxy.isAt(address(request))) {
             User user = proxy.user(given.getValuesList(proxy.userHeader()), given.getValuesList(proxy.groupsHeader()));
             headers.put(Credentials.AUTHORIZATION, "Bearer " + proxy.token());
             headers.put(Credentials.USER, user.name());
-            headers.put(Credentials.ROLE, user.role().word());
+            headers.put(Credentials.ROLE, user.role().code());
             // a control plane that does not know these headers would take everybody for the dashboard, or for an admin
             users.find(Credentials.of(headers, Request.getRemoteAddr(request)));
         }

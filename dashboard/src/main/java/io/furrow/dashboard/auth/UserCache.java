@@ -34,7 +34,7 @@ public final class UserCache {
             HttpClient.newBuilder().connectTimeout(TIMEOUT).build();
     private final URI controlPlane;
     private final LongSupplier nanos;
-    private final Map<String, CachedUser> known = new LinkedHashMap<>() {
+    private final Map<String, CachedUser> cached = new LinkedHashMap<>() {
         private static final long serialVersionUID = 1L;
 
         @Override
@@ -61,21 +61,21 @@ public final class UserCache {
                 String.valueOf(credentials.authorization()),
                 String.valueOf(credentials.user()),
                 String.valueOf(credentials.role())));
-        synchronized (known) {
-            CachedUser before = known.get(key);
+        synchronized (cached) {
+            CachedUser before = cached.get(key);
             if (before != null && nanos.getAsLong() - before.since() < REMEMBERED.toNanos()) {
                 return before.user();
             }
         }
-        User user = ask(credentials);
-        synchronized (known) {
-            known.remove(key);
-            known.put(key, new CachedUser(user, nanos.getAsLong()));
+        User user = request(credentials);
+        synchronized (cached) {
+            cached.remove(key);
+            cached.put(key, new CachedUser(user, nanos.getAsLong()));
         }
         return user;
     }
 
-    private User ask(Credentials credentials) {
+    private User request(Credentials credentials) {
         URI me = URI.create(controlPlane.toString().replaceAll("/+$", "") + "/api/me");
         HttpRequest.Builder request = HttpRequest.newBuilder(me).timeout(TIMEOUT);
         credentials.addTo(request);
@@ -87,7 +87,7 @@ public final class UserCache {
             } else if (refuses) {
                 throw new Problem(401, "unauthorized", reason(answer.body()));
             } else if (answer.statusCode() != 200) {
-                throw away(me, "it answers " + answer.statusCode());
+                throw unavailable(me, "it answers " + answer.statusCode());
             }
             JsonNode user = NgsiJson.read(answer.body());
             String name = user.path("user").asText();
@@ -97,10 +97,10 @@ public final class UserCache {
             }
             return new User(name, UserRole.of(user.path("role").asText()));
         } catch (IOException | UnreadableException | IllegalArgumentException e) {
-            throw away(me, FailureText.of(e));
+            throw unavailable(me, FailureText.of(e));
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-            throw away(me, "the dashboard stops");
+            throw unavailable(me, "the dashboard stops");
         }
     }
 
@@ -120,7 +120,7 @@ public final class UserCache {
         }
     }
 
-    private static Problem away(URI me, String why) {
+    private static Problem unavailable(URI me, String why) {
         return new Problem(
                 503,
                 "control-plane-away",

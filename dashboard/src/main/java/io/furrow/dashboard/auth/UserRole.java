@@ -8,15 +8,15 @@ public enum UserRole {
     OPERATOR,
     ADMIN;
 
-    static UserRole of(String word) {
-        return valueOf(word.toUpperCase(Locale.ROOT));
+    static UserRole of(String code) {
+        return valueOf(code.toUpperCase(Locale.ROOT));
     }
 
-    public boolean includes(UserRole least) {
-        return compareTo(least) >= 0;
+    public boolean includes(UserRole minimum) {
+        return compareTo(minimum) >= 0;
     }
 
-    public String word() {
+    public String code() {
         return name().toLowerCase(Locale.ROOT);
     }
 }

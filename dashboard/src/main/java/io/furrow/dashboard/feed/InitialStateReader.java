@@ -18,11 +18,11 @@ import java.util.function.Function;
  */
 public final class InitialStateReader implements AutoCloseable {
     private static final int THREADS = 16;
-    private static final Duration CLOSED_WITHIN = Duration.ofSeconds(2);
+    private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(2);
 
-    private final Function<String, List<FeedRecord>> known;
+    private final Function<String, List<FeedRecord>> reader;
     private final ExecutorService threads = Executors.newFixedThreadPool(THREADS, task -> {
-        Thread thread = new Thread(task, "known-state");
+        Thread thread = new Thread(task, "initial-state");
         thread.setDaemon(true);
         return thread;
     });
@@ -31,9 +31,9 @@ public final class InitialStateReader implements AutoCloseable {
     /** Topics that are read, or are about to be. */
     private final Set<String> busy = new HashSet<>();
 
-    /** @param known reads the known state of a topic */
-    public InitialStateReader(Function<String, List<FeedRecord>> known) {
-        this.known = known;
+    /** @param reader reads the known state of a topic */
+    public InitialStateReader(Function<String, List<FeedRecord>> reader) {
+        this.reader = reader;
     }
 
     /**
@@ -55,7 +55,7 @@ public final class InitialStateReader implements AutoCloseable {
             reading = next.remove(topic);
         }
         try {
-            reading.complete(known.apply(topic));
+            reading.complete(reader.apply(topic));
         } catch (RuntimeException | Error e) { // nobody else would hear of it, and the topic stay busy
             reading.completeExceptionally(e);
         }
@@ -71,7 +71,7 @@ public final class InitialStateReader implements AutoCloseable {
     public void close() {
         threads.shutdownNow();
         try {
-            threads.awaitTermination(CLOSED_WITHIN.toMillis(), TimeUnit.MILLISECONDS);
+            threads.awaitTermination(CLOSE_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }

@@ -22,7 +22,7 @@ final class SendQueue {
     private final StreamRequest request;
     private final StreamLimits limits;
     private final StreamCounters counters;
-    private final Queue<FeedRecord> known = new ArrayDeque<>();
+    private final Queue<FeedRecord> initial = new ArrayDeque<>();
     private final Queue<FeedRecord> all = new ArrayDeque<>();
     private final Map<String, FeedRecord> latest = new LinkedHashMap<>();
     private final Queue<String> notes = new ArrayDeque<>();
@@ -61,7 +61,7 @@ final class SendQueue {
 
     /** What was known before. */
     synchronized void prime(List<FeedRecord> records) {
-        known.addAll(records);
+        initial.addAll(records);
         if (request.format() == StreamRequest.Format.RECORD) {
             // sent behind them, as the known records leave one frame after the other
             notes.add("{\"primed\":true}");
@@ -80,8 +80,8 @@ final class SendQueue {
 
     /** The next frame; null if nothing waits. */
     synchronized String take() {
-        if (!known.isEmpty()) {
-            return frame(known.iterator(), false);
+        if (!initial.isEmpty()) {
+            return frame(initial.iterator(), false);
         } else if (!notes.isEmpty()) {
             return notes.remove();
         } else if (priming || all.isEmpty() && latest.isEmpty()) {

@@ -43,7 +43,7 @@ public final class TopicStreams implements AutoCloseable {
     private static final int UNAUTHORIZED = 401;
 
     private final TopicFeeds feeds;
-    private final InitialStateReader known;
+    private final InitialStateReader initialStates;
     private final TopicWriter writer;
     private final UserCache users;
     private final StreamQuota quota;
@@ -60,7 +60,7 @@ public final class TopicStreams implements AutoCloseable {
 
     public TopicStreams(Properties client, TopicRules rules, StreamLimits limits, UserCache users) {
         this.feeds = new TopicFeeds(client, limits, counters);
-        this.known = new InitialStateReader(new InitialState(client, limits, feeds::isCompacted)::read);
+        this.initialStates = new InitialStateReader(new InitialState(client, limits, feeds::isCompacted)::read);
         this.writer = new TopicWriter(client, rules);
         this.users = users;
         this.rules = rules;
@@ -69,7 +69,7 @@ public final class TopicStreams implements AutoCloseable {
         this.tickets = new Tickets(limits, System::nanoTime);
         clock.scheduleWithFixedDelay(
                 () -> streams.forEach(OpenStream::ping), PING_SECONDS, PING_SECONDS, TimeUnit.SECONDS);
-        clock.scheduleWithFixedDelay(this::askAgain, USER_SECONDS, USER_SECONDS, TimeUnit.SECONDS);
+        clock.scheduleWithFixedDelay(this::reauthenticate, USER_SECONDS, USER_SECONDS, TimeUnit.SECONDS);
     }
 
     private static java.util.concurrent.ThreadFactory daemon(String name) {
@@ -112,8 +112,8 @@ public final class TopicStreams implements AutoCloseable {
     }
 
     /** Whether Kafka has answered none of these checks for six seconds. */
-    public boolean isKafkaAway() {
-        return feeds.isKafkaAway();
+    public boolean isKafkaUnavailable() {
+        return feeds.isKafkaUnavailable();
     }
 
     public UserCache users() {
@@ -166,7 +166,7 @@ public final class TopicStreams implements AutoCloseable {
      *
      * @return completes when each record that is written from then on goes to the stream; never where it ends before
      */
-    CompletableFuture<Void> begin(StreamRequest request, OpenStream stream, SendQueue outbox) {
+    CompletableFuture<Void> begin(StreamRequest request, OpenStream stream, SendQueue queue) {
         CompletableFuture<Void> begun = new CompletableFuture<>();
         if (streams.add(stream) && !(stream instanceof TopicSocket)) {
             counters.opened();
@@ -184,8 +184,9 @@ public final class TopicStreams implements AutoCloseable {
                     }
                     begun.complete(null);
                     if (request.prime()) {
-                        known.read(request.topic())
-                                .whenComplete((records, failure) -> prime(request, stream, outbox, records, failure));
+                        initialStates
+                                .read(request.topic())
+                                .whenComplete((records, failure) -> prime(request, stream, queue, records, failure));
                     }
                 } catch (Problem | KafkaException e) {
                     fail(request, stream, e);
@@ -202,12 +203,12 @@ public final class TopicStreams implements AutoCloseable {
     }
 
     private static void prime(
-            StreamRequest request, OpenStream stream, SendQueue outbox, List<FeedRecord> records, Throwable failure) {
+            StreamRequest request, OpenStream stream, SendQueue queue, List<FeedRecord> records, Throwable failure) {
         if (failure != null) {
             fail(request, stream, failure);
             return;
         }
-        outbox.prime(records);
+        queue.prime(records);
         stream.flush();
     }
 
@@ -240,7 +241,7 @@ public final class TopicStreams implements AutoCloseable {
     }
 
     /** A token that was taken back opens no stream, and keeps none; a role that changed counts for open sockets too. */
-    private void askAgain() {
+    private void reauthenticate() {
         for (OpenStream stream : streams) {
             try {
                 stream.refresh(users.find(stream.credentials()));
@@ -268,7 +269,7 @@ public final class TopicStreams implements AutoCloseable {
         clock.shutdownNow();
         beginners.shutdownNow();
         endings.shutdownNow();
-        known.close();
+        initialStates.close();
         try {
             beginners.awaitTermination(Duration.ofSeconds(2).toMillis(), TimeUnit.MILLISECONDS);
         } catch (InterruptedException e) {

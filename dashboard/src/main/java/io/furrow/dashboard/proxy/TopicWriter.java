@@ -75,13 +75,13 @@ final class TopicWriter implements AutoCloseable {
         return written;
     }
 
-    private static void check(User user, UserRole least) {
-        if (!user.role().includes(least)) {
+    private static void check(User user, UserRole minimum) {
+        if (!user.role().includes(minimum)) {
             throw new Problem(
                     403,
                     "forbidden",
                     "this needs the role %s, and '%s' is %s"
-                            .formatted(least.word(), user.name(), user.role().word()));
+                            .formatted(minimum.code(), user.name(), user.role().code()));
         }
     }
 

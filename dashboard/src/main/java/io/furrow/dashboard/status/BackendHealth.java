@@ -28,7 +28,7 @@ import io.furrow.model.text.FailureText;
 public final class BackendHealth implements AutoCloseable {
     private static final Duration INTERVAL = Duration.ofSeconds(2);
     private static final Duration TIMEOUT = Duration.ofSeconds(2);
-    private static final Duration AWAY_AFTER = Duration.ofSeconds(6);
+    private static final Duration UNAVAILABLE_AFTER = Duration.ofSeconds(6);
     private static final int SERVER_ERROR = 500;
 
     private final Clock clock;
@@ -64,18 +64,18 @@ public final class BackendHealth implements AutoCloseable {
         HttpRequest request = HttpRequest.newBuilder(health).timeout(TIMEOUT).build();
         this.parts = List.of(
                 new Part("kafka", () -> streams.checkKafka(TIMEOUT)),
-                new Part("controlPlane", () -> ask(client, request)));
+                new Part("controlPlane", () -> probe(client, request)));
         this.executor = Executors.newScheduledThreadPool(parts.size(), task -> {
             Thread thread = new Thread(task, "surroundings");
             thread.setDaemon(true);
             return thread;
         });
         for (Part part : parts) {
-            executor.scheduleWithFixedDelay(() -> look(part), 0, INTERVAL.toMillis(), TimeUnit.MILLISECONDS);
+            executor.scheduleWithFixedDelay(() -> poll(part), 0, INTERVAL.toMillis(), TimeUnit.MILLISECONDS);
         }
     }
 
-    private static void ask(HttpClient client, HttpRequest request) throws IOException, InterruptedException {
+    private static void probe(HttpClient client, HttpRequest request) throws IOException, InterruptedException {
         int status =
                 client.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
         if (status >= SERVER_ERROR) {
@@ -83,7 +83,7 @@ public final class BackendHealth implements AutoCloseable {
         }
     }
 
-    private void look(Part part) {
+    private void poll(Part part) {
         try {
             part.check.run();
             part.lastSuccess = clock.instant();
@@ -97,7 +97,7 @@ public final class BackendHealth implements AutoCloseable {
 
     private boolean isUp(Part part) {
         Instant last = part.lastSuccess;
-        return last != null && last.plus(AWAY_AFTER).isAfter(clock.instant());
+        return last != null && last.plus(UNAVAILABLE_AFTER).isAfter(clock.instant());
     }
 
     /** Whether all of them answer. */

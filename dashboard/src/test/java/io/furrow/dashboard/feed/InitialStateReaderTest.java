@@ -44,7 +44,7 @@ class InitialStateReaderTest {
     }
 
     @Test
-    void readsOnceForAllWhoAskWhileTheTopicIsRead() throws Exception {
+    void readsOnceForAllWhoRequestWhileTheTopicIsRead() throws Exception {
         CompletableFuture<List<FeedRecord>> first = reader.read("long");
         begun.await();
         List<CompletableFuture<List<FeedRecord>>> later = new ArrayList<>();

@@ -27,100 +27,99 @@ class SendQueueTest {
                 1_000);
     }
 
-    private static SendQueue outbox(StreamRequest.Mode mode, boolean prime, StreamRequest.Format format) {
+    private static SendQueue queue(StreamRequest.Mode mode, boolean prime, StreamRequest.Format format) {
         return new SendQueue(new StreamRequest("data.raw", mode, prime, format), FEW, new StreamCounters());
     }
 
     @Test
-    void keepsEveryRecordInItsOrder() {
-        SendQueue outbox = outbox(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
-        outbox.offer(record("a", "1", 0));
-        outbox.offer(record("a", "2", 1));
+    void preservesTheOrderOfRecords() {
+        SendQueue queue = queue(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
+        queue.offer(record("a", "1", 0));
+        queue.offer(record("a", "2", 1));
 
-        assertThat(outbox.take()).isEqualTo("1");
-        assertThat(outbox.take()).isEqualTo("2");
-        assertThat(outbox.take()).isNull();
+        assertThat(queue.take()).isEqualTo("1");
+        assertThat(queue.take()).isEqualTo("2");
+        assertThat(queue.take()).isNull();
     }
 
     @Test
     void isOverWhereMoreWaitThanMay() {
-        SendQueue outbox = outbox(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
+        SendQueue queue = queue(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
         for (int i = 0; i < 3; i++) {
-            assertThat(outbox.offer(record("a", "1", i))).isTrue();
+            assertThat(queue.offer(record("a", "1", i))).isTrue();
         }
-        assertThat(outbox.offer(record("a", "1", 3))).isFalse();
+        assertThat(queue.offer(record("a", "1", 3))).isFalse();
 
-        SendQueue heavy = outbox(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
+        SendQueue heavy = queue(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
         assertThat(heavy.offer(record("a", "x".repeat(20_000), 0))).isFalse();
     }
 
     @Test
     void countsWhatIsTakenAsWaitingNoMore() {
-        SendQueue outbox = outbox(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
+        SendQueue queue = queue(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
         for (int i = 0; i < 100; i++) {
-            assertThat(outbox.offer(record("a", "x".repeat(5_000), i))).isTrue();
-            outbox.take();
+            assertThat(queue.offer(record("a", "x".repeat(5_000), i))).isTrue();
+            queue.take();
         }
     }
 
     @Test
     void letsTheNewestOfAKeyTakeThePlaceOfOlderOnes() {
-        SendQueue outbox = outbox(StreamRequest.Mode.LATEST, false, StreamRequest.Format.RECORD);
+        SendQueue queue = queue(StreamRequest.Mode.LATEST, false, StreamRequest.Format.RECORD);
         for (int i = 0; i < 50; i++) {
-            assertThat(outbox.offer(record("k" + i % 2, Integer.toString(i), i)))
-                    .isTrue();
+            assertThat(queue.offer(record("k" + i % 2, Integer.toString(i), i))).isTrue();
         }
 
-        assertThat(outbox.take())
+        assertThat(queue.take())
                 .contains("\"value\":48", "\"value\":49", "\"merged\":48")
                 .doesNotContain("\"value\":47");
-        assertThat(outbox.take()).isNull();
+        assertThat(queue.take()).isNull();
     }
 
     @Test
     void takesRecordsWithoutAKeyForDifferentOnes() {
-        SendQueue outbox = outbox(StreamRequest.Mode.LATEST, false, StreamRequest.Format.RECORD);
-        outbox.offer(record(null, "1", 0));
-        outbox.offer(record(null, "2", 1));
+        SendQueue queue = queue(StreamRequest.Mode.LATEST, false, StreamRequest.Format.RECORD);
+        queue.offer(record(null, "1", 0));
+        queue.offer(record(null, "2", 1));
 
-        assertThat(outbox.take()).contains("\"value\":1", "\"value\":2").doesNotContain("merged");
+        assertThat(queue.take()).contains("\"value\":1", "\"value\":2").doesNotContain("merged");
     }
 
     @Test
     void holdsRecordsBackUntilWhatWasKnownIsSent() {
-        SendQueue outbox = outbox(StreamRequest.Mode.ALL, true, StreamRequest.Format.RECORD);
-        outbox.offer(record("a", "2", 7));
-        assertThat(outbox.take()).isNull();
+        SendQueue queue = queue(StreamRequest.Mode.ALL, true, StreamRequest.Format.RECORD);
+        queue.offer(record("a", "2", 7));
+        assertThat(queue.take()).isNull();
 
-        outbox.prime(List.of(record("a", "1", FeedRecord.NO_SEQUENCE)));
+        queue.prime(List.of(record("a", "1", FeedRecord.NO_SEQUENCE)));
 
-        assertThat(outbox.take()).contains("\"kind\":\"prime\"", "\"value\":1").doesNotContain("sequence");
-        assertThat(outbox.take()).isEqualTo("{\"primed\":true}");
-        assertThat(outbox.take()).contains("\"kind\":\"event\"", "\"sequence\":7", "\"value\":2");
+        assertThat(queue.take()).contains("\"kind\":\"prime\"", "\"value\":1").doesNotContain("sequence");
+        assertThat(queue.take()).isEqualTo("{\"primed\":true}");
+        assertThat(queue.take()).contains("\"kind\":\"event\"", "\"sequence\":7", "\"value\":2");
     }
 
     /** One id in two tenants, and with two types in one of them. */
     @Test
     void mergesTheReportsOfAnEntityAlone() {
-        SendQueue outbox = outbox(StreamRequest.Mode.LATEST, false, StreamRequest.Format.VALUE);
-        outbox.offer(in("farm", VALVE));
-        outbox.offer(in("farm", PUMP));
-        outbox.offer(in("other", VALVE));
-        outbox.offer(in("farm", VALVE));
+        SendQueue queue = queue(StreamRequest.Mode.LATEST, false, StreamRequest.Format.VALUE);
+        queue.offer(in("farm", VALVE));
+        queue.offer(in("farm", PUMP));
+        queue.offer(in("other", VALVE));
+        queue.offer(in("farm", VALVE));
 
-        assertThat(List.of(outbox.take(), outbox.take(), outbox.take())).containsExactly(VALVE, PUMP, VALVE);
-        assertThat(outbox.take()).isNull();
+        assertThat(List.of(queue.take(), queue.take(), queue.take())).containsExactly(VALVE, PUMP, VALVE);
+        assertThat(queue.take()).isNull();
     }
 
     @Test
     void sendsWhatCameAfterADeletionBehindIt() {
-        SendQueue outbox = outbox(StreamRequest.Mode.LATEST, false, StreamRequest.Format.VALUE);
-        outbox.offer(in("farm", VALVE));
-        outbox.offer(in("farm", null));
-        outbox.offer(in("farm", VALVE));
+        SendQueue queue = queue(StreamRequest.Mode.LATEST, false, StreamRequest.Format.VALUE);
+        queue.offer(in("farm", VALVE));
+        queue.offer(in("farm", null));
+        queue.offer(in("farm", VALVE));
 
-        assertThat(List.of(outbox.take(), outbox.take())).containsExactly("null", VALVE);
-        assertThat(outbox.take()).isNull();
+        assertThat(List.of(queue.take(), queue.take())).containsExactly("null", VALVE);
+        assertThat(queue.take()).isNull();
     }
 
     private static FeedRecord in(String tenant, String value) {

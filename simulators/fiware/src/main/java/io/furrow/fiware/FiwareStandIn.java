@@ -71,10 +71,10 @@ public final class FiwareStandIn implements AutoCloseable {
                     "iot-agent", settings.iotAgentPort(), settings.allowed(), new IotAgentApi(registry));
             started.push(iotAgent::close);
             if (settings.mqttBroker() != null) {
-                MqttBridge link =
+                MqttBridge bridge =
                         MqttBridge.open(settings.mqttBroker(), settings.mqttUser(), settings.mqttPassword(), agent);
-                started.push(link::close);
-                agent.connect(link);
+                started.push(bridge::close);
+                agent.connect(bridge);
             }
             complete = true;
         } finally {

@@ -42,7 +42,7 @@ class SubscriptionOptionsTest {
                 "\"entityDelete\"                 | 4",
                 "\"entityCreate\",\"entityDelete\" | 1 4",
             })
-    void notifiesTheAlterationsThatAreAskedFor(String types, String steps) {
+    void notifiesTheAlterationsThatAreRequested(String types, String steps) {
         String condition = types.isEmpty() ? "{}" : "{\"alterationTypes\": [" + types + "]}";
         subscribe(condition, "\"attrs\": [\"step\", \"alterationType\"]", http("/asked"));
         subscribe("{\"alterationTypes\": [\"entityDelete\"]}", "\"attrs\": []", http("/end"));
@@ -102,7 +102,7 @@ class SubscriptionOptionsTest {
     }
 
     @Test
-    void countsFailuresUntilASuccessAndTellsTheirReason() throws IOException {
+    void countsFailuresUntilASuccessAndReportsTheirReason() throws IOException {
         int port = closedPort();
         String location = subscribe("{}", "\"attrs\": []", "\"http\": {\"url\": \"http://127.0.0.1:" + port + "/\"}");
         client.post("/v2/entities", "{\"id\": \"P\", \"type\": \"Probe\"}");
@@ -162,7 +162,7 @@ class SubscriptionOptionsTest {
 
     @ParameterizedTest
     @EnumSource(Connections.class)
-    void keepsConnectionsOrMakesANewOneForEachNotification(Connections connections) {
+    void reusesConnectionsOrMakesANewOneForEachNotification(Connections connections) {
         try (FiwareStandIn other = FiwareStandIn.start(FiwareSettings.httpOnly().withConnections(connections))) {
             Client there = Client.of(other.contextBroker());
             there.post("/v2/subscriptions", """

@@ -43,12 +43,12 @@ public final class InMemoryAccounts implements MqttAccounts, LoginReports {
     }
 
     @Override
-    public Map<String, String> replace(List<MqttAccount> accounts, Set<String> kept) {
+    public Map<String, String> replace(List<MqttAccount> accounts, Set<String> retained) {
         List<MqttAccount> all = new ArrayList<>(accounts);
         Set<String> users =
                 accounts.stream().map(account -> account.login().user()).collect(Collectors.toSet());
         byUser.forEach((user, account) -> {
-            if (kept.contains(user) && !users.contains(user)) {
+            if (retained.contains(user) && !users.contains(user)) {
                 all.add(account);
             }
         });
@@ -60,15 +60,15 @@ public final class InMemoryAccounts implements MqttAccounts, LoginReports {
 
     @Override
     public Set<String> retain(Set<String> users, Predicate<String> removable) {
-        Set<String> kept = byUser.keySet().stream()
+        Set<String> retained = byUser.keySet().stream()
                 .filter(user -> !users.contains(user) && !removable.test(user))
                 .collect(Collectors.toSet());
         replace(
                 byUser.values().stream()
                         .filter(account -> users.contains(account.login().user()))
                         .toList(),
-                kept);
-        return kept;
+                retained);
+        return retained;
     }
 
     @Override
@@ -79,21 +79,21 @@ public final class InMemoryAccounts implements MqttAccounts, LoginReports {
     }
 
     /** Whether somebody who connects is who he says he is. */
-    public boolean knows(String user, byte[] password) {
+    public boolean authenticates(String user, byte[] password) {
         MqttAccount account = byUser.get(user);
         if (account == null) {
             strangers.refused(user, DeviceConnection.UNKNOWN_USER, clock.getAsLong());
             log("login of an unknown user", user);
             return false;
         }
-        boolean known = MessageDigest.isEqual(account.login().password().getBytes(StandardCharsets.UTF_8), password);
-        if (known) {
+        boolean valid = MessageDigest.isEqual(account.login().password().getBytes(StandardCharsets.UTF_8), password);
+        if (valid) {
             owners.loggedIn(user, clock.getAsLong());
         } else {
             owners.refused(user, DeviceConnection.WRONG_PASSWORD, clock.getAsLong());
             log("login with a wrong password", user);
         }
-        return known;
+        return valid;
     }
 
     public boolean exists(String user) {

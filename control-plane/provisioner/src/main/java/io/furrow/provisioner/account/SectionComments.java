@@ -66,13 +66,13 @@ record SectionComments(String topic, Map<String, Integer> generations) {
     /** Why a user may not log in; empty if he may. */
     Optional<String> refusal(String user) {
         UserName name = UserName.of(user);
-        int noted = generations.getOrDefault(name.owner(), 0);
-        return name.generation() >= noted
+        int current = generations.getOrDefault(name.owner(), 0);
+        return name.generation() >= current
                 ? Optional.empty()
                 : Optional.of(
                         ("the login '%s' was revoked before this Kafka knew of it; rotate the device's credentials %d times, and it"
                                         + " has those of generation %d again")
-                                .formatted(user, noted - name.generation(), noted));
+                                .formatted(user, current - name.generation(), current));
     }
 
     /** The lines of a section that has these notes. */

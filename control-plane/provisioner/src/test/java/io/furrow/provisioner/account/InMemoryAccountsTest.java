@@ -40,7 +40,7 @@ class InMemoryAccountsTest {
     }
 
     @Test
-    void countsTheLoginsThatWereRefusedSinceTheLastOneAndSaysWhy() {
+    void countsTheLoginsThatWereRefusedSinceTheLastOneAndReportsWhy() {
         login(DEVICE.user(), "guessed");
         login(DEVICE.user(), DEVICE.password());
         now.set(2000);
@@ -89,6 +89,6 @@ class InMemoryAccountsTest {
     }
 
     private boolean login(String user, String password) {
-        return accounts.knows(user, password.getBytes(StandardCharsets.UTF_8));
+        return accounts.authenticates(user, password.getBytes(StandardCharsets.UTF_8));
     }
 }

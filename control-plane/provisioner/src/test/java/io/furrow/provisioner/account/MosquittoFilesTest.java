@@ -75,7 +75,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void touchesNothingAndTellsNobodyWhereNothingChanges() throws IOException {
+    void touchesNothingAndNotifiesNobodyWhereNothingChanges() throws IOException {
         MosquittoFiles files = files(count());
         files.replace(List.of(gateway, device), Set.of());
         byte[] before = Files.readAllBytes(passwords());
@@ -91,7 +91,7 @@ class MosquittoFilesTest {
 
     /** As for a rotation, which removes an account and adds one: Mosquitto would lose the second signal, and refuse the new password. */
     @Test
-    void letsTheBrokerReadTheFilesBeforeItTellsItAgain() throws IOException {
+    void letsTheBrokerReadTheFilesBeforeItNotifiesItAgain() throws IOException {
         MosquittoFiles files = files(count());
         files.replace(List.of(gateway, device), Set.of());
         FileTime first = Files.getLastModifiedTime(directory.resolve("calls"));
@@ -104,7 +104,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void tellsTheBrokerOnceAfterAStartWhatAProcessThatDiedMayNotHaveTold() throws IOException {
+    void notifiesTheBrokerOnceAfterAStartWhatAProcessThatDiedMayNotHaveReported() throws IOException {
         files(null).replace(List.of(device), Set.of());
         byte[] before = Files.readAllBytes(passwords());
         MosquittoFiles started = files(count());
@@ -149,7 +149,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void refusesAUserThatStandsOutsideOfItsSectionOfEitherFile() throws IOException {
+    void rejectsAUserThatStandsOutsideOfItsSectionOfEitherFile() throws IOException {
         String user = device.login().user();
         Files.write(passwords(), List.of(MosquittoPassword.line(new FarmSecret.Login(user, "plough"))));
         Files.write(rules(), List.of("  user   " + gateway.login().user(), "topic readwrite #"));

@@ -17,7 +17,7 @@ class MqttAccountTest {
     private final MqttAccount gateway = MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing");
 
     @Test
-    void letsADeviceSpeakForItselfAndHearItsCommands() {
+    void letsADeviceSpeakForItselfAndReceiveItsCommands() {
         assertThat(device.mayWrite(KEY + "/d/attrs")).isTrue();
         assertThat(device.mayWrite("/json" + KEY + "/d/cmdexe")).isTrue();
         assertThat(device.mayRead(KEY + "/d/cmd")).isTrue();

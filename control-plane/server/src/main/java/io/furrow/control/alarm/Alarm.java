@@ -67,13 +67,13 @@ public record Alarm(
 
         /** The value in records. */
         @JsonValue
-        public String word() {
+        public String code() {
             return name().toLowerCase(Locale.ROOT);
         }
 
         @JsonCreator
-        static Change of(String word) {
-            return valueOf(word.toUpperCase(Locale.ROOT));
+        static Change of(String code) {
+            return valueOf(code.toUpperCase(Locale.ROOT));
         }
     }
 

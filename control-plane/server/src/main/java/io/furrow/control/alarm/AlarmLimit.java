@@ -27,7 +27,7 @@ final class AlarmLimit {
     static final Set<AlarmKind> KINDS = EnumSet.of(
             AlarmKind.COLLISION, AlarmKind.PREDICTED_ENCOUNTER, AlarmKind.SUSPECT_SENSOR, AlarmKind.CLOCK_BEHIND);
 
-    private static final long RECOUNT_EVERY = Duration.ofSeconds(10).toMillis();
+    private static final long RECOUNT_INTERVAL = Duration.ofSeconds(10).toMillis();
     private static final long SEEN_INTERVAL = Duration.ofSeconds(10).toMillis();
     /** A validity to which {@link #SEEN_INTERVAL} does not matter. */
     private static final long LONG = Duration.ofMinutes(30).toMillis();
@@ -90,17 +90,17 @@ final class AlarmLimit {
         }
         Group group = group(cause.kind(), cause.group());
         Overflow before = find(counted, cause.kind(), cause.identity());
-        boolean known = before != null;
-        if (!known && group.alarms() < MAX_ALARMS) {
+        boolean existing = before != null;
+        if (!existing && group.alarms() < MAX_ALARMS) {
             return false;
         }
         boolean hasRoom = group.counted() < MAX_COUNTED;
-        String key = known ? before.key() : cause.key();
+        String key = existing ? before.key() : cause.key();
         Overflow counting = new Overflow(key, cause.kind(), cause.group(), cause.devices(), cause.until(now), now);
-        if (known ? isNews(before, counting) : hasRoom) {
+        if (existing ? isNews(before, counting) : hasRoom) {
             counted.put(key, counting);
         }
-        if (!known && hasRoom) {
+        if (!existing && hasRoom) {
             store(new Group(
                     group.key(),
                     group.kind(),
@@ -126,7 +126,7 @@ final class AlarmLimit {
      *
      * @return whether they were removed
      */
-    boolean dismiss(AlarmKind kind, String group, long now) {
+    boolean clear(AlarmKind kind, String group, long now) {
         List<String> members = new ArrayList<>();
         boolean[] lasts = new boolean[1];
         counted.forEach(each -> {
@@ -145,20 +145,21 @@ final class AlarmLimit {
 
     /** Removes the counted cause of a kind and identity, if there is one. */
     void end(AlarmKind kind, String identity) {
-        Overflow known = find(counted, kind, identity);
-        if (known != null) {
-            counted.put(known.key(), null);
-            Group group = group(kind, known.group());
+        Overflow existing = find(counted, kind, identity);
+        if (existing != null) {
+            counted.put(existing.key(), null);
+            Group group = group(kind, existing.group());
             store(group.with(group.alarms(), Math.max(0, group.counted() - 1)));
         }
     }
 
     /** Lets the counted cause of a kind and identity, if there is one, end at a time. */
     void endAt(AlarmKind kind, String identity, long until) {
-        Overflow known = find(counted, kind, identity);
-        if (known != null) {
+        Overflow existing = find(counted, kind, identity);
+        if (existing != null) {
             counted.put(
-                    known.key(), new Overflow(known.key(), kind, known.group(), known.devices(), until, known.seen()));
+                    existing.key(),
+                    new Overflow(existing.key(), kind, existing.group(), existing.devices(), until, existing.seen()));
         }
     }
 
@@ -172,7 +173,7 @@ final class AlarmLimit {
 
     /** Removes expired causes and returns the causes of the group alarms. */
     List<Cause> causes(long now) {
-        if (now - recounted >= RECOUNT_EVERY) {
+        if (now - recounted >= RECOUNT_INTERVAL) {
             recounted = now;
             recount(now);
         }
@@ -226,8 +227,8 @@ final class AlarmLimit {
 
     private Group group(AlarmKind kind, String group) {
         String key = Cause.key(kind, group);
-        Group known = groups.get(key);
-        return known == null ? new Group(key, kind, group, 0, 0, List.of()) : known;
+        Group existing = groups.get(key);
+        return existing == null ? new Group(key, kind, group, 0, 0, List.of()) : existing;
     }
 
     private void store(Group group) {

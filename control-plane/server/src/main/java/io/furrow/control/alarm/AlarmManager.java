@@ -41,14 +41,14 @@ public final class AlarmManager {
     }
 
     /** Creates a handler on the stores of a processor. */
-    public static AlarmCommandHandler handler(ProcessorContext<?, ?> context, EventPublisher outbox) {
-        AlarmTables records = new AlarmTables(
+    public static AlarmCommandHandler handler(ProcessorContext<?, ?> context, EventPublisher publisher) {
+        AlarmTables tables = new AlarmTables(
                 StoreTable.of(context, ALARMS, Alarm.class),
                 StoreTable.of(context, CURRENT, String.class),
                 StoreTable.of(context, MUTES, AlarmTables.Mute.class),
                 StoreTable.of(context, GROUPS, AlarmLimit.Group.class),
                 StoreTable.of(context, COUNTED, AlarmLimit.Overflow.class));
-        return new AlarmCommandHandler(records, new Sequence(StoreTable.of(context, SEQUENCE, Long.class)), outbox);
+        return new AlarmCommandHandler(tables, new Sequence(StoreTable.of(context, SEQUENCE, Long.class)), publisher);
     }
 
     /** @param remembered how long ids of requests are remembered */

@@ -35,7 +35,7 @@ final class AlarmStateMachine {
         } else if (event instanceof AlarmEvent.Ended ended) {
             return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), ended.reason(), now);
         } else if (event instanceof AlarmEvent.ManuallyClosed by) {
-            return dismissed(alarm, by, now);
+            return closedManually(alarm, by, now);
         } else if (event instanceof AlarmEvent.Acknowledged by) {
             if (!alarm.state().canBecome(AlarmState.ACKNOWLEDGED)) {
                 throw wrongState(alarm);
@@ -57,7 +57,8 @@ final class AlarmStateMachine {
         return inhibition ? updated.inhibited(reported.inhibitedBy(), now) : updated;
     }
 
-    private static Alarm dismissed(Alarm alarm, AlarmEvent.ManuallyClosed event, long now) throws RefusedException {
+    private static Alarm closedManually(Alarm alarm, AlarmEvent.ManuallyClosed event, long now)
+            throws RefusedException {
         Duration ago = alarm.seen() == null ? null : Duration.ofMillis(now - alarm.seen());
         boolean lasts = alarm.isOfGroup() ? !event.isOver() : ago != null && ago.compareTo(CAUSE_LASTS) < 0;
         if (lasts) {
@@ -96,6 +97,6 @@ final class AlarmStateMachine {
         return new RefusedException(
                 ErrorCode.WRONG_STATE,
                 "alarm '%s' is %s already"
-                        .formatted(alarm.alarm(), alarm.state().word()));
+                        .formatted(alarm.alarm(), alarm.state().code()));
     }
 }

@@ -70,7 +70,7 @@ final class ContextEntity {
         EntityBuilder entity = Entity.builder(missionId(mission.mission()), MISSION)
                 .text("name", mission.mission())
                 .text("domain", mission.domain())
-                .text("status", status == null ? "created" : status.state().word())
+                .text("status", status == null ? "created" : status.state().code())
                 .number("progress", status == null ? 0 : progress(status));
         entity.integer("deviceCount", mission.deviceCount()).integer("missingCount", missing(status));
         entity.freeText("reason", status == null ? null : status.reason());

@@ -14,7 +14,7 @@ import io.furrow.control.mission.MissionStatus;
  * @param tallies by name of the mission
  * @param fields by id
  * @param outdated ids of entities that may have changed since they were published
- * @param told the entities as last published, by id
+ * @param publishedEntities the entities as last published, by id
  */
 record ContextTables(
         Table<Domain> domains,
@@ -23,4 +23,4 @@ record ContextTables(
         Table<MissionCounts> tallies,
         Table<FieldState> fields,
         Table<String> outdated,
-        Table<byte[]> told) {}
+        Table<byte[]> publishedEntities) {}

@@ -106,7 +106,7 @@ public final class ContextTopology {
     }
 
     private void send(String name, KStream<String, byte[]> records, Function<ContextProjection, Observer> observing) {
-        send(name, records, () -> new ObserverProcessor((context, outbox) -> observing.apply(projection(context))));
+        send(name, records, () -> new ObserverProcessor((context, publisher) -> observing.apply(projection(context))));
     }
 
     /** Does not write dead letters: the processors that raise alarms from the same records already do. */
@@ -115,7 +115,7 @@ public final class ContextTopology {
         send(
                 name,
                 records,
-                () -> ObserverProcessor.besideAnother((context, outbox) -> observing.apply(projection(context))));
+                () -> ObserverProcessor.besideAnother((context, publisher) -> observing.apply(projection(context))));
     }
 
     private void send(

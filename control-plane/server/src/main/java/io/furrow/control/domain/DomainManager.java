@@ -46,11 +46,11 @@ public final class DomainManager {
 
     /** Creates a handler on the stores of a processor. */
     public static DomainCommandHandler handler(
-            ProcessorContext<?, ?> context, DomainMissions missions, EventPublisher outbox) {
+            ProcessorContext<?, ?> context, DomainMissions missions, EventPublisher publisher) {
         Table<FieldVersion> fields = StoreTable.of(context, FIELDS, FieldVersion::toBytes, DomainManager::readable);
-        DomainCommandHandler.Dependencies means =
+        DomainCommandHandler.Dependencies dependencies =
                 new DomainCommandHandler.Dependencies(sequence(context), quota(context), () -> all(fields));
-        return new DomainCommandHandler(domains(context), missions, means, outbox);
+        return new DomainCommandHandler(domains(context), missions, dependencies, publisher);
     }
 
     private static List<FieldVersion> all(Table<FieldVersion> fields) {
@@ -109,7 +109,7 @@ public final class DomainManager {
                 () -> new GlobalStoreProcessor(FIELDS));
         builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
         BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<DomainCommand>> opening =
-                (context, outbox) -> handler(context, missions.apply(context, outbox), outbox)::answer;
+                (context, publisher) -> handler(context, missions.apply(context, publisher), publisher)::answer;
         String[] stores = Stream.of(stores(), storesOfMissions, List.of(TOPIC.answers()))
                 .flatMap(List::stream)
                 .toArray(String[]::new);

@@ -58,9 +58,9 @@ public final class HealthWatch {
         Table<DeviceHealth> health = StoreTable.of(context, HEALTH, DeviceHealth.class);
         MonitoredDevices desired = desired(context);
         return identity -> {
-            DeviceHealth known = health.get(identity);
-            return known != null && known.type() != null
-                    ? known.type()
+            DeviceHealth existing = health.get(identity);
+            return existing != null && existing.type() != null
+                    ? existing.type()
                     : desired.of(identity).map(device -> device.type()).orElse(null);
         };
     }
@@ -79,13 +79,13 @@ public final class HealthWatch {
                 () -> new GlobalStoreProcessor(CONNECTIONS));
         builder.addStateStore(StoreTable.builder(HEALTH));
         BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening =
-                (context, outbox) -> observer(new DeviceHealthTracker(
+                (context, publisher) -> observer(new DeviceHealthTracker(
                         StoreTable.of(context, HEALTH, DeviceHealth.class),
                         desired(context),
                         options,
                         new SilenceAlarmReconciler(
-                                options, AlarmManager.handler(context, outbox), connections(context)),
-                        outbox));
+                                options, AlarmManager.handler(context, publisher), connections(context)),
+                        publisher));
 
         KStream<String, byte[]> signs = builder.stream(
                         Topics.RAW,
@@ -119,8 +119,8 @@ public final class HealthWatch {
     private static Observer observer(DeviceHealthTracker tracker) {
         return new Observer() {
             @Override
-            public void take(Record<String, byte[]> sign, long now) {
-                tracker.take(sign.key(), StateJson.read(sign.value(), Heartbeat.class), now);
+            public void take(Record<String, byte[]> heartbeat, long now) {
+                tracker.take(heartbeat.key(), StateJson.read(heartbeat.value(), Heartbeat.class), now);
             }
 
             @Override

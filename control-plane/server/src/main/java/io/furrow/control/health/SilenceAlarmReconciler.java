@@ -220,9 +220,9 @@ final class SilenceAlarmReconciler {
         }
         String text = members.silentOf(" of " + AlarmGroup.label(group)) + " silent";
         Cause inhibitor = farm;
-        if (isMost(members, alarms.isRaised(AlarmKind.SILENT_MISSION, group))) {
-            String away = text + ": probably the site or its connection rather than the devices";
-            inhibitor = Cause.ofMany(AlarmKind.SILENT_MISSION, group, away, members.some(), members.extent());
+        if (isShareReached(members, alarms.isRaised(AlarmKind.SILENT_MISSION, group))) {
+            String unavailable = text + ": probably the site or its connection rather than the devices";
+            inhibitor = Cause.ofMany(AlarmKind.SILENT_MISSION, group, unavailable, members.some(), members.extent());
             alarms.report(inhibitor, farm, now);
             causes.add(inhibitor);
         }
@@ -236,9 +236,9 @@ final class SilenceAlarmReconciler {
      * Whether the share of silent devices is reached. Half of the share suffices if the alarm is raised already, so
      * that it does not flap.
      */
-    private boolean isMost(GroupSummary members, boolean wasMost) {
+    private boolean isShareReached(GroupSummary members, boolean wasReached) {
         double share = (double) members.silent.size() / Math.max(1, members.total);
-        return wasMost
+        return wasReached
                 ? share >= options.missionShare() / 2
                 : share >= options.missionShare() && members.silent.size() >= HealthOptions.MIN_OF_MISSION;
     }
@@ -259,7 +259,7 @@ final class SilenceAlarmReconciler {
         } else if (resumed == null) {
             resumed = now;
         }
-        if (quiet && isMost(all, was)) {
+        if (quiet && isShareReached(all, was)) {
             return farm("nothing arrives on %s: %s silent", all);
         }
         boolean recovers = resumed != null && now - resumed < Math.max(RECOVERY.toMillis(), enough);

@@ -16,36 +16,36 @@ import io.furrow.model.text.FailureText;
 final class AtomicHandler {
     private static final Logger LOG = LoggerFactory.getLogger(AtomicHandler.class);
 
-    private final boolean lettersForUnreadable;
+    private final boolean deadLettersForUnreadable;
     private final ProcessorContext<String, OutputRecord> direct;
-    private final UnitOfWork atomic;
+    private final UnitOfWork unitOfWork;
 
     /** What is done with a record. */
     interface Handler {
         void handle() throws UnreadableException;
     }
 
-    /** @param lettersForUnreadable whether what cannot be read becomes a dead letter here; false if somebody else sees to that */
-    AtomicHandler(boolean lettersForUnreadable, ProcessorContext<String, OutputRecord> context) {
-        this.lettersForUnreadable = lettersForUnreadable;
+    /** @param deadLettersForUnreadable whether what cannot be read becomes a dead letter here; false if somebody else sees to that */
+    AtomicHandler(boolean deadLettersForUnreadable, ProcessorContext<String, OutputRecord> context) {
+        this.deadLettersForUnreadable = deadLettersForUnreadable;
         this.direct = context;
-        this.atomic = new UnitOfWork(context);
+        this.unitOfWork = new UnitOfWork(context);
     }
 
     /** That of the handlers: their stores, and where they write to. */
     UnitOfWork context() {
-        return atomic;
+        return unitOfWork;
     }
 
     void run(Record<String, byte[]> record, Handler handler) {
         try {
-            atomic.call(() -> {
+            unitOfWork.call(() -> {
                 handler.handle();
                 return null;
             });
         } catch (UnreadableException e) {
             LOG.debug("{} cannot be read", described(record), e);
-            if (lettersForUnreadable) {
+            if (deadLettersForUnreadable) {
                 setAside(record, e.reason(), e.getMessage());
             }
         } catch (OversizedRecordException e) {

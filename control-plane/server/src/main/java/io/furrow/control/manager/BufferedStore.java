@@ -48,11 +48,11 @@ final class BufferedStore implements KeyValueStore<String, byte[]> {
 
     @Override
     public byte[] putIfAbsent(String key, byte[] value) {
-        byte[] known = get(key);
-        if (known == null) {
+        byte[] existing = get(key);
+        if (existing == null) {
             put(key, value);
         }
-        return known;
+        return existing;
     }
 
     @Override
@@ -62,9 +62,9 @@ final class BufferedStore implements KeyValueStore<String, byte[]> {
 
     @Override
     public byte[] delete(String key) {
-        byte[] known = get(key);
+        byte[] existing = get(key);
         put(key, null);
-        return known;
+        return existing;
     }
 
     @Override

@@ -34,7 +34,7 @@ public final class ManagerInput {
 
     /** A topic on which executors say what is. */
     public static KStream<String, byte[]> statuses(StreamsBuilder builder, String topic, String name) {
-        return noted(builder, builder.stream(topic, from(name + "-in")), name);
+        return withOrigin(builder, builder.stream(topic, from(name + "-in")), name);
     }
 
     /**
@@ -44,10 +44,11 @@ public final class ManagerInput {
      */
     public static KStream<String, byte[]> observed(
             StreamsBuilder builder, String topic, String name, AutoOffsetReset start) {
-        return noted(builder, builder.stream(topic, from(name + "-in").withOffsetResetPolicy(start)), name);
+        return withOrigin(builder, builder.stream(topic, from(name + "-in").withOffsetResetPolicy(start)), name);
     }
 
-    private static KStream<String, byte[]> noted(StreamsBuilder builder, KStream<String, byte[]> stream, String name) {
+    private static KStream<String, byte[]> withOrigin(
+            StreamsBuilder builder, KStream<String, byte[]> stream, String name) {
         return once(
                 builder,
                 toSinglePartition(stream.process(SourcePositionProcessor::new, Named.as(name + "-note-origin")), name),

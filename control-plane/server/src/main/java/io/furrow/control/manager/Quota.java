@@ -43,7 +43,7 @@ public final class Quota {
     }
 
     private long used() {
-        Long known = used.get(USED);
-        return known == null ? 0 : known;
+        Long existing = used.get(USED);
+        return existing == null ? 0 : existing;
     }
 }

@@ -14,7 +14,7 @@ import io.furrow.model.ngsi.UnreadableException;
  */
 public final class StatusProcessor extends ContextualProcessor<String, byte[], String, OutputRecord> {
     private final BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusHandler> opening;
-    private AtomicHandler work;
+    private AtomicHandler atomic;
     private StatusHandler reports;
 
     /** Who takes them. */
@@ -31,14 +31,14 @@ public final class StatusProcessor extends ContextualProcessor<String, byte[], S
     @Override
     public void init(ProcessorContext<String, OutputRecord> context) {
         super.init(context);
-        work = new AtomicHandler(true, context);
-        reports = opening.apply(work.context(), CommandProcessor.outbox(work.context()));
+        atomic = new AtomicHandler(true, context);
+        reports = opening.apply(atomic.context(), CommandProcessor.publisher(atomic.context()));
     }
 
     @Override
     public void process(Record<String, byte[]> record) {
         if (record.value() != null && record.key() != null) {
-            work.run(
+            atomic.run(
                     record,
                     () -> reports.take(record.key(), record.value(), context().currentSystemTimeMs()));
         }

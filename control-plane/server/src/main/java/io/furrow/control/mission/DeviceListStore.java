@@ -24,14 +24,14 @@ final class DeviceListStore {
     private final Table<byte[]> parts;
     private final Sequence sequence;
     private final Quota quota;
-    private final EventPublisher outbox;
+    private final EventPublisher publisher;
 
     /** @param parts records of the topic by their keys */
-    DeviceListStore(Table<byte[]> parts, Sequence sequence, Quota quota, EventPublisher outbox) {
+    DeviceListStore(Table<byte[]> parts, Sequence sequence, Quota quota, EventPublisher publisher) {
         this.parts = parts;
         this.sequence = sequence;
         this.quota = quota;
-        this.outbox = outbox;
+        this.publisher = publisher;
     }
 
     MissionDevices of(Mission mission) {
@@ -113,16 +113,16 @@ final class DeviceListStore {
         quota.require(further);
         quota.use(further);
         parts.put(list.key(), value);
-        outbox.put(Topics.MISSION_DEVICES, list.key(), value);
+        publisher.put(Topics.MISSION_DEVICES, list.key(), value);
     }
 
     private void remove(Mission mission, int part) {
         String key = MissionDeviceList.key(mission.mission(), part);
-        byte[] known = parts.get(key);
-        if (known != null) {
-            quota.use(-cost(known));
+        byte[] existing = parts.get(key);
+        if (existing != null) {
+            quota.use(-cost(existing));
             parts.put(key, null);
-            outbox.put(Topics.MISSION_DEVICES, key, null);
+            publisher.put(Topics.MISSION_DEVICES, key, null);
         }
     }
 

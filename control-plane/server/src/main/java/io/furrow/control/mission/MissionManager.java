@@ -57,9 +57,9 @@ public final class MissionManager {
 
     /** Missions as they are in the stores of a processor. */
     public static MissionCommandHandler handler(
-            ProcessorContext<?, ?> context, EventPublisher outbox, MissionSettings options) {
+            ProcessorContext<?, ?> context, EventPublisher publisher, MissionSettings options) {
         Table<Domain> domains = DomainManager.domains(context);
-        MissionTables records = new MissionTables(
+        MissionTables tables = new MissionTables(
                 StoreTable.of(context, MISSIONS, Mission.class),
                 StoreTable.of(context, STATUSES, MissionStatus.class),
                 StoreTable.of(context, LISTS, Function.identity(), Function.identity()),
@@ -69,28 +69,28 @@ public final class MissionManager {
                 StoreTable.of(context, VERSIONS, TemplateStore.Versions.class));
         SharedStores farm =
                 new SharedStores(domains::contains, DomainManager.sequence(context), DomainManager.quota(context));
-        return new MissionCommandHandler(records, farm, options, outbox);
+        return new MissionCommandHandler(tables, farm, options, publisher);
     }
 
     /** Its stores and those of domains are there already. @param remembered how long ids of requests are */
     public static void add(StreamsBuilder builder, Duration remembered, MissionSettings options) {
         builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
         BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<MissionCommand>> opening =
-                (context, outbox) -> new TimedMissionHandler(handler(context, outbox, options));
+                (context, publisher) -> new TimedMissionHandler(handler(context, publisher, options));
         BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.StatusHandler> reports =
-                (context, outbox) -> {
-                    MissionCommandHandler handler = handler(context, outbox, options);
+                (context, publisher) -> {
+                    MissionCommandHandler handler = handler(context, publisher, options);
                     return (key, value, now) -> handler.reported(key, DeviceStatus.read(value), now);
                 };
         BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.StatusHandler> healths =
-                (context, outbox) -> {
-                    MissionCommandHandler handler = handler(context, outbox, options);
+                (context, publisher) -> {
+                    MissionCommandHandler handler = handler(context, publisher, options);
                     return (key, value, now) ->
                             handler.reported(key, StateJson.readRecord(value, DeviceHealth.class), now);
                 };
         BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.StatusHandler> connections =
-                (context, outbox) -> {
-                    MissionCommandHandler handler = handler(context, outbox, options);
+                (context, publisher) -> {
+                    MissionCommandHandler handler = handler(context, publisher, options);
                     return (key, value, now) -> handler.reported(key, DeviceConnection.read(value), now);
                 };
 
@@ -146,7 +146,7 @@ public final class MissionManager {
         @Override
         public List<Runnable> due(long now) {
             List<Runnable> steps = new ArrayList<>(missions.due(now));
-            steps.add(0, missions.templates()::stock);
+            steps.add(0, missions.templates()::installBuiltIn);
             return steps;
         }
 

@@ -9,7 +9,7 @@ import io.furrow.model.control.MissionTemplate;
  * @param missions by name
  * @param statuses by the same names
  * @param lists records of {@code service.missions.devices} by their keys
- * @param rollouts by the names of missions
+ * @param pending by the names of missions
  * @param devices by the key of {@code service.devices}
  * @param templates by {@code <name>@<version>}
  * @param versions by the name of the template
@@ -18,7 +18,7 @@ record MissionTables(
         Table<Mission> missions,
         Table<MissionStatus> statuses,
         Table<byte[]> lists,
-        Table<PendingAssignment> rollouts,
+        Table<PendingAssignment> pending,
         Table<DeviceState> devices,
         Table<MissionTemplate> templates,
         Table<TemplateStore.Versions> versions) {}

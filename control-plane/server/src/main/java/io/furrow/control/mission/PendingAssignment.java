@@ -3,7 +3,7 @@ package io.furrow.control.mission;
 /**
  * That devices of a mission are still to be written: a mission of many is written in several transactions.
  *
- * @param next index in the roster of the device that is written next
+ * @param next index among the planned devices of the one that is written next
  * @param time from or until which the devices are requested, epoch ms
  */
 record PendingAssignment(String mission, Kind kind, int next, long time) {

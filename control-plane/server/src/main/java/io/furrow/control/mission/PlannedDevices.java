@@ -37,13 +37,13 @@ final class PlannedDevices {
 
     /** All of them, wanted from a time on, with the sequence 0. */
     static List<DesiredDevice> of(Mission mission, List<ListedGroup> groups, MissionSettings options, long from) {
-        PlannedDevices roster = new PlannedDevices(mission, options, from);
+        PlannedDevices planned = new PlannedDevices(mission, options, from);
         List<List<String>> ids =
-                groups.stream().map(each -> roster.name(each.group())).toList();
+                groups.stream().map(each -> planned.name(each.group())).toList();
         for (int i = 0; i < groups.size(); i++) {
-            roster.add(groups.get(i), ids.get(i));
+            planned.add(groups.get(i), ids.get(i));
         }
-        return roster.devices;
+        return planned.devices;
     }
 
     private List<String> name(DeviceGroup group) {

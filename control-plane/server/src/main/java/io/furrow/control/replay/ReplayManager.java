@@ -58,10 +58,10 @@ public final class ReplayManager {
         builder.addStateStore(StoreTable.builder(SEQUENCE));
         builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
         BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<ReplayCommand>> opening =
-                (context, outbox) -> handler(context, outbox, ids, settings);
+                (context, publisher) -> handler(context, publisher, ids, settings);
         BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.StatusHandler> reports =
-                (context, outbox) -> {
-                    ReplayCommandHandler handler = handler(context, outbox, ids, settings);
+                (context, publisher) -> {
+                    ReplayCommandHandler handler = handler(context, publisher, ids, settings);
                     return (key, value, now) -> handler.reported(key, ReplayStatus.read(value), now);
                 };
 
@@ -97,7 +97,7 @@ public final class ReplayManager {
         }
     }
 
-    private static DesiredReplay kept(byte[] value) {
+    private static DesiredReplay stored(byte[] value) {
         try {
             return DesiredReplay.read(value);
         } catch (UnreadableException e) {
@@ -106,14 +106,14 @@ public final class ReplayManager {
     }
 
     private static ReplayCommandHandler handler(
-            ProcessorContext<?, ?> context, EventPublisher outbox, Supplier<UUID> ids, ReplaySettings settings) {
+            ProcessorContext<?, ?> context, EventPublisher publisher, Supplier<UUID> ids, ReplaySettings settings) {
         Table<RecordedMission> recordings =
                 StoreTable.of(context, RECORDINGS, RecordedMission::toBytes, ReplayManager::listed);
         ReplayCommandHandler.ReplayStores stores = new ReplayCommandHandler.ReplayStores(
-                StoreTable.of(context, REPLAYS, DesiredReplay::toBytes, ReplayManager::kept),
+                StoreTable.of(context, REPLAYS, DesiredReplay::toBytes, ReplayManager::stored),
                 StoreTable.of(context, REPORTS, ReportedReplay.class),
                 StoreTable.of(context, SEQUENCE, Long.class));
         return new ReplayCommandHandler(
-                stores, new RecordedMissions(settings.knowsRecordings(), recordings::get), ids, settings, outbox);
+                stores, new RecordedMissions(settings.hasRecordings(), recordings::get), ids, settings, publisher);
     }
 }

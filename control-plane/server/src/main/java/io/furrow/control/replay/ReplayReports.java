@@ -20,9 +20,9 @@ final class ReplayReports {
     }
 
     /** Stores what is different from the report before. @param now epoch ms */
-    void take(String replay, ReplayStatus told, long now) {
+    void take(String replay, ReplayStatus report, long now) {
         ReportedReplay before = reports.get(replay);
-        ReportedReplay next = ReportedReplay.of(replay, told, before, now);
+        ReportedReplay next = ReportedReplay.of(replay, report, before, now);
         if (!next.equals(before)) {
             reports.put(replay, next);
         }
@@ -39,9 +39,9 @@ final class ReplayReports {
 
     /** What was reported, where nothing more comes of what is desired; else what is desired. */
     State state(DesiredReplay replay) {
-        ReportedReplay told = get(replay);
-        return told != null && told.isOver(replay.sequence()) && replay.desired() != State.STOPPED
-                ? told.state()
+        ReportedReplay report = get(replay);
+        return report != null && report.isOver(replay.sequence()) && replay.desired() != State.STOPPED
+                ? report.state()
                 : replay.desired();
     }
 

@@ -25,6 +25,6 @@ public final class CallerResource {
         return JsonResponses.ok(NgsiJson.mapper()
                 .createObjectNode()
                 .put("user", RequestContext.user(request))
-                .put("role", role.word()));
+                .put("role", role.code()));
     }
 }

@@ -60,7 +60,7 @@ public final class DevicesResource {
     private final StateView view;
     private final DeviceView devices;
     private final CommandClient managers;
-    private final Dependencies means;
+    private final Dependencies dependencies;
 
     /**
      * What devices are reached by.
@@ -70,11 +70,11 @@ public final class DevicesResource {
      */
     record Dependencies(FiwareScope scope, DeviceCommands commands, DeviceCredentials credentials) {}
 
-    DevicesResource(StateView view, CommandClient managers, Dependencies means) {
+    DevicesResource(StateView view, CommandClient managers, Dependencies dependencies) {
         this.view = view;
         this.devices = new DeviceView(view);
         this.managers = managers;
-        this.means = means;
+        this.dependencies = dependencies;
     }
 
     /** @param mission null for all @param domain null for all */
@@ -102,7 +102,7 @@ public final class DevicesResource {
     public Response credentials(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
         audit(RequestContext.user(request), "credentials", about(name), null);
-        return secret(means.credentials().of(device));
+        return secret(dependencies.credentials().of(device));
     }
 
     /** The same as a file for spreadsheets. */
@@ -113,7 +113,7 @@ public final class DevicesResource {
     public Response credentialsAsCsv(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
         audit(RequestContext.user(request), "credentials", about(name), null);
-        return csv(List.of(means.credentials().of(device)));
+        return csv(List.of(dependencies.credentials().of(device)));
     }
 
     /** The credentials as a QR code, for what has a camera. */
@@ -124,7 +124,7 @@ public final class DevicesResource {
     public Response qr(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
         audit(RequestContext.user(request), "credentials", about(name), null);
-        return Response.ok(means.credentials().qr(device))
+        return Response.ok(dependencies.credentials().qr(device))
                 .header("Cache-Control", "no-store")
                 .build();
     }
@@ -135,12 +135,13 @@ public final class DevicesResource {
     @Path("{device}/credentials")
     public CompletionStage<Response> rotate(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
-        return managers.ask(
+        return managers.request(
                         new CommandClient.CommandRequest(Topics.MISSION_MANAGER, "rotate-credentials", about(name)),
                         RequestContext.of(request))
                 .thenApply(answer -> answer.error().isPresent()
                         ? JsonResponses.of(answer, 0)
-                        : secret(means.credentials()
+                        : secret(dependencies
+                                .credentials()
                                 .of(device.withGeneration(
                                         answer.json().path(GENERATION).asInt()))));
     }
@@ -166,8 +167,8 @@ public final class DevicesResource {
         find(name);
         String key = keyOf(name);
         DesiredDevice device = devices.find(key)
-                .filter(found ->
-                        DeviceCredentials.has(found) && key.equals(means.scope().identity(name.id())))
+                .filter(found -> DeviceCredentials.has(found)
+                        && key.equals(dependencies.scope().identity(name.id())))
                 .orElse(null);
         if (device == null) {
             throw new ProblemException(
@@ -175,7 +176,7 @@ public final class DevicesResource {
                     "device '%s' has a login of its own, which is not known here; list it as an object with a 'type' to give it one"
                             .formatted(name.id()));
         }
-        requireSecret(means.credentials());
+        requireSecret(dependencies.credentials());
         return device;
     }
 
@@ -194,25 +195,26 @@ public final class DevicesResource {
             @Context ContainerRequestContext request, @BeanParam DeviceName name, InputStream body) throws IOException {
         ObjectNode members = JsonBodyReader.read(body);
         // A robot that is on no mission can be stopped too. An operator may put any entity on one.
-        ObjectNode device = members.hasNonNull("type") ? known(name).orElse(members) : find(name);
+        ObjectNode device = members.hasNonNull("type") ? existing(name).orElse(members) : find(name);
         String command = members.path("command").asText();
         JsonNode value = members.has("value") ? members.get("value") : NO_VALUE;
         String type = device.path("type").asText(members.path("type").asText());
         check(members, command, type);
         ObjectNode about = about(name);
         FiwareScope scope = FiwareScope.ofIdentity(keyOf(name));
-        if (!scope.equals(means.scope())) {
+        if (!scope.equals(dependencies.scope())) {
             about.put("service", scope.service()).put("servicePath", scope.servicePath());
         }
         if (members.has("value")) {
             about.set("value", audited(value));
         }
-        if (means.commands() == null) {
+        if (dependencies.commands() == null) {
             throw new ProblemException(
                     501, "no-context-broker", "this control plane was started without a context broker for commands");
         }
         String user = RequestContext.user(request);
-        return means.commands()
+        return dependencies
+                .commands()
                 .in(scope)
                 .send(new DeviceCommands.Order(name.id(), type, command, value))
                 .handle((sent, failure) -> answer(failure, new Commanded(user, name.id(), command, about)));
@@ -273,18 +275,18 @@ public final class DevicesResource {
     }
 
     private ObjectNode find(DeviceName name) {
-        return known(name)
+        return existing(name)
                 .orElseThrow(() ->
                         new ProblemException(ErrorCode.UNKNOWN_DEVICE, "there is no device '%s'".formatted(name.id())));
     }
 
-    private Optional<ObjectNode> known(DeviceName name) {
+    private Optional<ObjectNode> existing(DeviceName name) {
         return view.find(Topics.DEVICES, keyOf(name))
                 .filter(found -> name.isOfType(found.path("type").asText()));
     }
 
     private String keyOf(DeviceName name) {
-        return name.key(view.keys(Topics.DEVICES), means.scope());
+        return name.key(view.keys(Topics.DEVICES), dependencies.scope());
     }
 
     private ObjectNode described(String key, ObjectNode desired) {

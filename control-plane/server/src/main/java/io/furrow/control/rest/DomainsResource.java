@@ -52,7 +52,7 @@ public final class DomainsResource {
     @POST
     public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return ask("create", JsonBodyReader.read(body), request)
+        return request("create", JsonBodyReader.read(body), request)
                 .thenApply(answer -> JsonResponses.created(answer, "/api/domains", DOMAIN));
     }
 
@@ -69,7 +69,7 @@ public final class DomainsResource {
     public CompletionStage<Response> change(
             @Context ContainerRequestContext request, @PathParam(DOMAIN) String domain, InputStream body)
             throws IOException {
-        return ask("change", JsonBodyReader.read(body).put(DOMAIN, domain), request)
+        return request("change", JsonBodyReader.read(body).put(DOMAIN, domain), request)
                 .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
@@ -82,13 +82,13 @@ public final class DomainsResource {
             @PathParam(DOMAIN) String domain,
             @QueryParam("force") boolean force) {
         ObjectNode members = JsonNodeFactory.instance.objectNode();
-        return ask("delete", members.put(DOMAIN, domain).put("force", force), request)
+        return request("delete", members.put(DOMAIN, domain).put("force", force), request)
                 .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
-    private CompletionStage<io.furrow.model.control.CommandResult> ask(
+    private CompletionStage<io.furrow.model.control.CommandResult> request(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(
+        return managers.request(
                 new CommandClient.CommandRequest(Topics.DOMAIN_MANAGER, command, members), RequestContext.of(request));
     }
 }

@@ -99,7 +99,7 @@ public final class FieldsResource {
                     .forEach(field ->
                             features.addRawValue(new RawValue(new String(field.toBytes(), StandardCharsets.UTF_8))));
         } catch (IOException e) {
-            throw away(e);
+            throw unavailable(e);
         } finally {
             readers.release();
         }
@@ -207,7 +207,7 @@ public final class FieldsResource {
         } catch (RefusedException e) {
             problem = new ProblemException(e.code(), e.getMessage());
         } catch (IOException e) {
-            problem = away(e);
+            problem = unavailable(e);
         } finally {
             free.release();
         }
@@ -216,7 +216,7 @@ public final class FieldsResource {
     }
 
     /** Says what is unavailable, and what to do. */
-    private static ProblemException away(IOException cause) {
+    private static ProblemException unavailable(IOException cause) {
         return new ProblemException(503, "kafka-away", cause.getMessage());
     }
 
@@ -260,7 +260,7 @@ public final class FieldsResource {
                     .toList());
             return changes;
         } catch (IOException e) {
-            throw away(e);
+            throw unavailable(e);
         }
     }
 

@@ -54,23 +54,23 @@ final class JsonBodyReader {
     }
 
     /** At most so many. What is too large is read too, or many a client would see no answer. */
-    static byte[] bytes(InputStream body, int most) throws IOException {
-        ByteArrayOutputStream kept = new ByteArrayOutputStream();
-        if (read(body, most, kept) > most) {
-            throw ProblemException.tooLarge(-1, most);
+    static byte[] bytes(InputStream body, int max) throws IOException {
+        ByteArrayOutputStream buffered = new ByteArrayOutputStream();
+        if (read(body, max, buffered) > max) {
+            throw ProblemException.tooLarge(-1, max);
         }
-        return kept.toByteArray();
+        return buffered.toByteArray();
     }
 
     /** In time, because whoever sends slowly occupies a thread. */
-    private static long read(InputStream body, int most, ByteArrayOutputStream kept) throws IOException {
+    private static long read(InputStream body, int max, ByteArrayOutputStream buffered) throws IOException {
         long end = System.nanoTime() + TIMEOUT.toNanos();
         byte[] buffer = new byte[BUFFER_BYTES];
         long total = 0;
         for (int count = body.read(buffer); count >= 0 && total <= MAX_READ; count = body.read(buffer)) {
             total += count;
-            if (total <= most) {
-                kept.write(buffer, 0, count);
+            if (total <= max) {
+                buffered.write(buffer, 0, count);
             }
             if (System.nanoTime() - end > 0) {
                 throw new ProblemException(

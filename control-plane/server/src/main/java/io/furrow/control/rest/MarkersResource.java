@@ -57,7 +57,7 @@ public final class MarkersResource {
     /** In the order of their times. */
     @GET
     public CompletionStage<Response> list(@PathParam(MISSION) String mission) {
-        return store.ask(markers -> markers.list(mission))
+        return store.request(markers -> markers.list(mission))
                 .thenApply(all -> JsonResponses.ok(all.stream().map(Marker::toJson)));
     }
 
@@ -74,7 +74,7 @@ public final class MarkersResource {
         Marker marker =
                 new Marker(id, mission, time(members), note(members), caller.user(), System.currentTimeMillis());
         Change change = new Change(caller, "add-marker", mission, id);
-        return store.ask(markers -> added(markers, marker)).handle((added, failure) -> {
+        return store.request(markers -> added(markers, marker)).handle((added, failure) -> {
             audit(change, "created", failure);
             return JsonResponses.json(201, added.toJson())
                     .location(UriBuilder.fromPath("/api/missions")
@@ -102,7 +102,7 @@ public final class MarkersResource {
             @PathParam(MISSION) String mission,
             @PathParam(MARKER) String id) {
         Change change = new Change(RequestContext.of(request), "remove-marker", mission, id);
-        return store.ask(markers -> {
+        return store.request(markers -> {
                     if (!markers.remove(mission, id)) {
                         throw new ProblemException(
                                 404, "unknown-marker", "mission '%s' has no marker '%s'".formatted(mission, id));
@@ -124,7 +124,7 @@ public final class MarkersResource {
     private void audit(Change change, String result, Throwable failure) {
         Throwable cause =
                 failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
-        ProblemException problem = cause instanceof ProblemException known ? known : null;
+        ProblemException problem = cause instanceof ProblemException existing ? existing : null;
         ObjectNode about = JsonNodeFactory.instance
                 .objectNode()
                 .put(MISSION, change.mission())

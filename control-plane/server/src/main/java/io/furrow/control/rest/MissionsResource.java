@@ -65,7 +65,7 @@ public final class MissionsResource {
     @POST
     public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return ask("create", JsonBodyReader.read(body), request)
+        return request("create", JsonBodyReader.read(body), request)
                 .thenApply(answer -> JsonResponses.created(answer, "/api/missions", MISSION));
     }
 
@@ -113,7 +113,7 @@ public final class MissionsResource {
     public CompletionStage<Response> addDevices(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
-        return ask("add-devices", JsonBodyReader.read(body).put(MISSION, mission), request)
+        return request("add-devices", JsonBodyReader.read(body).put(MISSION, mission), request)
                 .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
@@ -121,7 +121,7 @@ public final class MissionsResource {
     @Path("{mission}")
     public CompletionStage<Response> delete(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
-        return ask("delete", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return request("delete", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     /** Makes it if there is none. */
@@ -130,7 +130,7 @@ public final class MissionsResource {
     public CompletionStage<Response> start(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
-        return ask("start", JsonBodyReader.read(body).put(MISSION, mission), request)
+        return request("start", JsonBodyReader.read(body).put(MISSION, mission), request)
                 .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
@@ -138,7 +138,7 @@ public final class MissionsResource {
     @Path("{mission}/stop")
     public CompletionStage<Response> stop(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
-        return ask("stop", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return request("stop", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     /** The mission as it is requested, and how far it is. */
@@ -166,9 +166,9 @@ public final class MissionsResource {
         return JsonNodeFactory.instance.objectNode().put(MISSION, mission);
     }
 
-    private CompletionStage<io.furrow.model.control.CommandResult> ask(
+    private CompletionStage<io.furrow.model.control.CommandResult> request(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(
+        return managers.request(
                 new CommandClient.CommandRequest(Topics.MISSION_MANAGER, command, members), RequestContext.of(request));
     }
 }

@@ -48,7 +48,7 @@ public final class ReplaysResource {
     @POST
     public CompletionStage<Response> start(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return ask("start", JsonBodyReader.read(body), request)
+        return request("start", JsonBodyReader.read(body), request)
                 .thenApply(answer -> answer.json().has(GROUP)
                         ? JsonResponses.created(answer, "/api/replays/groups", GROUP)
                         : JsonResponses.created(answer, "/api/replays", REPLAY));
@@ -107,16 +107,16 @@ public final class ReplaysResource {
     }
 
     private CompletionStage<Response> steer(String command, ObjectNode members, ContainerRequestContext request) {
-        return ask(command, members, request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return request(command, members, request).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     private static ObjectNode none() {
         return JsonNodeFactory.instance.objectNode();
     }
 
-    private CompletionStage<io.furrow.model.control.CommandResult> ask(
+    private CompletionStage<io.furrow.model.control.CommandResult> request(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(
+        return managers.request(
                 new CommandClient.CommandRequest(Topics.REPLAY_MANAGER, command, members), RequestContext.of(request));
     }
 }

@@ -136,7 +136,7 @@ public final class RestApi implements AutoCloseable {
                 : new DeviceCommands(rest.contextBroker(), control.missions().scope(), rest.token());
         DeviceCredentials credentials =
                 rest.secret() == null ? null : new DeviceCredentials(rest.secret(), rest.mqtt());
-        DevicesResource.Dependencies means =
+        DevicesResource.Dependencies dependencies =
                 new DevicesResource.Dependencies(control.missions().scope(), commands, credentials);
         ResourceConfig config = new ResourceConfig();
         config.property(ServerProperties.WADL_FEATURE_DISABLE, true);
@@ -144,7 +144,7 @@ public final class RestApi implements AutoCloseable {
                 new DomainsResource(view, managers),
                 new MissionsResource(view, managers, credentials),
                 new TemplatesResource(view, managers),
-                new DevicesResource(view, managers, means),
+                new DevicesResource(view, managers, dependencies),
                 new ReplaysResource(replays, managers),
                 new ReplayFeedResource(feeds),
                 new RecordingsResource(view, events, threads),

@@ -58,7 +58,7 @@ public final class TemplatesResource {
     @POST
     public CompletionStage<Response> save(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return ask("save-template", JsonBodyReader.read(body), request)
+        return request("save-template", JsonBodyReader.read(body), request)
                 .thenApply(answer -> JsonResponses.created(answer, "/api/templates", TEMPLATE));
     }
 
@@ -88,16 +88,16 @@ public final class TemplatesResource {
         if (parts.group(2) != null) {
             members.put(VERSION, Integer.parseInt(parts.group(2)));
         }
-        return ask("delete-template", members, request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return request("delete-template", members, request).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     private static ProblemException unknown(String name) {
         return new ProblemException(ErrorCode.UNKNOWN_TEMPLATE, "there is no template '%s'".formatted(name));
     }
 
-    private CompletionStage<io.furrow.model.control.CommandResult> ask(
+    private CompletionStage<io.furrow.model.control.CommandResult> request(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(
+        return managers.request(
                 new CommandClient.CommandRequest(Topics.MISSION_MANAGER, command, members), RequestContext.of(request));
     }
 }

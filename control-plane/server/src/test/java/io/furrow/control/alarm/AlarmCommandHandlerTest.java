@@ -26,7 +26,7 @@ class AlarmCommandHandlerTest {
     private static final Duration HOUR = Duration.ofHours(1);
 
     private final MapTable<AlarmTables.Mute> mutes = MapTable.of(AlarmTables.Mute.class);
-    private final CapturingPublisher outbox = new CapturingPublisher();
+    private final CapturingPublisher publisher = new CapturingPublisher();
     private final AlarmCommandHandler handler = new AlarmCommandHandler(
             new AlarmTables(
                     MapTable.of(Alarm.class),
@@ -35,13 +35,13 @@ class AlarmCommandHandlerTest {
                     MapTable.of(AlarmLimit.Group.class),
                     MapTable.of(AlarmLimit.Overflow.class)),
             new Sequence(MapTable.of(Long.class)),
-            outbox);
+            publisher);
 
     @Test
     void showsAnAlarmAsClientsReadIt() {
         handler.raise(silent("urn:t:1"), NOW);
 
-        assertThat(new String(outbox.compacted(Topics.ALARMS).get("silent-device-1"), StandardCharsets.UTF_8))
+        assertThat(new String(publisher.compacted(Topics.ALARMS).get("silent-device-1"), StandardCharsets.UTF_8))
                 .isEqualTo("""
                         {"alarm":"silent-device-1","kind":"silent-device","subject":"urn:t:1","severity":"minor","state":"open",\
                         "change":"opened","text":"it is silent","devices":[{"id":"urn:t:1","type":"Thermometer"}],\
@@ -53,7 +53,7 @@ class AlarmCommandHandlerTest {
         handler.raise(silent("urn:t:1"), NOW);
         handler.raise(silent("urn:t:1"), NOW + 1);
         handler.raise(silent("urn:t:2"), NOW + 2);
-        assertThat(outbox.all()).hasSize(2);
+        assertThat(publisher.all()).hasSize(2);
         handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "it reports again", NOW + 3);
         assertThat(alarm("silent-device-1"))
                 .returns(2, Alarm::count)
@@ -82,7 +82,7 @@ class AlarmCommandHandlerTest {
     }
 
     @Test
-    void closesByItselfWhatIsNotSeenAnyMoreWhereNothingTellsItsEnd() {
+    void closesByItselfWhatIsNotSeenAnyMoreWhereNothingReportsItsEnd() {
         Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR);
         handler.raise(cause, NOW);
         handler.raise(cause, NOW + 10);
@@ -161,7 +161,7 @@ class AlarmCommandHandlerTest {
         handler.answer(
                 new AlarmCommand.Close("silent-device-1", null), later + AlarmStateMachine.CAUSE_LASTS.toMillis());
         handler.raise(silent("urn:t:1"), later + AlarmStateMachine.CAUSE_LASTS.toMillis());
-        assertThat(outbox.compacted(Topics.ALARMS)).hasSize(2);
+        assertThat(publisher.compacted(Topics.ALARMS)).hasSize(2);
     }
 
     @Test
@@ -175,11 +175,11 @@ class AlarmCommandHandlerTest {
                 .returns(Alarm.Change.UPDATED, Alarm::change)
                 .returns("2 are silent", Alarm::text);
         handler.report(many(2), null, NOW + 30_000);
-        assertThat(outbox.all()).hasSize(2);
+        assertThat(publisher.all()).hasSize(2);
     }
 
     @Test
-    void saysWhichAlarmInhibitsAnotherAndWhenNoLonger() {
+    void reportsWhichAlarmInhibitsAnotherAndWhenNoLonger() {
         Cause farm = Cause.ofMany(AlarmKind.SILENT_FARM, "data.raw", "all", List.of(), new Cause.Extent(9, 9));
         handler.report(farm, null, NOW);
         handler.report(many(3), farm, NOW);
@@ -201,7 +201,7 @@ class AlarmCommandHandlerTest {
             handler.raise(pair(i), NOW);
         }
         handler.passTime(NOW + 1000);
-        assertThat(outbox.compacted(Topics.ALARMS)).hasSize(AlarmLimit.MAX_ALARMS + 1);
+        assertThat(publisher.compacted(Topics.ALARMS)).hasSize(AlarmLimit.MAX_ALARMS + 1);
         Alarm crowd = alarm("collision-" + (AlarmLimit.MAX_ALARMS + 1));
         assertThat(crowd)
                 .returns("urn:ngsi-ld:Mission:m", Alarm::subject)
@@ -214,7 +214,8 @@ class AlarmCommandHandlerTest {
         assertThat(alarm(crowd.alarm()).state()).isEqualTo(AlarmState.CLOSED);
         handler.end(AlarmKind.COLLISION, "pair0", "over", NOW);
         handler.raise(pair(99), NOW);
-        assertThat(StateJson.read(outbox.all().get(outbox.all().size() - 1).value(), Alarm.class)
+        assertThat(StateJson.read(
+                                publisher.all().get(publisher.all().size() - 1).value(), Alarm.class)
                         .subject())
                 .isEqualTo("pair99");
     }
@@ -255,7 +256,7 @@ class AlarmCommandHandlerTest {
             handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "over", NOW + i);
         }
         handler.passTime(NOW + 100_000);
-        assertThat(outbox.compacted(Topics.ALARMS))
+        assertThat(publisher.compacted(Topics.ALARMS))
                 .hasSize(AlarmCommandHandler.MAX_CLOSED)
                 .doesNotContainKey("silent-device-1");
     }
@@ -319,11 +320,11 @@ class AlarmCommandHandlerTest {
         handler.raise(silent("urn:t:1"), NOW);
         handler.raise(silent("urn:t:2"), NOW);
         handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "over", NOW);
-        long day = AlarmCommandHandler.CLOSED_KEPT.toMillis();
+        long day = AlarmCommandHandler.CLOSED_RETENTION.toMillis();
         handler.passTime(NOW + day - 1);
-        assertThat(outbox.compacted(Topics.ALARMS)).hasSize(2);
+        assertThat(publisher.compacted(Topics.ALARMS)).hasSize(2);
         handler.passTime(NOW + day + 60_000);
-        assertThat(outbox.compacted(Topics.ALARMS)).containsOnlyKeys("silent-device-2");
+        assertThat(publisher.compacted(Topics.ALARMS)).containsOnlyKeys("silent-device-2");
     }
 
     private static Cause silent(String device) {
@@ -346,7 +347,7 @@ class AlarmCommandHandlerTest {
     }
 
     private List<Alarm> current() {
-        return outbox.compacted(Topics.ALARMS).values().stream()
+        return publisher.compacted(Topics.ALARMS).values().stream()
                 .map(json -> StateJson.read(json, Alarm.class))
                 .filter(alarm -> alarm.state() != AlarmState.CLOSED)
                 .toList();
@@ -357,7 +358,7 @@ class AlarmCommandHandlerTest {
     }
 
     private Alarm alarm(String id) {
-        return StateJson.read(outbox.compacted(Topics.ALARMS).get(id), Alarm.class);
+        return StateJson.read(publisher.compacted(Topics.ALARMS).get(id), Alarm.class);
     }
 
     private void refused(ErrorCode code, AlarmCommand command) {

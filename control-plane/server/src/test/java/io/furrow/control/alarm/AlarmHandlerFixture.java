@@ -8,7 +8,7 @@ import io.furrow.control.manager.Sequence;
 public final class AlarmHandlerFixture {
     private AlarmHandlerFixture() {}
 
-    public static AlarmCommandHandler writingTo(EventPublisher outbox) {
+    public static AlarmCommandHandler writingTo(EventPublisher publisher) {
         return new AlarmCommandHandler(
                 new AlarmTables(
                         MapTable.of(Alarm.class),
@@ -17,6 +17,6 @@ public final class AlarmHandlerFixture {
                         MapTable.of(AlarmLimit.Group.class),
                         MapTable.of(AlarmLimit.Overflow.class)),
                 new Sequence(MapTable.of(Long.class)),
-                outbox);
+                publisher);
     }
 }

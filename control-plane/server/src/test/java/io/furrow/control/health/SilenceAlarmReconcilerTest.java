@@ -22,11 +22,11 @@ class SilenceAlarmReconcilerTest {
     private static final long NOW = 1_700_000_000_000L;
     private static final long HOUR = 3_600_000;
 
-    private final CapturingPublisher outbox = new CapturingPublisher();
-    private final AlarmCommandHandler alarms = AlarmHandlerFixture.writingTo(outbox);
+    private final CapturingPublisher publisher = new CapturingPublisher();
+    private final AlarmCommandHandler alarms = AlarmHandlerFixture.writingTo(publisher);
 
     @Test
-    void saysAfterARestartThatNothingArrivesUntilSomethingDoes() {
+    void reportsAfterARestartThatNothingArrivesUntilSomethingDoes() {
         silent().reconcile(NOW - HOUR, NOW);
         assertThat(farm()).contains("nothing arrives");
 
@@ -51,7 +51,7 @@ class SilenceAlarmReconcilerTest {
                     NOW);
         }
         silent().reconcile(NOW - HOUR, NOW + 1);
-        assertThat(outbox.all()).isEmpty();
+        assertThat(publisher.all()).isEmpty();
     }
 
     private SilenceAlarmReconciler silent() {
@@ -77,7 +77,7 @@ class SilenceAlarmReconcilerTest {
     }
 
     private String farm() {
-        return outbox.compacted(Topics.ALARMS).values().stream()
+        return publisher.compacted(Topics.ALARMS).values().stream()
                 .map(alarm -> new String(alarm, StandardCharsets.UTF_8))
                 .filter(alarm -> alarm.contains("silent-farm"))
                 .findFirst()

@@ -13,8 +13,8 @@ import org.apache.kafka.streams.state.KeyValueStore;
 public final class TestStores {
     private final Map<String, KeyValueStore<String, byte[]>> stores = new LinkedHashMap<>();
     private final MockProcessorContext<String, OutputRecord> context = new MockProcessorContext<>();
-    private final UnitOfWork atomic = new UnitOfWork(context);
-    private final CapturingPublisher outbox = new CapturingPublisher();
+    private final UnitOfWork unitOfWork = new UnitOfWork(context);
+    private final CapturingPublisher publisher = new CapturingPublisher();
 
     public TestStores(List<String> names) {
         for (String name : names) {
@@ -28,20 +28,20 @@ public final class TestStores {
 
     /** For handlers. */
     public UnitOfWork context() {
-        return atomic;
+        return unitOfWork;
     }
 
     /** What was written to topics. */
-    public CapturingPublisher outbox() {
-        return outbox;
+    public CapturingPublisher publisher() {
+        return publisher;
     }
 
     /** Works at a time, epoch ms, as a manager does. */
     public <T, E extends Exception> T call(long now, UnitOfWork.Work<T, E> work) throws E {
         context.setCurrentSystemTimeMs(now);
-        T result = atomic.call(work);
+        T result = unitOfWork.call(work);
         context.forwarded()
-                .forEach(each -> outbox.put(
+                .forEach(each -> publisher.put(
                         each.record().value().topic(),
                         each.record().key(),
                         each.record().value().value()));

@@ -26,7 +26,7 @@ class UnitOfWorkTest {
         });
 
         assertThat(stores.content()).contains("a=\"1\"", "b=\"2\"");
-        assertThat(stores.outbox().all()).hasSize(1);
+        assertThat(stores.publisher().all()).hasSize(1);
     }
 
     @Test
@@ -44,7 +44,7 @@ class UnitOfWorkTest {
         assertThat(stores.content()).isEqualTo(before);
 
         stores.call(0, () -> put("later"));
-        assertThat(stores.outbox().all()).isEmpty();
+        assertThat(stores.publisher().all()).isEmpty();
         assertThat(stores.content()).contains("later").doesNotContain("lost");
     }
 
@@ -81,12 +81,12 @@ class UnitOfWorkTest {
                 .isInstanceOf(OversizedRecordException.class)
                 .hasMessageContaining("on one");
         assertThat(stores.all(one)).isEmpty();
-        assertThat(stores.outbox().all()).isEmpty();
+        assertThat(stores.publisher().all()).isEmpty();
         stores.call(0, () -> {
             send("t", "a", Limits.RECORD_BYTES - 3);
             return null;
         });
-        assertThat(stores.outbox().all()).hasSize(1);
+        assertThat(stores.publisher().all()).hasSize(1);
     }
 
     private Void put(String key) {

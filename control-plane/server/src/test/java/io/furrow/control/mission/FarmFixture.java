@@ -50,7 +50,7 @@ final class FarmFixture {
                     .flatMap(List::stream)
                     .toList());
 
-    final CapturingPublisher outbox = stores.outbox();
+    final CapturingPublisher publisher = stores.publisher();
     final Table<Domain> domains = StoreTable.of(stores.context(), "domains", Domain.class);
     final Table<Mission> missions = StoreTable.of(stores.context(), "missions", Mission.class);
     final Table<MissionStatus> statuses = StoreTable.of(stores.context(), "mission-statuses", MissionStatus.class);
@@ -71,17 +71,18 @@ final class FarmFixture {
     FarmFixture(int devicesPerStep) {
         MissionSettings options =
                 new MissionSettings(Duration.ofMillis(TIMEOUT), new FiwareScope("farm", "/"), false, devicesPerStep);
-        missionHandler = MissionManager.handler(stores.context(), CommandProcessor.outbox(stores.context()), options);
+        missionHandler =
+                MissionManager.handler(stores.context(), CommandProcessor.publisher(stores.context()), options);
         domainHandler =
-                DomainManager.handler(stores.context(), missionHandler, CommandProcessor.outbox(stores.context()));
-        run(missionHandler.templates()::stock);
+                DomainManager.handler(stores.context(), missionHandler, CommandProcessor.publisher(stores.context()));
+        run(missionHandler.templates()::installBuiltIn);
     }
 
-    CommandResult ask(MissionCommand command) throws RefusedException {
+    CommandResult request(MissionCommand command) throws RefusedException {
         return stores.call(now, () -> missionHandler.answer(command, now));
     }
 
-    CommandResult ask(DomainCommand command) throws RefusedException {
+    CommandResult request(DomainCommand command) throws RefusedException {
         return stores.call(now, () -> domainHandler.answer(command, now));
     }
 
@@ -97,7 +98,7 @@ final class FarmFixture {
     }
 
     void domain(String name) throws RefusedException {
-        ask(new DomainCommand.Create(name, DomainDetails.NONE));
+        request(new DomainCommand.Create(name, DomainDetails.NONE));
     }
 
     /** A field as {@code service.fields} has it. */
@@ -111,7 +112,7 @@ final class FarmFixture {
     }
 
     CommandResult start(String mission, String domain, DeviceGroup... groups) throws RefusedException {
-        return ask(new MissionCommand.Start(mission, domain, devices(groups), null, null));
+        return request(new MissionCommand.Start(mission, domain, devices(groups), null, null));
     }
 
     static MissionPlan devices(DeviceGroup... groups) {
@@ -139,7 +140,7 @@ final class FarmFixture {
     /** The settings of a device, as its host finds them. */
     ObjectNode settings(String id) throws UnreadableException {
         MissionDeviceLists lists = new MissionDeviceLists();
-        outbox.compacted(Topics.MISSION_DEVICES).forEach(lists::take);
+        publisher.compacted(Topics.MISSION_DEVICES).forEach(lists::take);
         return lists.resolve(device(id)).orElseThrow().settings();
     }
 
@@ -150,7 +151,7 @@ final class FarmFixture {
     }
 
     /** A report of a device was received at a time. */
-    void hear(DesiredDevice device, long heard) {
+    void report(DesiredDevice device, long heard) {
         DeviceVersion version = device.version();
         DeviceHealth health = new DeviceHealth(
                 version.id(),
@@ -182,7 +183,7 @@ final class FarmFixture {
             if (device.simulated()) {
                 report(device, device.running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED);
             } else {
-                hear(device, now);
+                report(device, now);
             }
         }
     }
@@ -211,11 +212,11 @@ final class FarmFixture {
     /** Expects that something is refused and changes nothing. */
     void refused(ErrorCode code, ThrowingCallable what) {
         String before = content();
-        int written = outbox.all().size();
+        int written = publisher.all().size();
         assertThatThrownBy(what)
                 .isInstanceOfSatisfying(
                         RefusedException.class, e -> assertThat(e.code()).isEqualTo(code));
         assertThat(content()).isEqualTo(before);
-        assertThat(outbox.all()).hasSize(written);
+        assertThat(publisher.all()).hasSize(written);
     }
 }

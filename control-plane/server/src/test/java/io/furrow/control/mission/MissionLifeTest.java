@@ -47,7 +47,7 @@ class MissionLifeTest {
         farm.report(farm.device("urn:ngsi-ld:Thermometer:m-2"), State.RUNNING);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
 
-        assertThat(farm.ask(new MissionCommand.Stop("m")).json().toString())
+        assertThat(farm.request(new MissionCommand.Stop("m")).json().toString())
                 .isEqualTo("{\"type\":\"response\",\"status\":\"deleted\",\"mission\":\"m\"}");
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPING);
         farm.hostAll();
@@ -57,29 +57,29 @@ class MissionLifeTest {
     /** As the WeLASER dashboard asks: devices that are there report with the mission's name. */
     @Test
     void runsAtOnceWithoutDevicesOfItsOwn() throws Exception {
-        farm.ask(new MissionCommand.Start("m", "north", new MissionPlan.Unsaid(), null, null));
+        farm.request(new MissionCommand.Start("m", "north", new MissionPlan.Unsaid(), null, null));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
     }
 
     @Test
-    void tellsJobsToWhomADeviceBelongsFromItsStartToItsEnd() throws Exception {
+    void informsJobsToWhomADeviceBelongsFromItsStartToItsEnd() throws Exception {
         long begin = farm.now;
         farm.start("m", "north", DeviceGroup.entity("urn:robot"));
         farm.pass(500);
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
 
         DeviceVersion version =
-                DeviceVersion.read(farm.outbox.compacted(Topics.DEVICES).get("farm|/|urn:robot"));
+                DeviceVersion.read(farm.publisher.compacted(Topics.DEVICES).get("farm|/|urn:robot"));
         assertThat(version)
                 .extracting(DeviceVersion::domain, DeviceVersion::mission, DeviceVersion::from, DeviceVersion::until)
                 .containsExactly("north", "m", begin, begin + 500);
-        assertThat(farm.outbox.all().stream().filter(each -> each.topic().equals(Topics.DEVICES)))
+        assertThat(farm.publisher.all().stream().filter(each -> each.topic().equals(Topics.DEVICES)))
                 .hasSize(2);
 
-        farm.ask(new MissionCommand.Delete("m"));
-        assertThat(farm.outbox.compacted(Topics.DEVICES)).isEmpty();
+        farm.request(new MissionCommand.Delete("m"));
+        assertThat(farm.publisher.compacted(Topics.DEVICES)).isEmpty();
     }
 
     @Test
@@ -124,7 +124,7 @@ class MissionLifeTest {
         farm.report(farm.device("urn:ngsi-ld:Thermometer:m-1"), State.FAILED);
         assertThat(farm.status("m").missing())
                 .contains(new MissionStatus.Missing("urn:ngsi-ld:Thermometer:m-1", "why"));
-        farm.hear(farm.device("urn:ngsi-ld:Thermometer:m-1"), farm.now);
+        farm.report(farm.device("urn:ngsi-ld:Thermometer:m-1"), farm.now);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
         assertThat(farm.status("m").missing()).hasSize(3);
         farm.hostAll();
@@ -133,7 +133,7 @@ class MissionLifeTest {
     }
 
     @Test
-    void saysTheBestReasonThatIsKnownOfADeviceThatItMisses() throws Exception {
+    void reportsTheBestReasonThatIsKnownOfADeviceThatItMisses() throws Exception {
         farm.start("m", "north", FarmFixture.real("Thermometer", 1));
         DesiredDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
         farm.connect(thermometer, null);
@@ -143,15 +143,15 @@ class MissionLifeTest {
         farm.connect(thermometer, refused(1));
         assertThat(reason()).startsWith("its password was refused once, at ");
         assertThat(farm.status("m").reason()).contains("urn:ngsi-ld:Thermometer:m-1 (" + reason() + ")");
-        int written = farm.outbox.all().size();
+        int written = farm.publisher.all().size();
         farm.now += 59_000;
         farm.connect(thermometer, refused(7));
-        assertThat(farm.outbox.all()).as("it counts on").hasSize(written);
+        assertThat(farm.publisher.all()).as("it counts on").hasSize(written);
         farm.now += 1000;
         farm.connect(thermometer, refused(8));
         assertThat(reason()).startsWith("its password was refused 8 times, last at ");
 
-        farm.hear(thermometer, farm.now);
+        farm.report(thermometer, farm.now);
         assertThat(farm.status("m").missing()).isEmpty();
     }
 
@@ -164,23 +164,23 @@ class MissionLifeTest {
     }
 
     @Test
-    void countsARealDeviceAsUpByItsFirstReportSinceItWasAskedFor() throws Exception {
+    void countsARealDeviceAsUpByItsFirstReportSinceItWasRequested() throws Exception {
         farm.start("m", "north", FarmFixture.real("Thermometer", 1), DeviceGroup.entity("urn:robot"));
         DesiredDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
-        farm.hear(thermometer, farm.now - 1);
+        farm.report(thermometer, farm.now - 1);
         farm.report(thermometer, State.RUNNING);
         farm.report(thermometer, State.STOPPED);
         assertThat(farm.status("m").confirmed()).isZero();
 
-        farm.hear(thermometer, farm.now);
-        farm.hear(thermometer, farm.now);
+        farm.report(thermometer, farm.now);
+        farm.report(thermometer, farm.now);
         assertThat(farm.status("m").confirmed()).isEqualTo(1);
         farm.report(thermometer, State.FAILED);
         assertThat(farm.status("m").confirmed()).isEqualTo(1);
-        farm.hear(farm.device("urn:robot"), farm.now);
+        farm.report(farm.device("urn:robot"), farm.now);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
 
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
         assertThat(farm.device("urn:ngsi-ld:Thermometer:m-1").running()).isFalse();
     }
@@ -188,7 +188,7 @@ class MissionLifeTest {
     @Test
     void stopsWithoutDevicesThatDoNotGo() throws Exception {
         farm.start("m", "north", FarmFixture.group("Camera", 1));
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
         farm.pass(FarmFixture.TIMEOUT);
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
@@ -201,7 +201,7 @@ class MissionLifeTest {
         farm.start("m", "north", FarmFixture.group("Camera", 1));
         DesiredDevice earlier = farm.device("urn:ngsi-ld:Camera:m-1");
         farm.hostAll();
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
 
         farm.report(earlier, State.STOPPED);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPING);
@@ -210,7 +210,7 @@ class MissionLifeTest {
     @Test
     void startsAtItsDateAndStopsAfterItsDuration() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
-        farm.ask(new MissionCommand.Start(
+        farm.request(new MissionCommand.Start(
                 "m", "north", FarmFixture.devices(FarmFixture.group("Camera", 1)), date, Duration.ofSeconds(5)));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.CREATED);
         farm.pass(9_999);
@@ -227,9 +227,9 @@ class MissionLifeTest {
     @Test
     void doesNotStartWhereTheStartWasTakenBack() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
-        farm.ask(new MissionCommand.Start(
+        farm.request(new MissionCommand.Start(
                 "m", "north", FarmFixture.devices(FarmFixture.group("Camera", 1)), date, null));
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
         farm.pass(20_000);
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
@@ -239,7 +239,7 @@ class MissionLifeTest {
     @Test
     void failsAtItsDateWhereItsDomainIsGone() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
-        farm.ask(new MissionCommand.Start("m", "north", FarmFixture.devices(), date, null));
+        farm.request(new MissionCommand.Start("m", "north", FarmFixture.devices(), date, null));
         farm.run(() -> farm.domains.put("north", null)); // as before domains were deleted with their missions
         farm.pass(10_000);
 
@@ -248,14 +248,14 @@ class MissionLifeTest {
     }
 
     @Test
-    void refusesWhatCannotBe() throws Exception {
+    void rejectsWhatCannotBe() throws Exception {
         farm.domain("south");
         farm.start("m", "north", FarmFixture.group("Camera", 1), DeviceGroup.entity("urn:robot"));
 
         farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.start("m", "north"));
-        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.Stop("other")));
-        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.Delete("other")));
-        farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.ask(new MissionCommand.Delete("m")));
+        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.request(new MissionCommand.Stop("other")));
+        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.request(new MissionCommand.Delete("other")));
+        farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.request(new MissionCommand.Delete("m")));
         farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.start("other", "east"));
         farm.refused(ErrorCode.DEVICE_TAKEN, () -> farm.start("other", "south", DeviceGroup.entity("urn:robot")));
         farm.refused(
@@ -267,40 +267,40 @@ class MissionLifeTest {
                         DeviceGroup.entity("urn:ngsi-ld:Camera:other-1")));
         farm.refused(
                 ErrorCode.UNKNOWN_TEMPLATE,
-                () -> farm.ask(new MissionCommand.Start(
+                () -> farm.request(new MissionCommand.Start(
                         "other", "north", new MissionPlan.FromTemplate("nosuch", 0), null, null)));
         farm.refused(
                 ErrorCode.MISSION_EXISTS,
-                () -> farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid())));
+                () -> farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid())));
 
-        farm.ask(new MissionCommand.Stop("m"));
-        farm.refused(ErrorCode.MISSION_NOT_RUNNING, () -> farm.ask(new MissionCommand.Stop("m")));
+        farm.request(new MissionCommand.Stop("m"));
+        farm.refused(ErrorCode.MISSION_NOT_RUNNING, () -> farm.request(new MissionCommand.Stop("m")));
         farm.hostAll();
         farm.refused(ErrorCode.NAME_TAKEN, () -> farm.start("m", "south"));
         farm.start("other", "south", DeviceGroup.entity("urn:robot"));
     }
 
     @Test
-    void keepsADomainInWhichMissionsRunUnlessForced() throws Exception {
+    void refusesToDeleteADomainInWhichMissionsRunUnlessForced() throws Exception {
         farm.start("m", "north", FarmFixture.group("Camera", 1));
-        farm.refused(ErrorCode.MISSIONS_RUNNING, () -> farm.ask(new DomainCommand.Delete("north", false)));
+        farm.refused(ErrorCode.MISSIONS_RUNNING, () -> farm.request(new DomainCommand.Delete("north", false)));
 
-        farm.ask(new DomainCommand.Delete("north", true));
-        assertThat(farm.outbox.compacted(Topics.DOMAINS)).isEmpty();
-        farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.ask(new DomainCommand.Delete("north", true)));
+        farm.request(new DomainCommand.Delete("north", true));
+        assertThat(farm.publisher.compacted(Topics.DOMAINS)).isEmpty();
+        farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.request(new DomainCommand.Delete("north", true)));
     }
 
     @Test
     void deletesADomainWithItsMissionsAndEndsItsFields() throws Exception {
         farm.domain("south");
         farm.start("runs", "north", FarmFixture.group("Camera", 1));
-        farm.ask(new MissionCommand.Create("idle", "north", new MissionPlan.Unsaid()));
+        farm.request(new MissionCommand.Create("idle", "north", new MissionPlan.Unsaid()));
         farm.start("theirs", "south", FarmFixture.group("Camera", 1));
         farm.field("a", 1, "north");
         farm.field("b", 1, "south");
         farm.field("planned", farm.now + 1, "north");
 
-        CommandResult answer = farm.ask(new DomainCommand.Delete("north", true));
+        CommandResult answer = farm.request(new DomainCommand.Delete("north", true));
 
         assertThat(new String(NgsiJson.write(answer.json())))
                 .isEqualTo("{\"type\":\"response\",\"status\":\"deleted\",\"domain\":\"north\",\"missionCount\":2,"
@@ -308,12 +308,12 @@ class MissionLifeTest {
                         + "\"fields\":[\"a\",\"planned\"]}");
         assertThat(farm.all(farm.missions)).extracting(Mission::mission).containsExactly("theirs");
         assertThat(farm.all(farm.statuses)).extracting(MissionStatus::mission).containsExactly("theirs");
-        assertThat(farm.outbox.compacted(Topics.MISSIONS)).containsOnlyKeys("theirs");
-        assertThat(farm.outbox.compacted(Topics.MISSIONS_STATUS)).containsOnlyKeys("theirs");
-        assertThat(farm.outbox.compacted(Topics.DEVICES)).containsOnlyKeys("farm|/|urn:ngsi-ld:Camera:theirs-1");
-        assertThat(farm.outbox.compacted(Topics.FIELDS)).hasSize(1);
+        assertThat(farm.publisher.compacted(Topics.MISSIONS)).containsOnlyKeys("theirs");
+        assertThat(farm.publisher.compacted(Topics.MISSIONS_STATUS)).containsOnlyKeys("theirs");
+        assertThat(farm.publisher.compacted(Topics.DEVICES)).containsOnlyKeys("farm|/|urn:ngsi-ld:Camera:theirs-1");
+        assertThat(farm.publisher.compacted(Topics.FIELDS)).hasSize(1);
         FieldVersion end = FieldVersion.read(
-                farm.outbox.compacted(Topics.FIELDS).values().iterator().next());
+                farm.publisher.compacted(Topics.FIELDS).values().iterator().next());
         assertThat(end.key()).isEqualTo(new FieldVersion.Key("a", farm.now).toString());
         assertThat(end.isEnd()).isTrue();
         farm.domain("north");
@@ -322,7 +322,8 @@ class MissionLifeTest {
 
     @Test
     void makesTheMissionOfTheThesisFromItsTemplate() throws Exception {
-        farm.ask(new MissionCommand.Start("m", "north", new MissionPlan.FromTemplate("thesis-demo", 0), null, null));
+        farm.request(
+                new MissionCommand.Start("m", "north", new MissionPlan.FromTemplate("thesis-demo", 0), null, null));
 
         assertThat(farm.missions.get("m").template()).isEqualTo("thesis-demo@1");
         assertThat(farm.all(farm.devices).stream()
@@ -337,27 +338,28 @@ class MissionLifeTest {
     }
 
     @Test
-    void keepsVersionsOfTemplatesAndTheDevicesOfMissionsMadeFromThem() throws Exception {
+    void retainsVersionsOfTemplatesAndTheDevicesOfMissionsMadeFromThem() throws Exception {
         MissionTemplate one = TemplateStore.demo();
-        assertThat(farm.ask(new MissionCommand.SaveTemplate(one))
+        assertThat(farm.request(new MissionCommand.SaveTemplate(one))
                         .json()
                         .path("version")
                         .asInt())
                 .isEqualTo(2);
-        farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 2));
-        farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.FromTemplate("thesis-demo", 0)));
+        farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 2));
+        farm.request(new MissionCommand.Create("m", "north", new MissionPlan.FromTemplate("thesis-demo", 0)));
         assertThat(farm.missions.get("m").template()).isEqualTo("thesis-demo@1");
-        assertThat(farm.ask(new MissionCommand.SaveTemplate(one))
+        assertThat(farm.request(new MissionCommand.SaveTemplate(one))
                         .json()
                         .path("version")
                         .asInt())
                 .isEqualTo(3);
 
-        farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 0));
-        farm.refused(ErrorCode.UNKNOWN_TEMPLATE, () -> farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 0)));
-        farm.run(farm.missionHandler.templates()::stock);
-        assertThat(farm.outbox.compacted(Topics.TEMPLATES)).isEmpty();
-        farm.ask(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
+        farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 0));
+        farm.refused(
+                ErrorCode.UNKNOWN_TEMPLATE, () -> farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 0)));
+        farm.run(farm.missionHandler.templates()::installBuiltIn);
+        assertThat(farm.publisher.compacted(Topics.TEMPLATES)).isEmpty();
+        farm.request(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
         assertThat(farm.status("m").devices()).isEqualTo(5);
     }
 }

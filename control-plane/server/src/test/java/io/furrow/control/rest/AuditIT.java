@@ -107,7 +107,7 @@ class AuditIT {
     }
 
     @Test
-    void refusesWhatIsNoPosition() throws Exception {
+    void rejectsWhatIsNoPosition() throws Exception {
         for (String before : List.of("-1", "noon", "1.5", "9999999999999999999")) {
             running.refused("GET", "/api/audit?before=" + before, null, 400, "wrong-member");
         }

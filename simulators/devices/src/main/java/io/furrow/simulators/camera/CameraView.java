@@ -29,15 +29,15 @@ public record CameraView(Instant time, Position place, double heading, List<Posi
     record VisibleRobot(double aside, double meters) {}
 
     /** The robots in the picture, the farthest first. */
-    List<VisibleRobot> sightings() {
+    List<VisibleRobot> visibleRobots() {
         return robots.stream()
-                .map(this::sighting)
+                .map(this::visible)
                 .filter(seen -> Math.abs(seen.aside) <= 1 && seen.meters <= SIGHT && seen.meters > 0)
                 .sorted((a, b) -> Double.compare(b.meters, a.meters))
                 .toList();
     }
 
-    private VisibleRobot sighting(Position robot) {
+    private VisibleRobot visible(Position robot) {
         Coordinate meters = new LocalPlane(place).toMeters(robot);
         double bearing = Math.toDegrees(Math.atan2(meters.x, meters.y));
         double off = Math.floorMod(Math.round((bearing - heading + 180) * 1000), 360_000L) / 1000d - 180;

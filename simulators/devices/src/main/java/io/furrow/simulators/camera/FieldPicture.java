@@ -36,7 +36,7 @@ public final class FieldPicture {
                 image.setRGB(x, y, y < HORIZON ? sky(x, y, sun) : ground(x, y));
             }
         }
-        view.sightings().forEach(seen -> draw(image, seen));
+        view.visibleRobots().forEach(seen -> draw(image, seen));
         return encode(image);
     }
 

@@ -27,7 +27,7 @@ final class DeviceCommandExecutor {
     private static final Logger LOG = LoggerFactory.getLogger(DeviceCommandExecutor.class);
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 
-    private final FarmSimulation scene;
+    private final FarmSimulation simulation;
     private final Connections connections;
     private final Consumer<Report> sends;
     private final Map<String, SimulatedDevice> devices = new HashMap<>();
@@ -35,8 +35,8 @@ final class DeviceCommandExecutor {
     private final Map<String, Instant> restarts = new HashMap<>();
 
     /** @param sends publishes the report that a command causes */
-    DeviceCommandExecutor(FarmSimulation scene, Connections connections, Consumer<Report> sends) {
-        this.scene = scene;
+    DeviceCommandExecutor(FarmSimulation simulation, Connections connections, Consumer<Report> sends) {
+        this.simulation = simulation;
         this.connections = connections;
         this.sends = sends;
     }
@@ -61,7 +61,7 @@ final class DeviceCommandExecutor {
             boolean over = !each.getValue().isAfter(now);
             if (over) {
                 connections.send(each.getKey(), "cmdexe", NODES.objectNode().put("restart", "ok"));
-                scene.report(devices.get(each.getKey()), now).ifPresent(sends);
+                simulation.report(devices.get(each.getKey()), now).ifPresent(sends);
             }
             return over;
         });
@@ -80,11 +80,11 @@ final class DeviceCommandExecutor {
                 switch (command) {
                     case "on", "off" -> {
                         results.put(command, "ok");
-                        scene.switchTo(device, command.equals("on"), now).ifPresent(sends);
+                        simulation.switchTo(device, command.equals("on"), now).ifPresent(sends);
                     }
                     case "restart" -> {
                         Instant until = now.plus(RESTART);
-                        scene.restart(device.id(), until);
+                        simulation.restart(device.id(), until);
                         restarts.put(device.id(), until);
                     }
                     default -> results.put(command, "unknown command");

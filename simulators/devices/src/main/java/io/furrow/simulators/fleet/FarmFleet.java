@@ -35,8 +35,8 @@ public final class FarmFleet implements AutoCloseable {
     private static final Duration POLL_INTERVAL_WITHOUT_DEVICES = Duration.ofMillis(100);
 
     private final Clock clock;
-    private final FarmSimulation scene = new FarmSimulation();
-    private final ReportScheduler timetable = new ReportScheduler();
+    private final FarmSimulation simulation = new FarmSimulation();
+    private final ReportScheduler scheduler = new ReportScheduler();
     private final Queue<Runnable> changes = new ConcurrentLinkedQueue<>();
     private final Connections connections;
     private final ConnectionOpener opener = new ConnectionOpener();
@@ -73,8 +73,8 @@ public final class FarmFleet implements AutoCloseable {
         this.clock = clock;
         this.connections = connections;
         this.events = events;
-        this.robots = new Robots(access.fiware(), scene, events);
-        this.commands = new DeviceCommandExecutor(scene, connections, this::send);
+        this.robots = new Robots(access.fiware(), simulation, events);
+        this.commands = new DeviceCommandExecutor(simulation, connections, this::send);
         thread.setDaemon(true);
     }
 
@@ -138,8 +138,8 @@ public final class FarmFleet implements AutoCloseable {
     public void remove(String device) {
         changes.add(() -> {
             joining.remove(device);
-            timetable.remove(device);
-            scene.remove(device);
+            scheduler.remove(device);
+            simulation.remove(device);
             robots.remove(device);
             commands.remove(device);
             connections.remove(device).forEach(opener::close);
@@ -209,7 +209,7 @@ public final class FarmFleet implements AutoCloseable {
             }
             long wait = draining
                     ? POLL_INTERVAL.toNanos()
-                    : timetable.next().map(this::untilDue).orElse(POLL_INTERVAL_WITHOUT_DEVICES.toNanos());
+                    : scheduler.next().map(this::untilDue).orElse(POLL_INTERVAL_WITHOUT_DEVICES.toNanos());
             if (wait > 0 && !closed) {
                 LockSupport.parkNanos(wait);
             }
@@ -228,10 +228,10 @@ public final class FarmFleet implements AutoCloseable {
         Instant now = clock.instant();
         commands.obey(now);
         robots.obey(now);
-        for (Optional<ReportScheduler.Due> due = draining ? Optional.empty() : timetable.take(now);
+        for (Optional<ReportScheduler.Due> due = draining ? Optional.empty() : scheduler.take(now);
                 due.isPresent() && !closed && !draining;
-                due = timetable.take(now)) {
-            scene.report(due.get().device(), due.get().time()).ifPresent(this::send);
+                due = scheduler.take(now)) {
+            simulation.report(due.get().device(), due.get().time()).ifPresent(this::send);
         }
         connections.change().forEach(opener::close);
         connections.push();
@@ -262,14 +262,14 @@ public final class FarmFleet implements AutoCloseable {
         Member member = joining.remove(id);
         if (member != null) {
             admit(member, now);
-            scene.report(member.device(), now).ifPresent(this::send);
+            simulation.report(member.device(), now).ifPresent(this::send);
         }
     }
 
     private void admit(Member member, Instant now) {
         SimulatedDevice device = member.device();
-        scene.add(device, member.since(), now);
-        timetable.add(device, now);
+        simulation.add(device, member.since(), now);
+        scheduler.add(device, now);
         commands.add(device);
         if (device instanceof Robot robot) {
             robots.add(robot, member.scope());

@@ -48,7 +48,7 @@ final class FarmSimulation {
         if (device instanceof Robot robot) {
             robots.put(robot.id(), robot);
             double driven = Math.max(0, Duration.between(since, now).toNanos() / NANOS);
-            keep(robot, RobotState.starting(now, robot.driven() + driven));
+            store(robot, RobotState.starting(now, robot.driven() + driven));
         }
     }
 
@@ -95,17 +95,17 @@ final class FarmSimulation {
 
     /** Stops a robot, or lets it continue, from that time on. */
     void command(Robot robot, boolean stop, Instant now) {
-        keep(robot, advance(robot, now).commanded(stop));
+        store(robot, advance(robot, now).commanded(stop));
     }
 
     private RobotState advance(Robot robot, Instant now) {
-        Map<String, Position> others = robot.model().meeting() > 0 ? places : Map.of();
+        Map<String, Position> others = robot.model().encounterDistance() > 0 ? places : Map.of();
         RobotState state = robot.model().advance(states.get(robot.id()), now, others);
-        keep(robot, state);
+        store(robot, state);
         return state;
     }
 
-    private void keep(Robot robot, RobotState state) {
+    private void store(Robot robot, RobotState state) {
         states.put(robot.id(), state);
         places.put(robot.id(), robot.model().pose(state).place());
     }
@@ -170,7 +170,7 @@ final class FarmSimulation {
     private static Report update(Robot robot, RobotState state) {
         SimulatedDevice.Identity who = robot.identity();
         EntityBuilder entity = FirosEntity.of(who.entity(), robot.model(), state);
-        if (robot.tellsMission()) {
+        if (robot.reportsMission()) {
             entity.text("Domain", who.domain()).text("Mission", who.mission());
         }
         return new Report.Update(who.id(), entity.build());

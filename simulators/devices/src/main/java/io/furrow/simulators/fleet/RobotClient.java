@@ -39,15 +39,15 @@ final class RobotClient {
     private final FleetSettings settings;
     private final FiwareHttp http;
     private final FleetEvents events;
-    private final Map<String, Known> robots = new ConcurrentHashMap<>();
+    private final Map<String, ConnectedRobot> robots = new ConcurrentHashMap<>();
     private final Queue<Order> orders = new ConcurrentLinkedQueue<>();
     private final AtomicBoolean polling = new AtomicBoolean();
-    private volatile boolean away;
+    private volatile boolean unavailable;
 
     /** The content of {@code cmd} of a robot's entity. */
-    record Order(String device, String entity, String word) {}
+    record Order(String device, String entity, String command) {}
 
-    private static final class Known {
+    private static final class ConnectedRobot {
         private final String device;
         private final AtomicBoolean busy = new AtomicBoolean();
         private final AtomicReference<ObjectNode> result = new AtomicReference<>(NODES.objectNode());
@@ -57,7 +57,7 @@ final class RobotClient {
         private volatile int attempts;
         private String last;
 
-        Known(String device) {
+        ConnectedRobot(String device) {
             this.device = device;
         }
     }
@@ -70,7 +70,7 @@ final class RobotClient {
 
     /** Adds a robot, whose {@code cmd} is yet to be emptied. */
     void add(String device, String entity) {
-        robots.put(entity, new Known(device));
+        robots.put(entity, new ConnectedRobot(device));
     }
 
     void remove(String entity) {
@@ -79,7 +79,7 @@ final class RobotClient {
 
     /** Writes an entity asynchronously. */
     void update(Entity entity) {
-        Known robot = robots.get(entity.id());
+        ConnectedRobot robot = robots.get(entity.id());
         if (robot == null || !robot.busy.compareAndSet(false, true)) {
             return;
         }
@@ -123,7 +123,7 @@ final class RobotClient {
 
     /** Treats a robot as new: its {@code cmd} is emptied before it gets a command again. */
     void restart(String entity) {
-        Known robot = robots.get(entity);
+        ConnectedRobot robot = robots.get(entity);
         robot.listening = false;
         robot.last = null;
     }
@@ -170,10 +170,10 @@ final class RobotClient {
     private void read(String body) {
         try {
             for (JsonNode entity : NgsiJson.read(body.getBytes(StandardCharsets.UTF_8))) {
-                String word = entity.path("cmd").path("value").asText("");
-                Known robot = robots.get(entity.path("id").asText());
-                if (!word.isBlank() && robot != null && robot.listening) {
-                    orders.add(new Order(robot.device, entity.path("id").asText(), word));
+                String command = entity.path("cmd").path("value").asText("");
+                ConnectedRobot robot = robots.get(entity.path("id").asText());
+                if (!command.isBlank() && robot != null && robot.listening) {
+                    orders.add(new Order(robot.device, entity.path("id").asText(), command));
                 }
             }
         } catch (UnreadableException e) {
@@ -185,9 +185,9 @@ final class RobotClient {
     List<Order> orders() {
         List<Order> fresh = new ArrayList<>();
         for (Order order = orders.poll(); order != null; order = orders.poll()) {
-            Known robot = robots.get(order.entity());
-            if (robot != null && !order.word().equals(robot.last)) {
-                robot.last = order.word();
+            ConnectedRobot robot = robots.get(order.entity());
+            if (robot != null && !order.command().equals(robot.last)) {
+                robot.last = order.command();
                 fresh.add(order);
             }
         }
@@ -203,11 +203,11 @@ final class RobotClient {
 
     /** Logs once that updates fail, and once that they succeed again. */
     private void note(boolean arrived, String reason) {
-        if (!arrived && !away) {
+        if (!arrived && !unavailable) {
             LOG.warn("{} does not accept updates of robots: {}", settings.contextBroker(), reason);
-        } else if (arrived && away) {
+        } else if (arrived && unavailable) {
             LOG.info("{} accepts updates of robots again", settings.contextBroker());
         }
-        away = !arrived;
+        unavailable = !arrived;
     }
 }

@@ -28,7 +28,7 @@ public final class DesiredDeviceReader {
     private static final Map<String, Duration> PERIODS =
             Map.of("Robot", Duration.ofSeconds(1), "Camera", Duration.ofSeconds(10));
     private static final String ROBOT = "Robot";
-    private static final Set<String> KNOWN = Set.of("Thermometer", "WeatherStation", "Camera", ROBOT);
+    private static final Set<String> SIMULATED_TYPES = Set.of("Thermometer", "WeatherStation", "Camera", ROBOT);
     private static final List<String> NO_PARAMETERS = List.of(
             "type",
             "id",
@@ -77,7 +77,7 @@ public final class DesiredDeviceReader {
         if (desired.settings().has("faults")) {
             entry.set("faults", desired.settings().get("faults"));
         }
-        if (!KNOWN.contains(desired.type()) && desired.settings().has("attributes")) {
+        if (!SIMULATED_TYPES.contains(desired.type()) && desired.settings().has("attributes")) {
             ArrayNode attributes = entry.putArray("attributes");
             desired.settings()
                     .get("attributes")

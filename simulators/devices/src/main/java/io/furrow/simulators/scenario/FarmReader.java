@@ -124,8 +124,8 @@ final class FarmReader {
 
     private Place found(Place place, SimulatedDevice device, ScenarioObjectReader group)
             throws InvalidScenarioException {
-        String said = group.text("carriedBy");
-        for (String carrier : List.of(place.carrier(), said)) {
+        String carriedBy = group.text("carriedBy");
+        for (String carrier : List.of(place.carrier(), carriedBy)) {
             if (device.identity().mission().equals(robots.get(carrier))) {
                 return new Place(place.where(), null, carrier);
             }

@@ -77,12 +77,12 @@ final class PlaceReader {
 
     /** Refuses more than one of several members that describe the place. */
     static void once(ScenarioObjectReader device, String... names) throws InvalidScenarioException {
-        String said = null;
+        String source = null;
         for (String name : names) {
-            if (device.has(name) && said != null) {
-                throw device.refused(name, "says again where the device is, after %s; leave one out".formatted(said));
+            if (device.has(name) && source != null) {
+                throw device.refused(name, "says again where the device is, after %s; leave one out".formatted(source));
             }
-            said = device.has(name) ? name : said;
+            source = device.has(name) ? name : source;
         }
     }
 

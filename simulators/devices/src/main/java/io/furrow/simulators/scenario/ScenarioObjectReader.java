@@ -16,7 +16,7 @@ final class ScenarioObjectReader {
 
     private final JsonNode json;
     private final String path;
-    private final Set<String> known = new TreeSet<>();
+    private final Set<String> members = new TreeSet<>();
 
     private ScenarioObjectReader(JsonNode json, String path) {
         this.json = json;
@@ -32,12 +32,12 @@ final class ScenarioObjectReader {
     }
 
     boolean has(String name) {
-        known.add(name);
+        members.add(name);
         return json.hasNonNull(name);
     }
 
     JsonNode node(String name) {
-        known.add(name);
+        members.add(name);
         return json.path(name);
     }
 
@@ -72,29 +72,29 @@ final class ScenarioObjectReader {
         return node(name).asBoolean(otherwise);
     }
 
-    double number(String name, double least, double most) throws InvalidScenarioException {
+    double number(String name, double min, double max) throws InvalidScenarioException {
         JsonNode value = node(name);
         double number = value.asDouble(Double.NaN);
-        if (!value.isNumber() || !(number >= least && number <= most)) {
-            throw refused(name, "must be a number from %s to %s%s".formatted(plain(least), plain(most), found(value)));
+        if (!value.isNumber() || !(number >= min && number <= max)) {
+            throw refused(name, "must be a number from %s to %s%s".formatted(plain(min), plain(max), found(value)));
         }
         return number;
     }
 
-    double number(String name, double least, double most, double otherwise) throws InvalidScenarioException {
-        return has(name) ? number(name, least, most) : otherwise;
+    double number(String name, double min, double max, double otherwise) throws InvalidScenarioException {
+        return has(name) ? number(name, min, max) : otherwise;
     }
 
-    long whole(String name, long least, long most, long otherwise) throws InvalidScenarioException {
+    long whole(String name, long min, long max, long otherwise) throws InvalidScenarioException {
         JsonNode value = node(name);
         if (!has(name)) {
             return otherwise;
         }
         if (!value.isIntegralNumber()
                 || !value.canConvertToLong()
-                || value.longValue() < least
-                || value.longValue() > most) {
-            throw refused(name, "must be a whole number from %d to %d%s".formatted(least, most, found(value)));
+                || value.longValue() < min
+                || value.longValue() > max) {
+            throw refused(name, "must be a whole number from %d to %d%s".formatted(min, max, found(value)));
         }
         return value.longValue();
     }
@@ -135,8 +135,8 @@ final class ScenarioObjectReader {
     void end() throws InvalidScenarioException {
         for (var names = json.fieldNames(); names.hasNext(); ) {
             String name = names.next();
-            if (!known.contains(name)) {
-                throw refused(name, "is not known here; known are " + String.join(", ", known));
+            if (!members.contains(name)) {
+                throw refused(name, "is not known here; known are " + String.join(", ", members));
             }
         }
     }

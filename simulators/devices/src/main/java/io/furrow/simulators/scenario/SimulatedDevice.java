@@ -78,8 +78,8 @@ public sealed interface SimulatedDevice {
      * A robot.
      *
      * @param driven seconds of its way behind it at the start
-     * @param tellsMission whether it reports {@code Domain} and {@code Mission}, which FIROS does not
+     * @param reportsMission whether it reports {@code Domain} and {@code Mission}, which FIROS does not
      */
-    record Robot(Identity identity, Duration period, RobotModel model, double driven, boolean tellsMission)
+    record Robot(Identity identity, Duration period, RobotModel model, double driven, boolean reportsMission)
             implements SimulatedDevice {}
 }

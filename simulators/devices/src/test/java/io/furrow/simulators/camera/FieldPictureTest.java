@@ -39,7 +39,7 @@ class FieldPictureTest {
     void seesTheFarthestFirstAndNothingBehindItOrOutOfSight() {
         CameraView view = view(List.of(north(20), north(40), north(-20), north(70)));
 
-        assertThat(view.sightings())
+        assertThat(view.visibleRobots())
                 .extracting(seen -> Math.round(seen.meters()))
                 .containsExactly(40L, 20L);
     }

@@ -24,7 +24,7 @@ public final class FiwareServers implements AutoCloseable {
 
     public record ReceivedRequest(String path, String service, String servicePath, String token, JsonNode body) {}
 
-    private final List<ReceivedRequest> asked = new CopyOnWriteArrayList<>();
+    private final List<ReceivedRequest> requested = new CopyOnWriteArrayList<>();
     private final HttpServer http;
     private final EmbeddedMqtt mqtt = EmbeddedMqtt.start(Map.of(USER, PASSWORD));
     private volatile ToIntFunction<ReceivedRequest> status = request -> 201;
@@ -39,7 +39,7 @@ public final class FiwareServers implements AutoCloseable {
                     exchange.getRequestHeaders().getFirst(AccessToken.DEFAULT_HEADER),
                     NgsiJson.mapper().readTree(exchange.getRequestBody()));
             int answer = status.applyAsInt(request);
-            asked.add(request);
+            requested.add(request);
             exchange.sendResponseHeaders(answer, -1);
             exchange.close();
         });
@@ -55,15 +55,15 @@ public final class FiwareServers implements AutoCloseable {
     /** As new: nothing asked, everything answered with 201. */
     public void reset() {
         status = request -> 201;
-        asked.clear();
+        requested.clear();
     }
 
     public void stopMqtt() {
         mqtt.close();
     }
 
-    public List<ReceivedRequest> asked(String path) {
-        return asked.stream().filter(request -> request.path().equals(path)).toList();
+    public List<ReceivedRequest> requested(String path) {
+        return requested.stream().filter(request -> request.path().equals(path)).toList();
     }
 
     public FleetSettings settings(String password) {

@@ -24,7 +24,7 @@ public final class MqttTestClient implements MqttCallback, AutoCloseable {
     private static final int ATTEMPTS = 5;
     private static final long TIMEOUT_MS = 15_000;
 
-    private final List<Heard> heard = new CopyOnWriteArrayList<>();
+    private final List<Heard> received = new CopyOnWriteArrayList<>();
     private final MqttAsyncClient client;
 
     public MqttTestClient(FleetSettings settings) throws Exception {
@@ -57,7 +57,7 @@ public final class MqttTestClient implements MqttCallback, AutoCloseable {
 
     @Override
     public void messageArrived(String topic, MqttMessage message) throws UnreadableException {
-        heard.add(new Heard(topic, NgsiJson.read(message.getPayload())));
+        received.add(new Heard(topic, NgsiJson.read(message.getPayload())));
     }
 
     @Override
@@ -70,18 +70,18 @@ public final class MqttTestClient implements MqttCallback, AutoCloseable {
         // What devices answer shows whether it arrived.
     }
 
-    public List<JsonNode> heard(String topic) {
-        return heard.stream()
+    public List<JsonNode> received(String topic) {
+        return received.stream()
                 .filter(message -> message.topic().equals(topic))
                 .map(Heard::json)
                 .toList();
     }
 
-    public List<Heard> heard() {
-        return List.copyOf(heard);
+    public List<Heard> received() {
+        return List.copyOf(received);
     }
 
-    public void say(String topic, String json) throws MqttException {
+    public void publish(String topic, String json) throws MqttException {
         client.publish(topic, json.getBytes(StandardCharsets.UTF_8), 1, false);
     }
 

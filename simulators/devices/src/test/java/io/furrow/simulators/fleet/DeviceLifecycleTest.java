@@ -85,19 +85,19 @@ class DeviceLifecycleTest {
         await().until(() -> up.size() == 4);
         assertThat(fleet.connections()).isEqualTo(3);
 
-        listener.say(topic("large", 2, "cmd"), "{\"off\": \"\"}");
-        await().untilAsserted(() -> assertThat(listener.heard(topic("large", 2, "cmdexe")))
+        listener.publish(topic("large", 2, "cmd"), "{\"off\": \"\"}");
+        await().untilAsserted(() -> assertThat(listener.received(topic("large", 2, "cmdexe")))
                 .singleElement()
                 .hasToString("{\"off\":\"ok\"}"));
-        assertThat(listener.heard(topic("large", 1, "cmdexe"))).isEmpty();
+        assertThat(listener.received(topic("large", 1, "cmdexe"))).isEmpty();
 
         fleet.remove("large-1");
         fleet.remove("large-2");
         await().until(() -> fleet.connections() == 2);
-        int before = listener.heard(topic("large", 1, "attrs")).size();
-        int other = listener.heard(topic("small", 1, "attrs")).size();
-        await().until(() -> listener.heard(topic("small", 1, "attrs")).size() > other + 10);
-        assertThat(listener.heard(topic("large", 1, "attrs"))).hasSize(before);
+        int before = listener.received(topic("large", 1, "attrs")).size();
+        int other = listener.received(topic("small", 1, "attrs")).size();
+        await().until(() -> listener.received(topic("small", 1, "attrs")).size() > other + 10);
+        assertThat(listener.received(topic("large", 1, "attrs"))).hasSize(before);
     }
 
     @Test
@@ -110,9 +110,9 @@ class DeviceLifecycleTest {
 
         letIn("late", 2);
 
-        await().until(() -> !listener.heard(topic("late", 1, "attrs")).isEmpty());
+        await().until(() -> !listener.received(topic("late", 1, "attrs")).isEmpty());
         assertThat(up).containsExactly("late-1");
-        assertThat(listener.heard(topic("late", 2, "attrs"))).isEmpty();
+        assertThat(listener.received(topic("late", 2, "attrs"))).isEmpty();
         assertThat(fleet.connections()).isEqualTo(1);
     }
 
@@ -131,8 +131,8 @@ class DeviceLifecycleTest {
         fleet.renew();
         await().until(() -> failures.stream().anyMatch(failure -> failure.contains("furrow.d.small.small-1.2.0'")));
         assertThat(fleet.connections()).isEqualTo(3);
-        int before = listener.heard(topic("small", 1, "attrs")).size();
-        await().until(() -> listener.heard(topic("small", 1, "attrs")).size() > before + 5);
+        int before = listener.received(topic("small", 1, "attrs")).size();
+        await().until(() -> listener.received(topic("small", 1, "attrs")).size() > before + 5);
 
         letIn(secret, "small", 2);
         FarmSecret.Login gateway = secret.gateway("large");
@@ -142,10 +142,10 @@ class DeviceLifecycleTest {
                 secret.device("small", "small-2").user(),
                 gateway.user())));
         passwords.keySet().removeIf(user -> user.endsWith(".1.0") || user.endsWith(".1"));
-        int moved = listener.heard(topic("large", 1, "attrs")).size();
-        await().until(() -> listener.heard(topic("large", 1, "attrs")).size() > moved + 5);
-        listener.say(topic("large", 2, "cmd"), "{\"off\": \"\"}");
-        await().until(() -> !listener.heard(topic("large", 2, "cmdexe")).isEmpty());
+        int moved = listener.received(topic("large", 1, "attrs")).size();
+        await().until(() -> listener.received(topic("large", 1, "attrs")).size() > moved + 5);
+        listener.publish(topic("large", 2, "cmd"), "{\"off\": \"\"}");
+        await().until(() -> !listener.received(topic("large", 2, "cmdexe")).isEmpty());
 
         assertThat(fleet.connections()).isEqualTo(3);
         assertThat(fleet.drain(Duration.ofSeconds(20))).isTrue();
@@ -193,7 +193,7 @@ class DeviceLifecycleTest {
     /** Those with a password, who may do everything. */
     private final class Devices implements EmbeddedMqtt.Users {
         @Override
-        public boolean knows(String user, byte[] password) {
+        public boolean authenticates(String user, byte[] password) {
             boolean known = new String(password, StandardCharsets.UTF_8).equals(passwords.get(user));
             if (known) {
                 connectedAs.add(user);

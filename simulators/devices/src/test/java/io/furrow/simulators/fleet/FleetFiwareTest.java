@@ -54,7 +54,7 @@ class FleetFiwareTest {
     }
 
     @Test
-    void saysWhichIotAgentDoesNotAnswer() {
+    void reportsWhichIotAgentDoesNotAnswer() {
         FleetSettings right = ends.settings();
         FleetSettings wrong = new FleetSettings(
                 right.contextBroker(), URI.create("http://127.0.0.1:1"), right.mqtt(), "farmer", "plough", "farm", "/");
@@ -65,7 +65,7 @@ class FleetFiwareTest {
     }
 
     @Test
-    void saysWhyTheIotAgentRefuses() {
+    void reportsWhyTheIotAgentRejects() {
         ends.answer(request -> request.path().equals("/iot/devices") ? 400 : 201);
 
         assertThatThrownBy(() -> FarmFleet.start(farm(THERMOMETER), Subscriber.access(ends.settings())))
@@ -77,13 +77,13 @@ class FleetFiwareTest {
     void provisionsItsDevicesAsTheContractSays() throws Exception {
         FarmFleet.start(farm(THERMOMETER), Subscriber.access(ends.settings())).close();
 
-        FiwareServers.ReceivedRequest group = ends.asked("/iot/services").get(0);
+        FiwareServers.ReceivedRequest group = ends.requested("/iot/services").get(0);
         assertThat(group.service()).isEqualTo("farm");
         assertThat(group.servicePath()).isEqualTo("/fields");
         assertThat(group.body().at("/services/0/apikey").textValue()).isEqualTo("key");
         assertThat(group.body().at("/services/0/resource").textValue()).isEqualTo("/iot/json");
 
-        JsonNode device = ends.asked("/iot/devices").get(0).body().at("/devices/0");
+        JsonNode device = ends.requested("/iot/devices").get(0).body().at("/devices/0");
         assertThat(device.path("device_id").textValue()).isEqualTo("t1");
         assertThat(device.path("entity_name").textValue()).isEqualTo("urn:ngsi-ld:Thermometer:1");
         assertThat(device.path("entity_type").textValue()).isEqualTo("Thermometer");
@@ -104,11 +104,11 @@ class FleetFiwareTest {
         FarmFleet.start(farm(THERMOMETER), Subscriber.access(settings)).close();
         try (FarmFleet fleet = FarmFleet.start(farm(ROBOT), Subscriber.access(settings), 500, Clock.systemUTC())) {
             await().until(() ->
-                    fleet.reports() > 0 && !ends.asked("/v2/op/update").isEmpty());
+                    fleet.reports() > 0 && !ends.requested("/v2/op/update").isEmpty());
         }
 
         for (String path : List.of("/iot/services", "/iot/devices", "/v2/op/update")) {
-            assertThat(ends.asked(path))
+            assertThat(ends.requested(path))
                     .as(path)
                     .isNotEmpty()
                     .allSatisfy(request -> assertThat(request.token()).isEqualTo("letmein"));
@@ -121,7 +121,7 @@ class FleetFiwareTest {
 
         FarmFleet.start(farm(THERMOMETER), Subscriber.access(settings)).close();
 
-        assertThat(ends.asked("/iot/services")
+        assertThat(ends.requested("/iot/services")
                         .get(0)
                         .body()
                         .at("/services/0/resource")
@@ -130,7 +130,7 @@ class FleetFiwareTest {
     }
 
     @Test
-    void startsAgainWhereTheAgentKnowsItsDevices() throws Exception {
+    void startsAgainWhereTheAgentHasItsDevices() throws Exception {
         ends.answer(request -> 409);
 
         try (FarmFleet fleet = FarmFleet.start(farm(THERMOMETER), Subscriber.access(ends.settings()))) {
@@ -143,11 +143,11 @@ class FleetFiwareTest {
         ends.answer(request -> 500);
         try (FarmFleet fleet =
                 FarmFleet.start(farm(ROBOT), Subscriber.access(ends.settings()), 500, Clock.systemUTC())) {
-            await().until(() -> ends.asked("/v2/op/update").size() > 2);
+            await().until(() -> ends.requested("/v2/op/update").size() > 2);
             ends.reset();
 
-            await().until(() -> ends.asked("/v2/op/update").size() > 2);
-            JsonNode robot = ends.asked("/v2/op/update").get(2).body().at("/entities/0");
+            await().until(() -> ends.requested("/v2/op/update").size() > 2);
+            JsonNode robot = ends.requested("/v2/op/update").get(2).body().at("/entities/0");
             assertThat(robot.path("id").textValue()).isEqualTo("urn:ngsi-ld:Robot:r1");
             assertThat(fleet.connections()).isZero();
         }

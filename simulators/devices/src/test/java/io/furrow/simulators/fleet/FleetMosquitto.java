@@ -143,9 +143,9 @@ final class FleetMosquitto {
         } catch (IOException e) {
             throw new IOException(command[0] + " is missing; install the Debian package mosquitto", e);
         }
-        String said = new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+        String output = new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
         if (process.waitFor() != 0) {
-            throw new IOException(command[0] + " failed: " + said);
+            throw new IOException(command[0] + " failed: " + output);
         }
     }
 

@@ -50,7 +50,7 @@ class FleetMosquittoIT {
     }
 
     @Test
-    void refusesADeviceWithAWrongPassword() {
+    void rejectsADeviceWithAWrongPassword() {
         assertThatThrownBy(() -> fleet(broker.certificate(), "harrow", 500))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("refuses user 'farmer': check user name and password");
@@ -66,9 +66,9 @@ class FleetMosquittoIT {
     /** With a connection for each device, and through a gateway. */
     @ParameterizedTest
     @CsvSource({"500, 20", "5, 1"})
-    void bringsEveryMeasureThroughFiveRestarts(int mostOwn, int connections) throws Exception {
-        try (Subscriber subscriber = Subscriber.to(broker, "subscriber-" + mostOwn);
-                FarmFleet fleet = fleet(broker.certificate(), "plough", mostOwn)) {
+    void bringsEveryMeasureThroughFiveRestarts(int maxOwn, int connections) throws Exception {
+        try (Subscriber subscriber = Subscriber.to(broker, "subscriber-" + maxOwn);
+                FarmFleet fleet = fleet(broker.certificate(), "plough", maxOwn)) {
             assertThat(fleet.connections()).isEqualTo(connections);
             for (int i = 0; i < 5; i++) {
                 long before = fleet.tally().acknowledged();
@@ -107,17 +107,17 @@ class FleetMosquittoIT {
         }
     }
 
-    private static FarmFleet fleet(Path trusted, String password, int mostOwn) throws IOException {
+    private static FarmFleet fleet(Path trusted, String password, int maxOwn) throws IOException {
         FleetSettings settings = new FleetSettings(null, null, broker.uri(), "farmer", password, "farm", "/");
         FleetAccess access = new FleetAccess(
                 settings,
                 new MqttAccess(broker.uri(), trusted, 1),
                 FleetAccess.Logins.all(new MqttAccess.Login("farmer", password)));
-        return fleet(FARM, access, mostOwn);
+        return fleet(FARM, access, maxOwn);
     }
 
-    private static FarmFleet fleet(String scenario, FleetAccess access, int mostOwn) throws IOException {
+    private static FarmFleet fleet(String scenario, FleetAccess access, int maxOwn) throws IOException {
         Farm farm = Farm.read(new ByteArrayInputStream(scenario.getBytes(StandardCharsets.UTF_8)), Instant.now());
-        return FarmFleet.start(farm, access, mostOwn, Clock.systemUTC());
+        return FarmFleet.start(farm, access, maxOwn, Clock.systemUTC());
     }
 }

@@ -103,16 +103,16 @@ final class HostFixture implements AutoCloseable {
     }
 
     /** Asks for a device, or for its end; answers the sequence. */
-    long want(String mission, String entity, boolean running, String settings) throws Exception {
-        return want(mission, entity, running, settings, 0);
+    long addDesired(String mission, String entity, boolean running, String settings) throws Exception {
+        return addDesired(mission, entity, running, settings, 0);
     }
 
     /** Asks for a device with new credentials. */
-    long wantRotated(String mission, String entity, String settings, int generation) throws Exception {
-        return want(mission, entity, true, settings, generation);
+    long addRotated(String mission, String entity, String settings, int generation) throws Exception {
+        return addDesired(mission, entity, true, settings, generation);
     }
 
-    private long want(String mission, String entity, boolean running, String settings, int generation)
+    private long addDesired(String mission, String entity, boolean running, String settings, int generation)
             throws Exception {
         long number = sequence.incrementAndGet();
         long now = System.currentTimeMillis();

@@ -103,7 +103,7 @@ class SensorFaultTest {
 
     @ParameterizedTest
     @MethodSource("cases")
-    void saysNothingWhileSilent(Case device) {
+    void reportsNothingWhileSilent(Case device) {
         Signal silent = new SensorFault.Silent(new TimeWindow(START, null)).on(device.sound);
 
         assertThat(device.times).allSatisfy(time -> assertThat(silent.at(time)).isEqualTo(OptionalDouble.empty()));
@@ -127,7 +127,7 @@ class SensorFaultTest {
     }
 
     @Test
-    void refusesAShareThatIsNone() {
+    void rejectsAShareThatIsNone() {
         assertThatThrownBy(() -> new SensorFault.Spikes(NOON, 1.5, 20, 1))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessage("the share of spikes is 0 to 1, not 1.5");

@@ -121,9 +121,9 @@ public final class DeviceRegistry {
         if (group == null) {
             return Optional.empty();
         }
-        ProvisionedDevice known = byTopic.get(new Topic(apikey, deviceId));
-        if (known != null || !group.takesUnprovisioned()) {
-            return Optional.ofNullable(known);
+        ProvisionedDevice existing = byTopic.get(new Topic(apikey, deviceId));
+        if (existing != null || !group.takesUnprovisioned()) {
+            return Optional.ofNullable(existing);
         }
         ProvisionedDevice device = ProvisionedDevice.unprovisioned(group, deviceId);
         add(device);

@@ -70,12 +70,12 @@ public final class MqttBridge implements IotAgent.Downlink, AutoCloseable {
      * @throws IllegalStateException if the broker cannot be reached or refuses the user
      */
     public static MqttBridge open(URI broker, String user, String password, IotAgent agent) {
-        MqttBridge link = new MqttBridge(broker, user, password, agent);
+        MqttBridge bridge = new MqttBridge(broker, user, password, agent);
         try {
-            link.connect();
-            return link;
+            bridge.connect();
+            return bridge;
         } catch (CompletionException e) {
-            link.close();
+            bridge.close();
             throw new IllegalStateException(
                     "the IoT agent cannot use the MQTT broker at " + broker
                             + "; is it running, are user and password right?",

@@ -107,15 +107,15 @@ final class BatchResource {
     }
 
     private void apply(NgsiRequest call, FiwareScope scope, Action action, EntityUpdate update) throws NgsiError {
-        boolean known = !broker.tenant(scope.service())
+        boolean existing = !broker.tenant(scope.service())
                 .find(scope.servicePath(), update.id(), update.type())
                 .isEmpty();
-        if (!known && action != Action.APPEND) {
+        if (!existing && action != Action.APPEND) {
             throw NgsiError.noEntity(update.label());
         }
         if (action == Action.DELETE && update.attributes().isEmpty()) {
             broker.delete(scope, update.id(), update.type(), call.correlator());
-        } else if (!known) {
+        } else if (!existing) {
             broker.upsert(scope, update, call.option("forcedUpdate"), call.correlator());
         } else {
             broker.update(scope, update, action, call.option("forcedUpdate"), call.correlator());

@@ -41,11 +41,11 @@ final class EntityResource {
         String location =
                 "/v2/entities/" + entity.id() + "?type=" + entity.type().orElse(EntityUpdate.DEFAULT_TYPE);
         if (call.option("upsert")) {
-            boolean known = !broker.tenant(call.service())
+            boolean existing = !broker.tenant(call.service())
                     .find(call.scope().servicePath(), entity.id(), entity.type())
                     .isEmpty();
             broker.upsert(call.scope(), entity, call.option("forcedUpdate"), call.correlator());
-            return known ? NgsiResponse.noContent().with("Location", location) : NgsiResponse.created(location);
+            return existing ? NgsiResponse.noContent().with("Location", location) : NgsiResponse.created(location);
         }
         broker.create(call.scope(), entity, call.correlator());
         return NgsiResponse.created(location);

@@ -100,9 +100,7 @@ public final class Notifier implements AutoCloseable {
     }
 
     public long queued() {
-        return outboxes.values().stream()
-                .mapToLong(outbox -> outbox.count.get())
-                .sum();
+        return outboxes.values().stream().mapToLong(queue -> queue.count.get()).sum();
     }
 
     @Override

@@ -118,7 +118,7 @@ class IotAgentTest {
     }
 
     @Test
-    void keepsTheTimeInstantThatADeviceGives() throws MqttException {
+    void retainsTheTimeInstantThatADeviceGives() throws MqttException {
         publish("/k1/t1/attrs", "{\"temp\": 1, \"TimeInstant\": \"2026-11-21T01:00:00Z\"}");
 
         awaitValue(THERMOMETER, "TimeInstant", "2026-11-21T01:00:00.000Z");
@@ -207,7 +207,7 @@ class IotAgentTest {
     }
 
     @Test
-    void refusesAMeasureAsAWholeThatTheContextBrokerWouldRefuse() throws MqttException {
+    void rejectsAMeasureAsAWholeThatTheContextBrokerWouldRefuse() throws MqttException {
         report();
 
         publish("/k1/t1/attrs", "{\"temp\": 22, \"note\": \"a=b\"}");

@@ -32,7 +32,7 @@ class MqttBridgeTest {
     }
 
     @Test
-    void comesBackWhenTheBrokerWasAway() throws MqttException {
+    void comesBackWhenTheBrokerWasUnavailable() throws MqttException {
         EmbeddedMqtt first = EmbeddedMqtt.start(PASSWORDS);
         int port = first.uri().getPort();
         try (FiwareStandIn other = FiwareStandIn.start(new FiwareSettings(0, 0, first.uri(), "agent", "secret"))) {

@@ -82,7 +82,7 @@ class NgsiV2ApiTest {
     }
 
     @Test
-    void refusesABodyThatIsNoJsonByItsTypeOrItsSize() {
+    void rejectsABodyThatIsNoJsonByItsTypeOrItsSize() {
         assertThat(client.with("Content-Type", "text/plain")
                         .post("/v2/entities", "{\"id\":\"x\"}")
                         .status())
@@ -93,7 +93,7 @@ class NgsiV2ApiTest {
     }
 
     @Test
-    void keepsAnEntityThroughItsWholeLife() {
+    void retainsAnEntityThroughItsWholeLife() {
         Client.Answer created = client.post("/v2/entities?options=keyValues", """
                 {"id": "urn:ngsi-ld:Robot:1", "type": "Robot", "speed": 1.50, "name": "one", "gone": true}""");
         assertThat(created.status()).isEqualTo(201);
@@ -137,7 +137,7 @@ class NgsiV2ApiTest {
     }
 
     @Test
-    void asksForATypeWhereAnIdIsNotEnough() {
+    void requestsATypeWhereAnIdIsNotEnough() {
         client.post("/v2/entities", "{\"id\": \"P1\", \"type\": \"Pump\"}");
 
         Client.Answer answer = client.get("/v2/entities/P1");
@@ -162,7 +162,7 @@ class NgsiV2ApiTest {
                 "/v2/entities?options=count&q=dateCreated%3E=9999-12-31                   | \"\"",
                 "/v2/entities?options=count&orderBy=!dateModified,!id                     | P2 P1",
             })
-    void listsWhatAQueryAsksFor(String path, String ids) {
+    void listsWhatAQueryRequests(String path, String ids) {
         Client.Answer answer = client.get(path);
 
         List<String> found = answer.json().findValuesAsText("id");
@@ -190,7 +190,7 @@ class NgsiV2ApiTest {
     }
 
     @Test
-    void showsTheAttributesThatAreAskedFor() {
+    void showsTheAttributesThatAreRequested() {
         JsonNode found =
                 client.get("/v2/entities/P1?attrs=dateModified,servicePath").json();
 
@@ -200,7 +200,7 @@ class NgsiV2ApiTest {
     }
 
     @Test
-    void keepsTenantsAndServicePathsApart() {
+    void separatesTenantsAndServicePaths() {
         client.as("other", "/plot1").post("/v2/entities", "{\"id\": \"P1\", \"type\": \"Probe\"}");
         client.as("agri", "/plot1/sub").post("/v2/entities", "{\"id\": \"P3\", \"type\": \"Probe\"}");
 
@@ -226,7 +226,7 @@ class NgsiV2ApiTest {
     }
 
     @Test
-    void keepsAnyTextOfAnAttributeThatIsUnrestricted() {
+    void retainsAnyTextOfAnAttributeThatIsUnrestricted() {
         String text = "{\"value\": [\"<a href='x'>;(=)</a>\"], \"type\": \"TextUnrestricted\"}";
 
         assertThat(client.post("/v2/entities", "{\"id\": \"F\", \"note\": " + text + "}")
@@ -247,7 +247,7 @@ class NgsiV2ApiTest {
     }
 
     @Test
-    void saysWhatItIs() {
+    void reportsWhatItIs() {
         assertThat(client.get("/version").json().path("orion").path("version").asText())
                 .startsWith("4.7")
                 .contains("stand-in");

@@ -133,7 +133,7 @@ class SubscriptionTest {
     }
 
     @Test
-    void keepsTheOrderOfOneEntity() {
+    void preservesTheOrderOfOneEntity() {
         subscribe("", "\"attrsFormat\": \"values\",");
         batch("agri", 1);
         for (int i = 1; i <= 50; i++) {
@@ -165,7 +165,7 @@ class SubscriptionTest {
     }
 
     @Test
-    void tellsOfADeletedEntityOnlyWhoAskedForIt() {
+    void notifiesOfADeletedEntityOnlyOnRequest() {
         subscribe("", "");
         create(subscription(
                 "/deleted",
@@ -209,7 +209,7 @@ class SubscriptionTest {
                 "condition with 'expression' | 'condition': {'expression': {'q': 'a>1'}}, | ''",
                 "condition with 'notifyOnMetadataChange' false | 'condition': {'notifyOnMetadataChange': false}, | ''",
             })
-    void refusesAnOptionOfOrionThatItDoesNotHave(String example) {
+    void rejectsAnOptionOfOrionThatItDoesNotHave(String example) {
         String[] parts = example.replace("''", "").replace('\'', '"').split("\\|");
 
         Client.Answer answer = client.post("/v2/subscriptions", subscription("/x", parts[1], parts[2]));

@@ -49,11 +49,12 @@ public final class FieldsCommandGroup extends CommandGroup {
                     Instant at,
             @Option(names = "--versions", description = "All versions of all times, ends too.") boolean versions) {
         try {
-            List<FieldVersion> known = fields.topic().read();
+            List<FieldVersion> existing = fields.topic().read();
             Instant time = at == null ? Instant.now() : at;
             List<FieldVersion> shown = versions
-                    ? known
-                    : List.copyOf(FieldChange.asOf(time.toEpochMilli(), known).values());
+                    ? existing
+                    : List.copyOf(
+                            FieldChange.asOf(time.toEpochMilli(), existing).values());
             fields.print(FieldReport.lines(shown), FieldReport.json(shown));
             return 0;
         } catch (IOException e) {

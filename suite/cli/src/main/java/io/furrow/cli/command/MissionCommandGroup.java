@@ -68,8 +68,8 @@ public final class MissionCommandGroup extends MissionControl {
     @Command(
             name = "stored",
             description = "Lists the stored missions: how many events each one has and from when to when.")
-    int kept(@Mixin StoreOptions kept) {
-        return run(kept, missions -> {
+    int listStored(@Mixin StoreOptions store) {
+        return run(store, missions -> {
             for (StoredMissions.Summary mission : missions.all()) {
                 out().printf(
                                 "%-32s %,12d events  %s … %s%n",
@@ -83,7 +83,7 @@ public final class MissionCommandGroup extends MissionControl {
             description =
                     "Writes all events of a mission in the order of their times, and its markers. The same are always the same bytes.")
     int export(
-            @Mixin StoreOptions kept,
+            @Mixin StoreOptions store,
             @Parameters(paramLabel = "MISSION", description = MISSION) String mission,
             @Parameters(
                             paramLabel = "FILE",
@@ -99,15 +99,15 @@ public final class MissionCommandGroup extends MissionControl {
                                             + "entity, for Foxglove; geojson, a track or point for each entity, for maps. "
                                             + "Default: ${DEFAULT-VALUE}.")
                     ExportFormat format) {
-        return run(kept, missions -> {
-            known(missions, mission);
+        return run(store, missions -> {
+            requireStored(missions, mission);
             if (file.equals("-")) {
                 OutputStream terminal = new java.io.BufferedOutputStream(System.out);
-                format.write(new ExportFormat.Source(missions, kept.mongo, mission), terminal, ignored -> {});
+                format.write(new ExportFormat.Source(missions, store.mongo, mission), terminal, ignored -> {});
                 terminal.flush();
                 return;
             }
-            ExportFormat.Source source = new ExportFormat.Source(missions, kept.mongo, mission);
+            ExportFormat.Source source = new ExportFormat.Source(missions, store.mongo, mission);
             Exported[] done = new Exported[1];
             MissionFiles.write(new Path(file), out -> {
                 done[0] = format.write(source, out, told("exported"));
@@ -127,14 +127,14 @@ public final class MissionCommandGroup extends MissionControl {
                     "Reads events into a mission. Those that it holds already stay once, so that a broken import can "
                             + "be repeated.")
     int importFrom(
-            @Mixin StoreOptions kept,
+            @Mixin StoreOptions store,
             @Parameters(paramLabel = "MISSION", description = MISSION) String mission,
             @Parameters(
                             paramLabel = "FILE",
                             description = "A file, or a folder of an archive" + FILES
                                     + " Compressed where the name ends in .gz.")
                     String file) {
-        return run(kept, missions -> {
+        return run(store, missions -> {
             long count = MissionFiles.importFrom(missions, mission, new Path(file), told("imported"));
             out().printf("%s of %s now in mission %s%n", Counts.of(count, "event"), file, mission);
         });
@@ -146,14 +146,14 @@ public final class MissionCommandGroup extends MissionControl {
                     "Adds what an archive lacks of missions: one file per day and mission, and a further one for what "
                             + "comes later. Nothing in an archive is changed or removed.")
     int archive(
-            @Mixin StoreOptions kept,
+            @Mixin StoreOptions store,
             @Parameters(paramLabel = "ROOT", description = "Folder of the archive" + FILES) String root,
             @Parameters(paramLabel = "MISSION", arity = "1..*", description = "Names of the missions.")
                     List<String> names) {
-        return run(kept, missions -> {
+        return run(store, missions -> {
             MissionArchive archive = new MissionArchive(missions, new Path(root));
             for (String mission : names) {
-                known(missions, mission);
+                requireStored(missions, mission);
                 MissionArchive.Outcome done = archive.archive(mission);
                 out().printf(
                                 "%s: %s added in %s, %,d there before, in %s%n",
@@ -166,20 +166,20 @@ public final class MissionCommandGroup extends MissionControl {
         });
     }
 
-    private int run(StoreOptions kept, Work work) {
-        kept.fileSystems.initialize();
-        try (StoredMissions missions = StoredMissions.open(kept.mongo)) {
+    private int run(StoreOptions store, Work work) {
+        store.fileSystems.initialize();
+        try (StoredMissions missions = StoredMissions.open(store.mongo)) {
             work.with(missions);
             out().flush();
             return 0;
         } catch (IllegalArgumentException e) {
             throw new ParameterException(
-                    kept.spec.commandLine(),
-                    "%s. Check --mongo and the file's name.".formatted(MongoAccess.fault(kept.mongo, e)),
+                    store.spec.commandLine(),
+                    "%s. Check --mongo and the file's name.".formatted(MongoAccess.fault(store.mongo, e)),
                     e);
         } catch (MongoException e) {
             return failed("MongoDB at %s: %s. Check that it runs, and --mongo."
-                    .formatted(new MongoAccess(kept.mongo, null), FailureText.of(e)));
+                    .formatted(new MongoAccess(store.mongo, null), FailureText.of(e)));
         } catch (UncheckedIOException e) {
             return failed(FailureText.of(e.getCause()));
         } catch (IOException e) {
@@ -190,7 +190,7 @@ public final class MissionCommandGroup extends MissionControl {
         }
     }
 
-    private static void known(StoredMissions missions, String mission) throws IOException {
+    private static void requireStored(StoredMissions missions, String mission) throws IOException {
         if (!missions.has(mission)) {
             throw new IOException(
                     "No mission named %s is stored; ./furrow mission stored shows those that are.".formatted(mission));

@@ -90,10 +90,10 @@ final class ComparisonHtml {
                         .add(match));
         Predicate<Map.Entry<ResultSubject, List<ResultMatch>>> differs =
                 lane -> lane.getValue().stream().anyMatch(match -> match.verdict() != Verdict.SAME);
-        ObjectNode json = JsonNodeFactory.instance.objectNode().put("name", kind.word());
+        ObjectNode json = JsonNodeFactory.instance.objectNode().put("name", kind.code());
         json.put("curves", kind == ResultKind.AVERAGES).put("more", Math.max(0, bySubject.size() - MAX_LANES));
         for (Verdict verdict : Verdict.values()) {
-            json.withObject("/counts").put(verdict.word(), comparison.count(kind, verdict));
+            json.withObject("/counts").put(verdict.code(), comparison.count(kind, verdict));
         }
         ArrayNode lanes = json.putArray("lanes");
         Stream.concat(
@@ -111,7 +111,7 @@ final class ComparisonHtml {
     private ObjectNode match(ResultMatch match) {
         ObjectNode json = JsonNodeFactory.instance
                 .objectNode()
-                .put("verdict", match.verdict().word())
+                .put("verdict", match.verdict().code())
                 .put("text", ComparisonText.match(match));
         json.set("a", span(match.a()));
         json.set("b", span(match.b()));

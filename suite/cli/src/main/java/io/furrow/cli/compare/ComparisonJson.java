@@ -21,7 +21,7 @@ final class ComparisonJson {
         json.set("a", side(comparison.a()));
         json.set("b", side(comparison.b()));
         for (ResultKind kind : ResultKind.values()) {
-            ObjectNode one = json.putObject(kind.word()).put("same", comparison.count(kind, Verdict.SAME));
+            ObjectNode one = json.putObject(kind.code()).put("same", comparison.count(kind, Verdict.SAME));
             ArrayNode differences = one.putArray("differences");
             comparison.differences(kind).forEach(match -> differences.add(difference(match)));
         }
@@ -32,14 +32,14 @@ final class ComparisonJson {
         ObjectNode json =
                 JsonNodeFactory.instance.objectNode().put("name", side.name()).put("epoch", side.epoch());
         ArrayNode missing = json.putArray("missing");
-        side.missing().stream().sorted().map(ResultKind::word).forEach(missing::add);
+        side.missing().stream().sorted().map(ResultKind::code).forEach(missing::add);
         return json;
     }
 
     private static ObjectNode difference(ResultMatch match) {
         ObjectNode json = JsonNodeFactory.instance
                 .objectNode()
-                .put("verdict", match.verdict().word())
+                .put("verdict", match.verdict().code())
                 .put("subject", match.subject().name());
         json.set("a", span(match.a()));
         json.set("b", span(match.b()));

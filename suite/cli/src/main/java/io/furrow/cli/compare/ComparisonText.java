@@ -63,7 +63,7 @@ final class ComparisonText {
                 .formatted(
                         time(match.either().start()),
                         length(match.either()),
-                        match.verdict().word(),
+                        match.verdict().code(),
                         what.isEmpty() ? "" : ": " + what);
     }
 

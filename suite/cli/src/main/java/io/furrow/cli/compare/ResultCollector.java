@@ -26,7 +26,7 @@ final class ResultCollector {
 
     private final String mission;
     private final Map<String, EncounterResult> encounters = new HashMap<>();
-    private final Map<String, VisitResult> stays = new HashMap<>();
+    private final Map<String, VisitResult> visits = new HashMap<>();
     private final Map<Window, AverageResult> averages = new HashMap<>();
     private long epoch;
 
@@ -48,14 +48,14 @@ final class ResultCollector {
         }
         if (ofEpoch > epoch) {
             encounters.clear();
-            stays.clear();
+            visits.clear();
             averages.clear();
             epoch = ofEpoch;
         }
         switch (kind) {
             case ENCOUNTERS -> encounter(scope, entity);
             case AVERAGES -> average(scope, entity);
-            case STAYS -> stay(scope, entity);
+            case STAYS -> visit(scope, entity);
         }
     }
 
@@ -64,7 +64,7 @@ final class ResultCollector {
                 switch (kind) {
                     case ENCOUNTERS -> encounters.values();
                     case AVERAGES -> averages.values();
-                    case STAYS -> stays.values();
+                    case STAYS -> visits.values();
                 });
     }
 
@@ -93,7 +93,7 @@ final class ResultCollector {
         }
     }
 
-    private void stay(String scope, Entity entity) {
+    private void visit(String scope, Entity entity) {
         Optional<Long> start = time(entity, PresenceResult.START_TIME);
         Optional<Long> time = time(entity, PresenceResult.TIME);
         if (start.isEmpty() || time.isEmpty() || isOther(entity, "Mission")) {
@@ -106,7 +106,7 @@ final class ResultCollector {
         boolean left = entity.text(PresenceResult.PHASE)
                 .filter(PresenceResult.LEFT::equals)
                 .isPresent();
-        stays.merge(
+        visits.merge(
                 entity.text(PresenceResult.STAY).orElse(entity.id()),
                 left
                         ? new VisitResult(subject, start.get(), time.get(), false)

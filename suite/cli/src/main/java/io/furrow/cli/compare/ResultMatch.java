@@ -16,14 +16,14 @@ record ResultMatch(AnalyticsResult a, AnalyticsResult b, List<MemberDifference> 
         ONLY_A("only in A"),
         ONLY_B("only in B");
 
-        private final String word;
+        private final String code;
 
-        Verdict(String word) {
-            this.word = word;
+        Verdict(String code) {
+            this.code = code;
         }
 
-        String word() {
-            return word;
+        String code() {
+            return code;
         }
     }
 

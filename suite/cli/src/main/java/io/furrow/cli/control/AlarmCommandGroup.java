@@ -84,12 +84,12 @@ public final class AlarmCommandGroup extends CommandGroup {
 
     @Command(name = "acknowledge", description = "Says that somebody looks after an alarm.")
     int acknowledge(@Mixin ControlOptions control, @Parameters(paramLabel = "ALARM", description = ID) String alarm) {
-        return tell(control, alarm, "acknowledge", null);
+        return post(control, alarm, "acknowledge", null);
     }
 
     @Command(name = "close", description = "Closes an alarm whose cause is over, or was not seen for a minute.")
     int close(@Mixin ControlOptions control, @Parameters(paramLabel = "ALARM", description = ID) String alarm) {
-        return tell(control, alarm, "close", null);
+        return post(control, alarm, "close", null);
     }
 
     @Command(name = "mute", description = "Keeps an alarm from the webhook for some time.")
@@ -102,15 +102,15 @@ public final class AlarmCommandGroup extends CommandGroup {
                             defaultValue = "PT1H",
                             description = "ISO 8601. Default: PT1H.")
                     String duration) {
-        return tell(control, alarm, "mute", duration);
+        return post(control, alarm, "mute", duration);
     }
 
     @Command(name = "unmute", description = "Lets an alarm reach the webhook again.")
     int unmute(@Mixin ControlOptions control, @Parameters(paramLabel = "ALARM", description = ID) String alarm) {
-        return tell(control, alarm, "unmute", null);
+        return post(control, alarm, "unmute", null);
     }
 
-    private static int tell(ControlOptions control, String alarm, String verb, String duration) {
+    private static int post(ControlOptions control, String alarm, String verb, String duration) {
         Map<String, String> body = new LinkedHashMap<>();
         body.put("for", duration);
         return control.command("POST", ALARMS + ControlApi.part(alarm) + "/" + verb, ControlOptions.object(body));

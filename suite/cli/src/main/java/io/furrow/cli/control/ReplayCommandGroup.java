@@ -90,38 +90,38 @@ public final class ReplayCommandGroup extends CommandGroup {
 
     @Command(name = "stop", description = "Ends a replay.")
     int stop(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
-        target.words(control, 0, 0, "nothing");
+        target.arguments(control, 0, 0, "nothing");
         return control.commandDone("DELETE", target.path(control), "stopped");
     }
 
     @Command(name = "pause", description = "Holds a replay.")
     int pause(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
-        target.words(control, 0, 0, "nothing");
+        target.arguments(control, 0, 0, "nothing");
         return steer(control, target, "pause", Map.of());
     }
 
     @Command(name = "resume", description = "Lets a held replay go on.")
     int resume(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
-        target.words(control, 0, 0, "nothing");
+        target.arguments(control, 0, 0, "nothing");
         return steer(control, target, "resume", Map.of());
     }
 
     @Command(name = "seek", description = "Jumps to an event time, " + ReplayArguments.TIME)
     int seek(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
-        String to = target.words(control, 1, 1, "TIME").get(0);
+        String to = target.arguments(control, 1, 1, "TIME").get(0);
         return steer(control, target, "seek", Map.of("to", ReplayArguments.time(to)));
     }
 
     @Command(name = "speed", description = "Changes the speed: 0.1 to 1000, or max.")
     int speed(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
-        String speed = target.words(control, 1, 1, "a speed").get(0);
+        String speed = target.arguments(control, 1, 1, "a speed").get(0);
         return steer(control, target, "speed", Map.of("speed", ReplayArguments.speed(speed)));
     }
 
     @Command(name = "step", description = "Lets a held replay play N events, or go back by -N. Default: 1.")
     int step(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
-        List<String> words = target.words(control, 0, 1, "how many events, -N to go back");
-        String count = words.isEmpty() ? "1" : words.get(0);
+        List<String> arguments = target.arguments(control, 0, 1, "how many events, -N to go back");
+        String count = arguments.isEmpty() ? "1" : arguments.get(0);
         if (!count.matches("[+-]?[0-9]{1,7}")) {
             throw control.refused("'%s' is no number of events".formatted(count));
         }
@@ -135,14 +135,19 @@ public final class ReplayCommandGroup extends CommandGroup {
             @Mixin ControlOptions control,
             @Mixin ReplayTarget target,
             @Option(names = "--off", description = "Play on to the end.") boolean off) {
-        List<String> words = off ? target.words(control, 0, 0, "nothing") : target.words(control, 2, 2, "A B");
+        List<String> arguments =
+                off ? target.arguments(control, 0, 0, "nothing") : target.arguments(control, 2, 2, "A B");
         return steer(
                 control,
                 target,
                 "loop",
                 off
                         ? Map.of()
-                        : Map.of("from", ReplayArguments.time(words.get(0)), "to", ReplayArguments.time(words.get(1))));
+                        : Map.of(
+                                "from",
+                                ReplayArguments.time(arguments.get(0)),
+                                "to",
+                                ReplayArguments.time(arguments.get(1))));
     }
 
     private static int steer(ControlOptions control, ReplayTarget target, String verb, Map<String, ?> body) {

@@ -31,11 +31,11 @@ final class OriginalReader implements AutoCloseable {
      *
      * @throws IOException if Kafka does not answer
      */
-    Optional<ConsumerRecord<byte[], byte[]>> find(Original original, ConsumerRecord<byte[], byte[]> letter)
+    Optional<ConsumerRecord<byte[], byte[]>> find(Original original, ConsumerRecord<byte[], byte[]> deadLetter)
             throws IOException {
         TopicPartition partition = new TopicPartition(original.topic(), original.partition());
-        List<PartitionInfo> known = consumer.partitionsFor(original.topic(), Redrive.TIMEOUT);
-        if (known == null || known.stream().noneMatch(info -> info.partition() == original.partition())) {
+        List<PartitionInfo> existing = consumer.partitionsFor(original.topic(), Redrive.TIMEOUT);
+        if (existing == null || existing.stream().noneMatch(info -> info.partition() == original.partition())) {
             return Optional.empty();
         }
         consumer.assign(List.of(partition));
@@ -46,7 +46,7 @@ final class OriginalReader implements AutoCloseable {
             return Optional.empty();
         }
         consumer.seek(partition, original.offset());
-        return read(partition, original.offset()).filter(found -> isOf(letter, found));
+        return read(partition, original.offset()).filter(found -> isOf(deadLetter, found));
     }
 
     private Optional<ConsumerRecord<byte[], byte[]>> read(TopicPartition partition, long offset) throws IOException {
@@ -66,18 +66,20 @@ final class OriginalReader implements AutoCloseable {
     }
 
     /** That of the original: what is set aside as from the future has a time of its own. */
-    static long timeOf(ConsumerRecord<byte[], byte[]> letter) {
-        Header time = letter.headers().lastHeader(DeadLetter.TIME);
+    static long timeOf(ConsumerRecord<byte[], byte[]> deadLetter) {
+        Header time = deadLetter.headers().lastHeader(DeadLetter.TIME);
         try {
-            return time == null ? letter.timestamp() : Long.parseLong(new String(time.value(), StandardCharsets.UTF_8));
+            return time == null
+                    ? deadLetter.timestamp()
+                    : Long.parseLong(new String(time.value(), StandardCharsets.UTF_8));
         } catch (NumberFormatException e) { // somebody else's
-            return letter.timestamp();
+            return deadLetter.timestamp();
         }
     }
 
-    private static boolean isOf(ConsumerRecord<byte[], byte[]> letter, ConsumerRecord<byte[], byte[]> found) {
-        boolean sameKey = letter.key() == null || Arrays.equals(letter.key(), found.key());
-        return sameKey && timeOf(letter) == found.timestamp();
+    private static boolean isOf(ConsumerRecord<byte[], byte[]> deadLetter, ConsumerRecord<byte[], byte[]> found) {
+        boolean sameKey = deadLetter.key() == null || Arrays.equals(deadLetter.key(), found.key());
+        return sameKey && timeOf(deadLetter) == found.timestamp();
     }
 
     @Override

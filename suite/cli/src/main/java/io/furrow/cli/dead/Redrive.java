@@ -150,15 +150,16 @@ public final class Redrive {
             KafkaProducer<byte[], byte[]> producer)
             throws IOException {
         boolean begun = false;
-        for (ConsumerRecord<byte[], byte[]> letter : records) {
-            boolean isNew = letter.offset() >= ends.get(new TopicPartition(letter.topic(), letter.partition()));
-            boolean isDesired = !isNew && isDesired(letter);
-            Optional<ConsumerRecord<byte[], byte[]>> original = isDesired ? original(letter) : Optional.empty();
+        for (ConsumerRecord<byte[], byte[]> deadLetter : records) {
+            boolean isNew =
+                    deadLetter.offset() >= ends.get(new TopicPartition(deadLetter.topic(), deadLetter.partition()));
+            boolean isDesired = !isNew && isDesired(deadLetter);
+            Optional<ConsumerRecord<byte[], byte[]>> original = isDesired ? original(deadLetter) : Optional.empty();
             if (isDesired && original.isEmpty()) {
-                memory.leave(letter.partition(), kind(letter), letter.offset());
+                memory.leave(deadLetter.partition(), kind(deadLetter), deadLetter.offset());
             } else if (original.isPresent()) {
-                memory.add(letter.partition(), kind(letter), letter.offset());
-                fed.merge(kind(letter).reason(), 1L, Long::sum);
+                memory.add(deadLetter.partition(), kind(deadLetter), deadLetter.offset());
+                fed.merge(kind(deadLetter).reason(), 1L, Long::sum);
                 if (producer != null) {
                     if (!begun) {
                         producer.beginTransaction();
@@ -174,13 +175,13 @@ public final class Redrive {
         }
     }
 
-    private boolean isDesired(ConsumerRecord<byte[], byte[]> letter) {
-        Kind kind = kind(letter);
+    private boolean isDesired(ConsumerRecord<byte[], byte[]> deadLetter) {
+        Kind kind = kind(deadLetter);
         if (kind.reason().isEmpty()) {
             left.merge(OTHER, 1L, Long::sum);
             return false;
         }
-        if (!wish.again() && memory.holds(letter.partition(), kind, letter.offset())) {
+        if (!wish.again() && memory.holds(deadLetter.partition(), kind, deadLetter.offset())) {
             return false;
         }
         if (!wish.choice().isOf(kind)) {
@@ -191,25 +192,26 @@ public final class Redrive {
     }
 
     /** The letter itself, or the record that it stands for; empty, and counted as left, where neither is whole. */
-    private Optional<ConsumerRecord<byte[], byte[]>> original(ConsumerRecord<byte[], byte[]> letter)
+    private Optional<ConsumerRecord<byte[], byte[]>> original(ConsumerRecord<byte[], byte[]> deadLetter)
             throws IOException {
-        Optional<Original> elsewhere = Original.of(header(letter, Original.POSITION), header(letter, Original.BYTES));
+        Optional<Original> elsewhere =
+                Original.of(header(deadLetter, Original.POSITION), header(deadLetter, Original.BYTES));
         if (elsewhere.isPresent()) {
-            Optional<ConsumerRecord<byte[], byte[]>> found = originals.find(elsewhere.get(), letter);
+            Optional<ConsumerRecord<byte[], byte[]>> found = originals.find(elsewhere.get(), deadLetter);
             if (found.isEmpty()) {
                 left.merge(GONE, 1L, Long::sum);
             }
             return found;
         }
-        if (header(letter, DeadLetter.MESSAGE).contains("(truncated")) {
+        if (header(deadLetter, DeadLetter.MESSAGE).contains("(truncated")) {
             left.merge(TRUNCATED, 1L, Long::sum);
             return Optional.empty();
         }
-        return Optional.of(letter);
+        return Optional.of(deadLetter);
     }
 
-    private static Kind kind(ConsumerRecord<byte[], byte[]> letter) {
-        return new Kind(header(letter, DeadLetter.REASON), header(letter, DeadLetter.STAGE));
+    private static Kind kind(ConsumerRecord<byte[], byte[]> deadLetter) {
+        return new Kind(header(deadLetter, DeadLetter.REASON), header(deadLetter, DeadLetter.STAGE));
     }
 
     private ProducerRecord<byte[], byte[]> broughtBack(ConsumerRecord<byte[], byte[]> original) {
@@ -223,8 +225,8 @@ public final class Redrive {
         return record;
     }
 
-    private static String header(ConsumerRecord<byte[], byte[]> letter, String name) {
-        Header header = letter.headers().lastHeader(name);
+    private static String header(ConsumerRecord<byte[], byte[]> deadLetter, String name) {
+        Header header = deadLetter.headers().lastHeader(name);
         return header == null || header.value() == null ? "" : new String(header.value(), StandardCharsets.UTF_8);
     }
 

@@ -67,22 +67,29 @@ class FieldsCommandGroupIT {
     }
 
     @Test
-    void keepsTheFieldsOfAFileAndWhatBecomesOfThem() throws Exception {
+    void retainsTheFieldsOfAFileAndWhatBecomesOfThem() throws Exception {
         String first = file(FEATURE.formatted("a", "0.01"), FEATURE.formatted("b", "0.01"));
-        assertThat(said(0, "import", first, "--dry-run")).contains("Not written: 2 added");
-        assertThat(said(0, "list")).startsWith("There are no fields.");
+        assertThat(output(0, "import", first, "--dry-run")).contains("Not written: 2 added");
+        assertThat(output(0, "list")).startsWith("There are no fields.");
 
-        assertThat(said(0, "import", first, "--valid-from", "2026-03-01T00:00:00Z"))
+        assertThat(output(0, "import", first, "--valid-from", "2026-03-01T00:00:00Z"))
                 .contains("WGS 84 → WGS 84")
                 .containsPattern("added +a +Field a +– +[\\d.]+")
                 .contains("Written: 2 added, 0 changed, 0 unchanged, 0 ended, 0 refused");
-        assertThat(said(0, "import", first, "--valid-from", "2026-03-02T00:00:00Z"))
+        assertThat(output(0, "import", first, "--valid-from", "2026-03-02T00:00:00Z"))
                 .contains("2 unchanged");
 
         String second = file(FEATURE.formatted("b", "0.02"), FEATURE.formatted("c", "0.01"));
-        JsonNode report = NgsiJson.read(
-                said(0, "import", second, "--valid-from", "2026-04-01T00:00:00+02:00", "--replace", "--output", "json")
-                        .getBytes(StandardCharsets.UTF_8));
+        JsonNode report = NgsiJson.read(output(
+                        0,
+                        "import",
+                        second,
+                        "--valid-from",
+                        "2026-04-01T00:00:00+02:00",
+                        "--replace",
+                        "--output",
+                        "json")
+                .getBytes(StandardCharsets.UTF_8));
         assertThat(report.path("validFrom").asText()).isEqualTo("2026-03-31T22:00:00Z");
         assertThat(report.path("fields"))
                 .extracting(field ->
@@ -93,41 +100,45 @@ class FieldsCommandGroupIT {
         assertThat(ids("list", "--at", "2026-03-01T00:00:00Z")).containsExactly("a", "b");
         assertThat(ids("list")).containsExactly("b", "c");
         assertThat(ids("list", "--versions")).containsExactly("a", "a", "b", "b", "c");
-        assertThat(said(0, "list", "--versions")).containsPattern("a +– +– +2026-03-31T22:00:00Z +ends");
+        assertThat(output(0, "list", "--versions")).containsPattern("a +– +– +2026-03-31T22:00:00Z +ends");
 
         String broken = file(FEATURE.formatted("d e", "0.01"), FEATURE.formatted("f", "0.01"));
-        assertThat(said(1, "import", broken, "--replace")).contains("REFUSED", "d e", "Not written");
+        assertThat(output(1, "import", broken, "--replace")).contains("REFUSED", "d e", "Not written");
         assertThat(err.toString()).contains("With --replace nothing is written while features are refused");
         assertThat(ids("list")).containsExactly("b", "c");
-        assertThat(said(1, "import", broken)).contains("Written: 1 added");
+        assertThat(output(1, "import", broken)).contains("Written: 1 added");
         assertThat(ids("list")).containsExactly("b", "c", "f");
     }
 
     @Test
     void replacesTheFieldsOfOneDomainOnlyWhereItIsNamed() throws Exception {
         for (String domain : List.of("north", "a-domain-with-a-name-that-is-longer-than-any-column")) {
-            said(0, "import", file(FEATURE.formatted("of-" + domain, "0.01")), "--domain", domain);
+            output(0, "import", file(FEATURE.formatted("of-" + domain, "0.01")), "--domain", domain);
         }
-        said(0, "import", file(FEATURE.formatted("of-none", "0.01")));
+        output(0, "import", file(FEATURE.formatted("of-none", "0.01")));
 
         String whole = file(FEATURE.formatted("new", "0.01"));
-        assertThat(said(0, "import", whole, "--replace", "--dry-run"))
+        assertThat(output(0, "import", whole, "--replace", "--dry-run"))
                 .containsPattern("ended +of-north +Field of-north +north +– +–")
                 .containsPattern("ended +of-none +Field of-none +– +– +–")
                 .contains("3 ended (a-domain-with-a-name-that-is-longer-than-any-column 1, no domain 1, north 1)");
-        assertThat(said(0, "import", whole, "--domain", "north", "--replace")).contains("1 ended (north 1)");
-        assertThat(said(0, "import", whole, "--domain", "south"))
+        assertThat(output(0, "import", whole, "--domain", "north", "--replace")).contains("1 ended (north 1)");
+        assertThat(output(0, "import", whole, "--domain", "south"))
                 .containsPattern("changed +new +Field new +north → south");
         assertThat(ids("list"))
                 .containsExactly("new", "of-a-domain-with-a-name-that-is-longer-than-any-column", "of-none");
-        assertThat(said(0, "list").lines().map(line -> line.indexOf("Polygon")).skip(1))
+        assertThat(output(0, "list")
+                        .lines()
+                        .map(line -> line.indexOf("Polygon"))
+                        .skip(1))
                 .as("the columns are below each other")
                 .hasSize(3)
-                .containsOnly(said(0, "list").lines().findFirst().orElseThrow().indexOf("SHAPE"));
+                .containsOnly(
+                        output(0, "list").lines().findFirst().orElseThrow().indexOf("SHAPE"));
     }
 
     @Test
-    void refusesAreasThatOthersPutThere() throws Exception {
+    void rejectsAreasThatOthersPutThere() throws Exception {
         FieldsTopic topic = topic();
         String crossing = "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[2,2],[2,0],[0,2],[0,0]]]}";
         FieldVersion bow = new FieldVersion(
@@ -144,14 +155,14 @@ class FieldsCommandGroupIT {
     }
 
     @Test
-    void saysWhatIsWrong() throws Exception {
-        said(1, "import", folder.resolve("missing").toString());
+    void reportsWhatIsWrong() throws Exception {
+        output(1, "import", folder.resolve("missing").toString());
         assertThat(err.toString())
                 .contains("missing cannot be read: there is no such file")
                 .doesNotContain("Exception");
-        said(2, "import", file(), "--valid-from", "yesterday");
+        output(2, "import", file(), "--valid-from", "yesterday");
         assertThat(err.toString()).contains("'yesterday' is no time; write for instance");
-        said(1, "list", "--kafka", "127.0.0.1:" + FreePort.orFree(0));
+        output(1, "list", "--kafka", "127.0.0.1:" + FreePort.orFree(0));
         assertThat(err.toString()).contains("cannot be read").contains("Check the address given with --kafka");
     }
 
@@ -165,22 +176,22 @@ class FieldsCommandGroupIT {
         List<String> all = new ArrayList<>(List.of(args));
         all.addAll(List.of("--output", "json"));
         List<String> ids = new ArrayList<>();
-        NgsiJson.read(said(0, all.toArray(String[]::new)).getBytes(StandardCharsets.UTF_8))
+        NgsiJson.read(output(0, all.toArray(String[]::new)).getBytes(StandardCharsets.UTF_8))
                 .path("features")
                 .forEach(feature -> ids.add(feature.path("id").asText()));
         return ids;
     }
 
-    private String said(int exitCode, String... args) {
-        StringWriter said = new StringWriter();
+    private String output(int exitCode, String... args) {
+        StringWriter output = new StringWriter();
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
-        line.setOut(new PrintWriter(said, true)).setErr(new PrintWriter(err, true));
+        line.setOut(new PrintWriter(output, true)).setErr(new PrintWriter(err, true));
         List<String> all = new ArrayList<>(List.of("fields"));
         all.addAll(List.of(args));
         if (!all.contains("--kafka")) {
             all.addAll(List.of("--kafka", kafka.bootstrapServers()));
         }
         assertThat(line.execute(all.toArray(String[]::new))).as(err.toString()).isEqualTo(exitCode);
-        return said.toString();
+        return output.toString();
     }
 }

@@ -73,7 +73,7 @@ class MissionCommandGroupTest {
     }
 
     @Test
-    void saysThatAMissionIsNotKept() {
+    void reportsThatAMissionIsNotStored() {
         assertThat(run("export", "weedin", directory.resolve("out").toString())).isNotZero();
 
         assertThat(err.toString()).contains("No mission named weedin is stored", "./furrow mission stored");
@@ -81,7 +81,7 @@ class MissionCommandGroupTest {
     }
 
     @Test
-    void saysThatMongoIsAway() {
+    void reportsThatMongoIsUnavailable() {
         mongo.close();
 
         assertThat(run("stored")).isNotZero();

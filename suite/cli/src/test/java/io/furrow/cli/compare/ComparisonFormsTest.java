@@ -55,7 +55,7 @@ class ComparisonFormsTest {
     }
 
     @Test
-    void saysHowManyLinesItLeavesOut() {
+    void reportsHowManyLinesItLeavesOut() {
         assertThat(new ComparisonTable(1).lines(DIFFERENT))
                 .contains("  … and 1 more; --limit shows more")
                 .noneMatch(line -> line.contains("< – &"));

@@ -69,7 +69,7 @@ class ComparisonTest {
 
     @ParameterizedTest
     @CsvSource({"21.6, robust, x, mean", "21.5, unverified, x, quality", "21.5, robust, y, suspects"})
-    void saysInWhatAWindowDiffers(double mean, String quality, String suspect, String member) {
+    void reportsInWhatAWindowDiffers(double mean, String quality, String suspect, String member) {
         SideResults a = side("a", average("f", 0, 21.5, "robust", "x"));
         SideResults b = side("b", average("f", 0, mean, quality, suspect));
 
@@ -96,7 +96,7 @@ class ComparisonTest {
     }
 
     @Test
-    void doesNotTakeAnEndThatIsNotToldForADifference() {
+    void doesNotTakeAnEndThatIsNotReportedForADifference() {
         SideResults a = side("a", encounter("xy", "ongoing", 2, 0, 5), entered("x", "f", 1));
         SideResults b = side("b", encounter("xy", "ended", 2, 0, 9), left("x", "f", 1, 9));
 
@@ -137,12 +137,12 @@ class ComparisonTest {
 
         assertThat(collector.spans(ResultKind.STAYS))
                 .singleElement()
-                .satisfies(stay -> assertThat(stay.subject().name()).isEqualTo("y in f"));
+                .satisfies(visit -> assertThat(visit.subject().name()).isEqualTo("y in f"));
         assertThat(collector.epoch()).isEqualTo(2);
     }
 
     @Test
-    void tellsTenantsApartOnlyWhereThereAreSeveral() {
+    void distinguishesTenantsOnlyWhereThereAreSeveral() {
         ResultCollector one = new ResultCollector(null);
         one.add(ResultKind.STAYS, 0, "farm|/", left("x", "f", 1, 2));
         ResultCollector other = new ResultCollector(null);

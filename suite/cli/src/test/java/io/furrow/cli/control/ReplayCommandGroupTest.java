@@ -24,8 +24,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** What the commands send to a control plane. */
 class ReplayCommandGroupTest {
-    private final StringWriter said = new StringWriter();
-    private final List<String> asked = new ArrayList<>();
+    private final StringWriter output = new StringWriter();
+    private final List<String> requested = new ArrayList<>();
     private HttpServer control;
     private String answer = "{\"status\":\"created\",\"replay\":\"m.0a1b2c3d\",\"topic\":\"data.m.replay.0a1b2c3d\"}";
 
@@ -34,7 +34,7 @@ class ReplayCommandGroupTest {
         control = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
         control.createContext("/", exchange -> {
             String body = new String(exchange.getRequestBody().readAllBytes(), UTF_8);
-            asked.add((exchange.getRequestMethod() + " " + exchange.getRequestURI() + " " + body).trim());
+            requested.add((exchange.getRequestMethod() + " " + exchange.getRequestURI() + " " + body).trim());
             byte[] json = answer.getBytes(UTF_8);
             exchange.sendResponseHeaders(200, json.length);
             exchange.getResponseBody().write(json);
@@ -65,10 +65,12 @@ class ReplayCommandGroupTest {
             show m.0a1b2c3d                   | GET /api/replays/m.0a1b2c3d
             missions                          | GET /api/recordings
             """)
-    void steersAReplayOrAGroup(String words, String request) {
-        assertThat(run(("replay " + words).split(" "))).as(said.toString()).isZero();
+    void steersAReplayOrAGroup(String arguments, String request) {
+        assertThat(run(("replay " + arguments).split(" ")))
+                .as(output.toString())
+                .isZero();
 
-        assertThat(asked).containsExactly(request);
+        assertThat(requested).containsExactly(request);
     }
 
     @ParameterizedTest
@@ -87,23 +89,23 @@ class ReplayCommandGroupTest {
 
         run("replay", "list");
 
-        assertThat(said.toString()).containsPattern("m\\.0a1b2c3d  –      " + shown + " +–");
+        assertThat(output.toString()).containsPattern("m\\.0a1b2c3d  –      " + shown + " +–");
     }
 
     @Test
-    void saysThatItStopped() {
+    void reportsThatItStopped() {
         answer = "{\"type\":\"response\",\"status\":\"deleted\",\"replay\":\"m.0a1b2c3d\"}";
 
         run("replay", "stop", "m.0a1b2c3d");
 
-        assertThat(said.toString()).isEqualToIgnoringNewLines("stopped: replay m.0a1b2c3d");
+        assertThat(output.toString()).isEqualToIgnoringNewLines("stopped: replay m.0a1b2c3d");
     }
 
     @Test
     void loopsBetweenTwoTimes() {
         run("replay", "loop", "m.0a1b2c3d", "2026-05-01T00:00:00Z", "1777600000000");
 
-        assertThat(asked).singleElement().asString().contains("/loop {", "\"from\":\"2026", "\"to\":1777600000000");
+        assertThat(requested).singleElement().asString().contains("/loop {", "\"from\":\"2026", "\"to\":1777600000000");
     }
 
     @ParameterizedTest
@@ -118,26 +120,26 @@ class ReplayCommandGroupTest {
             start m --range 1         | is not A..B
             start m --source-topic data.t --source-file f | one of --source-topic and --source-file
             """)
-    void refusesWordsThatDoNotFit(String words, String why) {
-        assertThat(run(("replay " + words).split(" "))).isEqualTo(2);
+    void rejectsWordsThatDoNotFit(String arguments, String why) {
+        assertThat(run(("replay " + arguments).split(" "))).isEqualTo(2);
 
-        assertThat(said.toString()).contains(why);
-        assertThat(asked).isEmpty();
+        assertThat(output.toString()).contains(why);
+        assertThat(requested).isEmpty();
     }
 
     @Test
-    void asksForAllThatAReplayCanBe() {
+    void requestsAllThatAReplayCanBe() {
         run(
                 ("replay start m --topic data.m.replay.0a1b2c3d --from 5 --to 2026-05-01T00:00:00Z --speed max --loop --devices a,b --max-gap 30s "
                                 + "--stamps now --start-at 7 --analytics collision,presence --source-file f.jsonl")
                         .split(" "));
 
-        assertThat(asked)
+        assertThat(requested)
                 .containsExactly(
                         "POST /api/replays {\"mission\":\"m\",\"topic\":\"data.m.replay.0a1b2c3d\",\"from\":5,"
                                 + "\"to\":\"2026-05-01T00:00:00Z\",\"speed\":\"max\",\"loop\":true,\"devices\":[\"a\",\"b\"],\"maxGap\":\"PT30S\","
                                 + "\"stamps\":\"now\",\"startAt\":7,\"analytics\":[\"collision\",\"presence\"],\"source\":{\"file\":\"f.jsonl\"}}");
-        assertThat(said.toString())
+        assertThat(output.toString())
                 .contains(
                         "flink run -d furrow-analytics-*-job.jar collision --name collision-of-m.0a1b2c3d --input data.m.replay.0a1b2c3d");
     }
@@ -146,24 +148,24 @@ class ReplayCommandGroupTest {
     void printsLinesForTheKafkaOfTheCluster() {
         run("replay", "start", "m", "--analytics", "collision", "--kafka", "kafka:9092");
 
-        assertThat(asked).containsExactly("POST /api/replays {\"mission\":\"m\",\"analytics\":[\"collision\"]}");
-        assertThat(said.toString())
+        assertThat(requested).containsExactly("POST /api/replays {\"mission\":\"m\",\"analytics\":[\"collision\"]}");
+        assertThat(output.toString())
                 .contains("--input data.m.replay.0a1b2c3d --bootstrap-servers kafka:9092")
                 .doesNotContain("127.0.0.1:9092");
     }
 
     @Test
-    void asksForAGroup() {
+    void requestsAGroup() {
         answer = "{\"status\":\"created\",\"group\":\"0a1b2c3d\",\"replays\":[\"m.0a1b2c3d\",\"n.0a1b2c3d\"]}";
 
         run("replay", "start", "--mission", "m", "--mission", "n", "--analytics", "collision", "--range", "1..2");
 
-        assertThat(asked)
+        assertThat(requested)
                 .singleElement()
                 .asString()
                 .startsWith("POST /api/replays {\"missions\":[\"m\",\"n\"],\"range\":{")
                 .contains("\"from\":1", "\"to\":2");
-        assertThat(said.toString())
+        assertThat(output.toString())
                 .contains(
                         "created: group 0a1b2c3d", "--input data.m.replay.0a1b2c3d", "--input data.n.replay.0a1b2c3d");
     }
@@ -174,18 +176,18 @@ class ReplayCommandGroupTest {
             add m 5 hail          | POST /api/missions/m/markers {"time":5,"note":"hail"}
             remove m a1           | DELETE /api/missions/m/markers/a1
             """)
-    void keepsMarkersOfAMission(String words, String request) {
-        assertThat(run(("mission marker " + words).split(" ")))
-                .as(said.toString())
+    void storesMarkersOfAMission(String arguments, String request) {
+        assertThat(run(("mission marker " + arguments).split(" ")))
+                .as(output.toString())
                 .isZero();
 
-        assertThat(asked).containsExactly(request);
+        assertThat(requested).containsExactly(request);
     }
 
-    private int run(String... words) {
+    private int run(String... arguments) {
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
-        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
-        List<String> all = new ArrayList<>(List.of(words));
+        line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
+        List<String> all = new ArrayList<>(List.of(arguments));
         all.add("--api=http://127.0.0.1:" + control.getAddress().getPort());
         return line.execute(all.toArray(String[]::new));
     }

@@ -43,7 +43,7 @@ class HttpUriConverterTest {
         "https://, it is not a URI",
         "http://host:99999/, there is no port 99999"
     })
-    void refusesAllElseAndSaysWhy(String text, String reason) {
+    void rejectsAllElseAndReportsWhy(String text, String reason) {
         assertThatThrownBy(() -> converter.convert(text))
                 .isInstanceOf(TypeConversionException.class)
                 .hasMessageContaining("'" + text + "'")

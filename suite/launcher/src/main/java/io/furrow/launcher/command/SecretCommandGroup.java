@@ -81,21 +81,21 @@ public final class SecretCommandGroup extends CommandGroup {
                             description =
                                     "How long the old passwords are accepted, such as 30d or 12h; 0s for not at all. Default: 30d, "
                                             + "with --api-keys 0s.")
-                    Duration keepOld,
+                    Duration retainOld,
             @Option(
                             names = "--api-keys",
                             description =
                                     "Make new API keys too. They are part of the MQTT topics: no device is heard until it has "
                                             + "its new credentials.")
                     boolean apiKeys) {
-        if (apiKeys && keepOld != null && !keepOld.isZero()) {
+        if (apiKeys && retainOld != null && !retainOld.isZero()) {
             throw new ParameterException(
                     spec.commandLine(), "with --api-keys the old credentials are of no use; leave --keep-old out");
         }
         FarmSecret secret = read(file);
-        Duration kept = keepOld == null ? apiKeys ? Duration.ZERO : Duration.ofDays(30) : keepOld;
+        Duration retained = retainOld == null ? apiKeys ? Duration.ZERO : Duration.ofDays(30) : retainOld;
         Instant now = Instant.now().truncatedTo(ChronoUnit.SECONDS);
-        FarmSecret rotated = secret.rotated(now, now.plus(kept), apiKeys);
+        FarmSecret rotated = secret.rotated(now, now.plus(retained), apiKeys);
         try {
             PrivateFile.replace(file, FarmSecretCodec.write(rotated));
         } catch (IOException e) {
@@ -103,9 +103,10 @@ public final class SecretCommandGroup extends CommandGroup {
         }
         print("%s holds key %d with the fingerprint %s.".formatted(file, rotated.newestKey(), rotated.fingerprint()));
         print(
-                kept.isZero()
+                retained.isZero()
                         ? "Passwords of key %d are refused from now on.".formatted(secret.newestKey())
-                        : "Passwords of key %d are accepted until %s.".formatted(secret.newestKey(), now.plus(kept)));
+                        : "Passwords of key %d are accepted until %s."
+                                .formatted(secret.newestKey(), now.plus(retained)));
         print(
                 "Give a copy to every process of the farm, the control plane first; then give each device its new credentials: ./furrow device credentials DEVICE");
         return 0;

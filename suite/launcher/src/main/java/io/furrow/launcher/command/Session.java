@@ -21,7 +21,7 @@ import io.furrow.launcher.suite.SuiteSettings;
 /** A suite at the terminal: started, shown, stopped by Ctrl-C within ten seconds; the JVM ends later where it then stores its classes. */
 final class Session {
     private static final Logger LOG = LoggerFactory.getLogger(Session.class);
-    private static final Duration STOP_WITHIN = Duration.ofMillis(9_500);
+    private static final Duration STOP_TIMEOUT = Duration.ofMillis(9_500);
     private static final int STOPPED_BY_INTERRUPT = 130;
     /** Set by the script where the JVM stores its classes when it ends, after all else. */
     private static final String STORES_CLASSES = "furrow.stores.classes";
@@ -97,7 +97,7 @@ final class Session {
             drawn.close();
         }
         try {
-            long timeout = started ? STOP_WITHIN.toMillis() : 0;
+            long timeout = started ? STOP_TIMEOUT.toMillis() : 0;
             if (!stopped.await(timeout, TimeUnit.MILLISECONDS)) {
                 directory.close();
                 Runtime.getRuntime().halt(STOPPED_BY_INTERRUPT);

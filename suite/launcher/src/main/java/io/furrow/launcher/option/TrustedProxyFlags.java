@@ -126,11 +126,11 @@ public final class TrustedProxyFlags {
             return GROUPS;
         }
         Map<String, UserRole> roles = new HashMap<>();
-        groupRoles.forEach((group, word) -> {
-            UserRole role = GROUPS.get(word);
+        groupRoles.forEach((group, code) -> {
+            UserRole role = GROUPS.get(code);
             if (role == null) {
                 throw new IllegalArgumentException(
-                        "'%s' is no role for the group '%s'; it is viewer, operator or admin".formatted(word, group));
+                        "'%s' is no role for the group '%s'; it is viewer, operator or admin".formatted(code, group));
             }
             roles.put(group, role);
         });

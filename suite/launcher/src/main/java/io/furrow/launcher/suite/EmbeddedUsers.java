@@ -6,8 +6,8 @@ import io.furrow.provisioner.account.InMemoryAccounts;
 /** The accounts of provisioned devices as users of the embedded MQTT broker. */
 record EmbeddedUsers(InMemoryAccounts accounts) implements EmbeddedMqtt.Users {
     @Override
-    public boolean knows(String user, byte[] password) {
-        return accounts.knows(user, password);
+    public boolean authenticates(String user, byte[] password) {
+        return accounts.authenticates(user, password);
     }
 
     @Override

@@ -28,7 +28,7 @@ final class Jobs {
     private static final Logger LOG = LoggerFactory.getLogger(Jobs.class);
     private static final long SAVEPOINT_SECONDS = 4;
     private static final Duration CHECKPOINT = Duration.ofSeconds(1);
-    private static final Duration BETWEEN_CHECKS = Duration.ofMillis(10);
+    private static final Duration CHECK_INTERVAL = Duration.ofMillis(10);
     /** Within one process a record need not wait for company, and a thread per task need not look for those that do. */
     private static final long AT_ONCE = 0;
 
@@ -60,7 +60,7 @@ final class Jobs {
     synchronized void awaitStarted() {
         running.forEach((name, job) -> {
             while (flink.status(job) == JobStatus.INITIALIZING) {
-                Sleep.of(BETWEEN_CHECKS);
+                Sleep.of(CHECK_INTERVAL);
             }
             if (flink.status(job) == JobStatus.FAILED) {
                 Path state = directory.resolve(name);
@@ -93,7 +93,7 @@ final class Jobs {
     private void awaitEnd(JobID job) {
         long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(SAVEPOINT_SECONDS);
         while (System.nanoTime() < end && !flink.status(job).isGloballyTerminalState()) {
-            Sleep.of(BETWEEN_CHECKS);
+            Sleep.of(CHECK_INTERVAL);
         }
     }
 
@@ -116,7 +116,7 @@ final class Jobs {
     /** Waits for a checkpoint that is under way: a stop would abort it, which Flink reports as a failure. */
     private void awaitCheckpoint(JobID job, long end) {
         while (System.nanoTime() < end && isTakingCheckpoint(job)) {
-            Sleep.of(BETWEEN_CHECKS);
+            Sleep.of(CHECK_INTERVAL);
         }
     }
 

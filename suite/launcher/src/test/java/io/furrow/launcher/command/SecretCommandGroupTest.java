@@ -79,7 +79,7 @@ class SecretCommandGroupTest {
     }
 
     @Test
-    void refusesTheOldPasswordsAtOnceWhereThatIsAskedFor() throws Exception {
+    void rejectsTheOldPasswordsAtOnceWhereThatIsRequested() throws Exception {
         assertThat(secret("rotate", "--keep-old", "0s")).isZero();
 
         FarmSecret after = FarmSecret.read(file);
@@ -88,7 +88,7 @@ class SecretCommandGroupTest {
     }
 
     @Test
-    void makesNewApiKeysOnlyWhereThatIsAskedFor() throws Exception {
+    void makesNewApiKeysOnlyWhereThatIsRequested() throws Exception {
         FarmSecret before = FarmSecret.read(file);
 
         assertThat(secret("rotate", "--api-keys")).isZero();
@@ -115,7 +115,7 @@ class SecretCommandGroupTest {
     }
 
     @Test
-    void saysWhatToDoWhereThereIsNoFile() {
+    void reportsWhatToDoWhereThereIsNoFile() {
         file = directory.resolve("missing");
 
         assertThat(secret("rotate")).isNotZero();
@@ -126,8 +126,8 @@ class SecretCommandGroupTest {
     }
 
     private int secret(String command, String... options) {
-        List<String> words = new ArrayList<>(List.of("secret", command, file.toString()));
-        words.addAll(List.of(options));
-        return furrow.execute(words.toArray(String[]::new));
+        List<String> arguments = new ArrayList<>(List.of("secret", command, file.toString()));
+        arguments.addAll(List.of(options));
+        return furrow.execute(arguments.toArray(String[]::new));
     }
 }

@@ -132,7 +132,7 @@ class AnalyticsReconcilerTest {
     }
 
     @Test
-    void startsAllJobsOfAReplayOrNoneAndSaysSo() throws Exception {
+    void startsAllJobsOfAReplayOrNoneAndReportsSo() throws Exception {
         progress(0, 10);
         cluster.room = 3;
         DesiredAnalytics second = running(B, "collision", "presence");

@@ -61,9 +61,9 @@ final class PredictionConsumer implements RestartingWorker.Work, ConsumerRebalan
     }
 
     @Override
-    public void run(RestartingWorker follower) throws InterruptedException {
+    public void run(RestartingWorker worker) throws InterruptedException {
         while (!types.isLoaded()) {
-            if (follower.isClosing()) {
+            if (worker.isClosing()) {
                 return;
             }
             TimeUnit.MILLISECONDS.sleep(POLL.toMillis());
@@ -72,7 +72,7 @@ final class PredictionConsumer implements RestartingWorker.Work, ConsumerRebalan
                 new KafkaConsumer<>(settings(), new StringDeserializer(), new ByteArrayDeserializer())) {
             consumer = subscribed;
             consumer.subscribe(List.of(Topics.COLLISION), this);
-            while (!follower.isClosing()) {
+            while (!worker.isClosing()) {
                 consumer.poll(POLL).forEach(this::take);
             }
         } finally {

@@ -44,9 +44,9 @@ public final class AnalyticsAlarms {
     /** @param collisions the records of {@code data.collision}, in a single partition */
     public static void addEncounters(
             KStream<String, byte[]> collisions, Types types, EncounterAlarmProcessor.AlarmDurations holds) {
-        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, publisher) -> {
             EncounterAlarmProcessor watch = new EncounterAlarmProcessor(
-                    AlarmManager.handler(context, outbox), types.opening().apply(context), holds);
+                    AlarmManager.handler(context, publisher), types.opening().apply(context), holds);
             return (record, now) -> {
                 if (record.value() != null) {
                     watch.take(EncounterReport.read(record.value(), RecordScope.of(record)), now);
@@ -59,9 +59,9 @@ public final class AnalyticsAlarms {
     /** @param temperatures the records of {@code data.temperature}, in a single partition */
     public static void addSensors(StreamsBuilder builder, KStream<String, byte[]> temperatures, Types types) {
         builder.addStateStore(StoreTable.builder(SensorAlarmProcessor.RUNS));
-        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, publisher) -> {
             SensorAlarmProcessor watch = new SensorAlarmProcessor(
-                    AlarmManager.handler(context, outbox),
+                    AlarmManager.handler(context, publisher),
                     types.opening().apply(context),
                     StoreTable.of(context, SensorAlarmProcessor.RUNS, SuspectStreaks.class));
             return new SensorObserver(watch);
@@ -71,9 +71,9 @@ public final class AnalyticsAlarms {
 
     /** @param clocks the records of {@code data.clocks}, in a single partition */
     public static void addClocks(KStream<String, byte[]> clocks, Types types) {
-        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, publisher) -> {
             ClockAlarmProcessor watch = new ClockAlarmProcessor(
-                    AlarmManager.handler(context, outbox), types.opening().apply(context));
+                    AlarmManager.handler(context, publisher), types.opening().apply(context));
             return (record, now) -> {
                 if (record.value() != null) {
                     watch.take(record.value(), RecordScope.of(record), now);
@@ -85,8 +85,8 @@ public final class AnalyticsAlarms {
 
     /** @param faults the records of {@code service.faults}, in a single partition */
     public static void addFaults(KStream<String, byte[]> faults, Types types) {
-        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
-            AlarmCommandHandler alarms = AlarmManager.handler(context, outbox);
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, publisher) -> {
+            AlarmCommandHandler alarms = AlarmManager.handler(context, publisher);
             return (record, now) -> {
                 if (record.key() != null && record.value() != null) {
                     String text = Fault.read(record.value()).text();
@@ -101,7 +101,7 @@ public final class AnalyticsAlarms {
     public static void addStarts(KStream<String, byte[]> statuses, Types types) {
         send(
                 statuses,
-                (context, outbox) -> new StartAlarmProcessor(AlarmManager.handler(context, outbox)),
+                (context, publisher) -> new StartAlarmProcessor(AlarmManager.handler(context, publisher)),
                 types,
                 "starts");
     }

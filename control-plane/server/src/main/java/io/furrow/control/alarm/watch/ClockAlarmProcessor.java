@@ -49,8 +49,8 @@ final class ClockAlarmProcessor {
                 device,
                 entity.number(ClockResult.LATE).orElse(0.0) / 1000);
         String type = entity.text(ClockResult.DEVICE_TYPE).orElse("");
-        String known = type.isEmpty() ? types.apply(scope.identity(device)) : type;
-        List<Cause.AffectedDevice> devices = List.of(Cause.AffectedDevice.of(device, known, scope));
+        String existing = type.isEmpty() ? types.apply(scope.identity(device)) : type;
+        List<Cause.AffectedDevice> devices = List.of(Cause.AffectedDevice.of(device, existing, scope));
         Cause cause = new Cause(AlarmKind.CLOCK_BEHIND, device, text, devices, HOLDS)
                 .identifiedBy(scope.identity(type, device));
         alarms.raise(cause.inGroup(AlarmGroup.of(entity.text("Mission").orElse(""), "")), now);

@@ -69,12 +69,12 @@ public final class DeviceTypeCache implements RestartingWorker.Work, Function<St
      */
     @Override
     public String apply(String identity) {
-        Types known = types;
-        if (known == null) {
+        Types existing = types;
+        if (existing == null) {
             return null;
         }
-        String reported = known.reported().get(identity);
-        return reported == null ? known.desired().get(identity) : reported;
+        String reported = existing.reported().get(identity);
+        return reported == null ? existing.desired().get(identity) : reported;
     }
 
     /** Whether all records that existed at the start were read. */
@@ -83,22 +83,23 @@ public final class DeviceTypeCache implements RestartingWorker.Work, Function<St
     }
 
     public String detail() {
-        Types known = types;
-        return known == null
+        Types existing = types;
+        return existing == null
                 ? "reads the types of devices"
                 : "%d desired and %d reported types"
-                        .formatted(known.desired().size(), known.reported().size());
+                        .formatted(
+                                existing.desired().size(), existing.reported().size());
     }
 
     @Override
-    public void run(RestartingWorker follower) {
+    public void run(RestartingWorker worker) {
         try (CommittedReader<String> reader = CommittedReader.open(client, Topics.DEVICES, Topics.DEVICES_HEALTH)) {
             Types fresh = new Types(new ConcurrentHashMap<>(), new ConcurrentHashMap<>());
-            while (!follower.isClosing()) {
+            while (!worker.isClosing()) {
                 ConsumerRecords<String, byte[]> records = reader.poll(POLL);
                 records.forEach(fresh::take);
                 if (!records.isEmpty()) {
-                    follower.succeeded();
+                    worker.succeeded();
                 }
                 if (types != fresh && reader.isCaughtUp()) {
                     types = fresh;

@@ -60,10 +60,10 @@ public record EncounterReport(
     /**
      * Returns the type of a member's entity; null if unknown.
      *
-     * @param known types by tenant, service path and id, for records that name none
+     * @param existing types by tenant, service path and id, for records that name none
      */
-    public String typeOf(Member member, Function<String, String> known) {
-        return member.type().isEmpty() ? known.apply(scope.identity(member.id())) : member.type();
+    public String typeOf(Member member, Function<String, String> existing) {
+        return member.type().isEmpty() ? existing.apply(scope.identity(member.id())) : member.type();
     }
 
     /** Returns the mission of the first device that has one; empty if neither has. */
@@ -73,8 +73,8 @@ public record EncounterReport(
 
     /** Returns the distance as text with its unit. */
     String meters() {
-        double said = Double.isNaN(minDistance) ? distance : minDistance;
-        return String.format(Locale.ROOT, "%.1f m", said);
+        double message = Double.isNaN(minDistance) ? distance : minDistance;
+        return String.format(Locale.ROOT, "%.1f m", message);
     }
 
     private static Member member(Entity entity, CollisionResult.Member names) throws UnreadableException {

@@ -25,7 +25,7 @@ final class SensorAlarmProcessor {
     /** Runs of a field without windows for this time are discarded. */
     private static final Duration REMEMBERED = Duration.ofDays(1);
 
-    private static final long CLEARING_EVERY = Duration.ofHours(1).toMillis();
+    private static final long CLEARING_INTERVAL = Duration.ofHours(1).toMillis();
 
     private final AlarmCommandHandler alarms;
     private final Function<String, String> types;
@@ -40,9 +40,9 @@ final class SensorAlarmProcessor {
 
     /** @param now epoch ms */
     void take(FieldWindow window, FiwareScope scope, long now) {
-        SuspectStreaks known = runsOf(scope.identity(window.field()), window.windowEnd());
-        SuspectStreaks run = known.after(window);
-        if (run == known) {
+        SuspectStreaks existing = runsOf(scope.identity(window.field()), window.windowEnd());
+        SuspectStreaks run = existing.after(window);
+        if (run == existing) {
             return;
         }
         runs.put(run.field(), run); // also without suspects: a late, earlier window must not count
@@ -67,7 +67,7 @@ final class SensorAlarmProcessor {
         if (now < nextClearing) {
             return;
         }
-        nextClearing = now + CLEARING_EVERY;
+        nextClearing = now + CLEARING_INTERVAL;
         List<String> passed = new ArrayList<>();
         runs.forEach(run -> {
             if (run.windowEnd() + REMEMBERED.toMillis() <= now) {
@@ -78,9 +78,9 @@ final class SensorAlarmProcessor {
     }
 
     private SuspectStreaks runsOf(String field, long time) {
-        SuspectStreaks known = runs.get(field);
-        return known == null || known.windowEnd() + REMEMBERED.toMillis() <= time
+        SuspectStreaks existing = runs.get(field);
+        return existing == null || existing.windowEnd() + REMEMBERED.toMillis() <= time
                 ? new SuspectStreaks(field, Long.MIN_VALUE, Map.of())
-                : known;
+                : existing;
     }
 }

@@ -35,14 +35,14 @@ final class DelegatedUser {
                     "the token of '%s' speaks for nobody else; only one whose line in the file of tokens ends with 'for-users' may send %s and %s"
                             .formatted(token.name(), USER, ROLE));
         }
-        Optional<Role> most = role == null ? Optional.empty() : Role.of(role);
-        if (user == null || !NAME.matcher(user).matches() || most.isEmpty()) {
+        Optional<Role> userRole = role == null ? Optional.empty() : Role.of(role);
+        if (user == null || !NAME.matcher(user).matches() || userRole.isEmpty()) {
             throw new ProblemException(
                     400,
                     "wrong-header",
                     "the token of '%s' speaks for users: %s must be a name of 1 to 64 of A-Z a-z 0-9 _ . @ -, and %s viewer, operator or admin"
                             .formatted(token.name(), USER, ROLE));
         }
-        return token.speakingFor(user, most.get());
+        return token.speakingFor(user, userRole.get());
     }
 }

@@ -55,11 +55,11 @@ public final class ProblemException extends RuntimeException {
     }
 
     /** @param bytes below 0 if they were not counted */
-    public static ProblemException tooLarge(long bytes, int most) {
+    public static ProblemException tooLarge(long bytes, int max) {
         return new ProblemException(
                 ErrorCode.TOO_LARGE,
                 "the request has %s bytes, and may have %d; send a long list of devices or fields in several requests"
-                        .formatted(bytes < 0 ? "more" : Long.toString(bytes), most));
+                        .formatted(bytes < 0 ? "more" : Long.toString(bytes), max));
     }
 
     public static ProblemException notReady() {

@@ -14,7 +14,7 @@ import jakarta.ws.rs.container.ContainerRequestContext;
 public record RequestContext(String user, String requestId) {
     public static final String KEY = "Idempotency-Key";
     /** As user, where no token is asked for. */
-    static final String ANYBODY = "rest";
+    static final String ANONYMOUS = "rest";
 
     private static final Pattern REQUEST_ID = Pattern.compile("[!-~]{1,200}");
 
@@ -28,6 +28,6 @@ public record RequestContext(String user, String requestId) {
     }
 
     public static String user(ContainerRequestContext request) {
-        return request.getProperty(TokenFilter.TOKEN) instanceof ApiToken token ? token.name() : ANYBODY;
+        return request.getProperty(TokenFilter.TOKEN) instanceof ApiToken token ? token.name() : ANONYMOUS;
     }
 }

@@ -58,9 +58,9 @@ public final class TokenFilter implements ContainerRequestFilter {
         Matcher bearer = HEADER.matcher(header == null ? "" : header);
         Optional<ApiToken> token = bearer.matches() ? ApiToken.find(tokens.get(), bearer.group(1)) : Optional.empty();
         if (token.isEmpty()) {
-            String said =
+            String message =
                     header == null ? "has no header 'Authorization: Bearer <token>'" : "has no token that is known";
-            request.abortWith(new ProblemException(401, "unauthorized", "the request " + said).response());
+            request.abortWith(new ProblemException(401, "unauthorized", "the request " + message).response());
         } else {
             try {
                 request.setProperty(TOKEN, DelegatedUser.caller(request, token.get()));

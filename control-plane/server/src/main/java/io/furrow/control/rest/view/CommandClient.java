@@ -59,11 +59,11 @@ public final class CommandClient implements AutoCloseable {
      *
      * @throws ProblemException where answers are not heard yet, the id was given to another request, or too many wait already
      */
-    public CompletionStage<CommandResult> ask(CommandRequest question, RequestContext caller) {
+    public CompletionStage<CommandResult> request(CommandRequest question, RequestContext caller) {
         if (!view.isComplete()) {
             throw ProblemException.notReady();
         }
-        byte[] value = value(request(question, caller));
+        byte[] value = value(message(question, caller));
         PendingReplies.Key key = new PendingReplies.Key(question.topic(), caller.requestId());
         PendingReplies.Awaited mine =
                 new PendingReplies.Awaited(RequestFingerprint.of(value), new CompletableFuture<>());
@@ -86,7 +86,7 @@ public final class CommandClient implements AutoCloseable {
             if (answers.awaited() > MAX_AWAITED) {
                 throw ProblemException.overloaded();
             }
-            answers.known(key, mine.fingerprint())
+            answers.find(key, mine.fingerprint())
                     .ifPresentOrElse(
                             future::complete,
                             () -> sender.send(
@@ -102,7 +102,7 @@ public final class CommandClient implements AutoCloseable {
         }
     }
 
-    private static ObjectNode request(CommandRequest question, RequestContext caller) {
+    private static ObjectNode message(CommandRequest question, RequestContext caller) {
         ObjectNode request = question.members().deepCopy();
         return request.put("type", "request")
                 .put("requestId", caller.requestId())

@@ -77,13 +77,13 @@ public final class DeviceView {
         boolean current =
                 status.path("sequence").longValue() >= device.path("sequence").longValue();
         try {
-            DeviceConnection known = DeviceConnection.read(NgsiJson.write(connection));
+            DeviceConnection existing = DeviceConnection.read(NgsiJson.write(connection));
             if (heard >= from && heard > 0) {
                 boolean silent = device.path("health").path("silent").booleanValue();
-                return silent ? SilenceCause.of(known, heard) : Optional.empty();
+                return silent ? SilenceCause.of(existing, heard) : Optional.empty();
             }
             String failure = current ? status.path("reason").textValue() : null;
-            return Optional.of(SilenceCause.ofUnheard(known, failure, from));
+            return Optional.of(SilenceCause.ofUnheard(existing, failure, from));
         } catch (UnreadableException e) { // a later version wrote it, or somebody else: it is shown as it is
             return Optional.empty();
         }

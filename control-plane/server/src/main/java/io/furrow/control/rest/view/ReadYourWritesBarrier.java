@@ -46,12 +46,12 @@ final class ReadYourWritesBarrier {
      * @throws KafkaException where the ends could not be had
      */
     void release(ToLongFunction<TopicPartition> position) {
-        while (!held.isEmpty() && isSeen(held.peek(), position)) {
+        while (!held.isEmpty() && isVisible(held.peek(), position)) {
             held.remove().answers().forEach(answers::release);
         }
     }
 
-    private static boolean isSeen(HeldResponse one, ToLongFunction<TopicPartition> position) {
+    private static boolean isVisible(HeldResponse one, ToLongFunction<TopicPartition> position) {
         if (!one.ends().isDone()) {
             return false;
         }

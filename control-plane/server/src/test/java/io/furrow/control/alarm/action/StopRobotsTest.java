@@ -64,7 +64,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void triesAgainAndSaysWhatBecameOfIt() {
+    void triesAgainAndReportsWhatBecameOfIt() {
         failing = StopRobots.ATTEMPTS - 1;
         robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
         assertThat(sent).hasSize(StopRobots.ATTEMPTS);
@@ -77,7 +77,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void stopsNobodyForAnOldPredictionAndSaysSoOnce() {
+    void stopsNobodyForAnOldPredictionAndReportsSoOnce() {
         long old = NOW - StopRobots.FRESH.toMillis() - 1;
         robots.take(encounter("e-1", "predicted", "r1", "cam"), old);
         robots.take(encounter("e-1", "predicted", "r1", "cam"), old);
@@ -116,7 +116,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void saysThatItCouldNotStopWhatItDoesNotKnowAndDoesOnceItDoes() {
+    void reportsThatItCouldNotStopWhatItHasNotReadAndDoesOnceItDoes() {
         robots.take(encounter("e-1", "predicted", "r2", "cam"), NOW);
         robots.take(encounter("e-1", "predicted", "r2", "cam"), NOW);
         assertThat(sent).isEmpty();
@@ -128,7 +128,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void saysThatMoreRobotsWaitThanMay() {
+    void reportsThatMoreRobotsWaitThanMay() {
         executor = task -> {
             throw new RejectedExecutionException("full");
         };

@@ -9,7 +9,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class SuspectStreaksTest {
     @Test
-    void tellsSensorsApartWhoseTypesAndIdsContainBars() {
+    void distinguishesSensorsWhoseTypesAndIdsContainBars() {
         FieldWindow.Suspect odd = new FieldWindow.Suspect("c", "a|b");
         SuspectStreaks runs = new SuspectStreaks("f", 0, Map.of())
                 .after(new FieldWindow("f", 20.0, List.of(odd), 0, 60_000, null, true));

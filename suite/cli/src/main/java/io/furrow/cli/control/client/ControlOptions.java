@@ -140,7 +140,7 @@ public final class ControlOptions {
     public int commandDone(String method, String path, String done) {
         return run(api -> {
             JsonNode answer = api.send(method, path, null);
-            answered(answer, done + ": " + said(answer));
+            answered(answer, done + ": " + message(answer));
         });
     }
 
@@ -151,7 +151,7 @@ public final class ControlOptions {
 
     /** Prints the answer to a command. */
     public void answered(JsonNode answer) throws IOException {
-        answered(answer, answer.path("status").asText("done") + ": " + said(answer));
+        answered(answer, answer.path("status").asText("done") + ": " + message(answer));
     }
 
     /** Prints the answer to a command. @param sentence what it did, for people */
@@ -163,7 +163,7 @@ public final class ControlOptions {
         }
     }
 
-    private static String said(JsonNode answer) {
+    private static String message(JsonNode answer) {
         return answer.properties().stream()
                 .filter(each -> !each.getKey().equals("type")
                         && !each.getKey().equals("status")
