@@ -1,19 +1,13 @@
 package io.furrow.analytics.temperature;
 
-import java.io.InputStream;
-import java.nio.charset.StandardCharsets;
-import java.util.Base64;
 import java.util.Random;
 
 import org.apache.flink.api.common.serialization.SerializerConfigImpl;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeutils.TypeSerializer;
-import org.apache.flink.api.common.typeutils.TypeSerializerSnapshot;
-import org.apache.flink.core.memory.DataInputDeserializer;
 import org.apache.flink.core.memory.DataOutputSerializer;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.model.event.FiwareScope;
 import io.furrow.model.position.Position;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -49,39 +43,6 @@ class CollectReadingsTest {
         DataOutputSerializer out = new DataOutputSerializer(1024);
         serializer().serialize(readings, out);
         assertThat(out.length()).isLessThan(1_000);
-    }
-
-    @Test
-    void goesOnWithStateInWhichValuesWereNotCounted() throws Exception {
-        DataInputDeserializer in = new DataInputDeserializer(stored());
-        TypeSerializerSnapshot<DeviceReadings> before =
-                TypeSerializerSnapshot.readVersionedSnapshot(in, getClass().getClassLoader());
-        assertThat(serializer()
-                        .snapshotConfiguration()
-                        .resolveSchemaCompatibility(before)
-                        .isCompatibleAfterMigration())
-                .isTrue();
-
-        DeviceReadings restored = before.restoreSerializer().deserialize(in);
-
-        assertThat(restored.values()).containsExactly(20.0, 18.0, 20.0);
-        assertThat(restored.scope()).isEqualTo(new InputScope("data.raw", new FiwareScope("farm", "/")));
-        assertThat(restored.all().get(0).median()).isEqualTo(20);
-        DeviceReadings more = collect.add(reading(18), restored);
-        assertThat(more.values()).containsExactly(18.0, 20.0);
-        assertThat(more.times()).containsExactly(2, 2);
-        assertThat(more.all().get(0).median()).isEqualTo(19);
-        assertThat(more.all())
-                .as("a device without a type is that of the next reading")
-                .hasSize(1);
-    }
-
-    /** Its serializer's snapshot, and three values of a device. */
-    private static byte[] stored() throws Exception {
-        try (InputStream file =
-                CollectReadingsTest.class.getResourceAsStream("/state/device-readings-without-times.txt")) {
-            return Base64.getDecoder().decode(new String(file.readAllBytes(), StandardCharsets.US_ASCII).trim());
-        }
     }
 
     private static TypeSerializer<DeviceReadings> serializer() {

@@ -20,8 +20,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 class ContextEntitiesTest {
     private static final String DOMAIN = "{'domain':'north','name':'North','description':'Behind the \\\"barn\\\"',"
             + "'fields':['f1','f2'],'created':1,'changed':2,'sequence':1}";
-    private static final String MISSION = "{'mission':'m','domain':'north','template':'thesis-demo@1','devices':"
-            + "[{'type':'Camera','count':2},'robot-1'],'running':true,'start':5,'created':1,'sequence':2}";
+    private static final String MISSION = "{'mission':'m','domain':'north','template':'thesis-demo@1','parts':1,"
+            + "'deviceCount':3,'running':true,'start':5,'created':1,'sequence':2}";
     private static final Duration SECOND = Duration.ofSeconds(1);
 
     private final FarmWatchFixture farm = new FarmWatchFixture();
