@@ -7,7 +7,7 @@ import { icon } from './core/icons.js';
 import { linkTo, navigate, onRoute, route } from './core/router.js';
 import { store } from './core/store.js';
 import { settingsMenu } from './settings.js';
-import { mayLeave, signIn, signInAgain, signOut, signedIn, takeTokenOfLink } from './sign-in.js';
+import { mayLeave, signIn, signInAgain, signOut, signedIn, readTokenFromLink } from './sign-in.js';
 import { t } from './texts.js';
 
 const PLACES = [
@@ -122,18 +122,18 @@ class App extends HTMLElement {
   /** A link to a moment of a replay: `#/map?replay=R&at=ISO`. */
   async followLink() {
     const { replay, at } = route.query;
-    const known = replay && store.replays.get(replay);
+    const existing = replay && store.replays.get(replay);
     const link = `${replay} ${at}`;
-    if (!known?.topic || this.followed === link) {
+    if (!existing?.topic || this.followed === link) {
       return;
     }
     this.followed = link;
     if (store.mode.replay !== replay) {
-      store.enterReplay(known);
+      store.enterReplay(existing);
     }
     if (at && store.may('operate')) {
       const to = Number.isNaN(Number(at)) ? at : Number(at);
-      await api.post(`/api/replays/${encodeURIComponent(replay)}/seek`, { to }).catch((error) => this.say(error.message));
+      await api.post(`/api/replays/${encodeURIComponent(replay)}/seek`, { to }).catch((error) => this.announce(error.message));
     }
   }
 
@@ -193,7 +193,7 @@ class App extends HTMLElement {
     }
   }
 
-  say(text) {
+  announce(text) {
     setText(this.announcer, text);
   }
 
@@ -279,6 +279,6 @@ function unreachable(error) {
   retrying = setTimeout(start, Math.min(RETRY_MOST, RETRY_MILLIS * 2 ** (failures - 1)));
 }
 
-takeTokenOfLink();
+readTokenFromLink();
 loadFirst();
 start();

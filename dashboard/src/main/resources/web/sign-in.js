@@ -9,7 +9,7 @@ import { t } from './texts.js';
 const AWAY = 'furrow-signing-in';
 
 /** A link with `#token=…` signs in; the token leaves the address bar at once. */
-export function takeTokenOfLink() {
+export function readTokenFromLink() {
   const found = /^#token=([^&]+)/.exec(location.hash);
   if (found) {
     api.token = decodeURIComponent(found[1]);

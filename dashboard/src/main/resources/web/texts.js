@@ -58,7 +58,7 @@ export const texts = {
   },
 
   kinds: { robot: 'robot', sensor: 'sensor', camera: 'camera', other: 'device' },
-  states: { ok: 'reporting', look: 'needs a look', stale: 'silent', off: 'off' },
+  states: { ok: 'reporting', attention: 'needs a look', stale: 'silent', off: 'off' },
 
   // ------------------------------------------------------------------------------------------------------------------
 

@@ -14,7 +14,7 @@ const SHOWN = 20;
 class FurrowAlarms extends HTMLElement {
   connectedCallback() {
     this.failures = new Map();
-    this.known = null;
+    this.announced = null;
     this.count = h('span.numbers');
     this.list = h('ul.alarm-list');
     this.fold = h('details.alarm-fold', { hidden: true }, h('summary'), h('ul.alarm-list'));
@@ -22,7 +22,7 @@ class FurrowAlarms extends HTMLElement {
     this.liveNote = h('p.small.muted', { hidden: true }, t('alarms.liveInReplay'));
     this.polite = h('div.visually-hidden', { 'aria-live': 'polite' });
     this.assertive = h('div.visually-hidden', { 'aria-live': 'assertive' });
-    this.notify = h('button.button.quiet.small', { type: 'button', hidden: true, on: { click: () => this.askForNotifications() } }, icon('bell', 16), t('alarms.notify'));
+    this.notify = h('button.button.quiet.small', { type: 'button', hidden: true, on: { click: () => this.requestPermission() } }, icon('bell', 16), t('alarms.notify'));
     replace(this, h('h2.section-title', null, h('span', null, t('alarms.title')), this.count), this.liveNote, this.none, this.list, this.fold, this.notify, this.polite, this.assertive);
     this.rows = new Map();
     this.offs = [...['alarms', 'filter', 'fields'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => this.drawAges()), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
@@ -38,10 +38,10 @@ class FurrowAlarms extends HTMLElement {
     const [open, quiet] = [all.open.filter(isFound), all.quiet.filter(isFound)];
     const others = all.open.length - open.length;
     this.none.hidden = open.length > 0;
-    this.none.classList.toggle('is-reading', !store.alarmsKnown || others > 0);
-    setText(this.none.lastChild, t(!store.alarmsKnown ? 'alarms.reading' : others > 0 ? 'alarms.noMatch' : 'alarms.none'));
+    this.none.classList.toggle('is-reading', !store.alarmsLoaded || others > 0);
+    setText(this.none.lastChild, t(!store.alarmsLoaded ? 'alarms.reading' : others > 0 ? 'alarms.noMatch' : 'alarms.none'));
     this.liveNote.hidden = !store.isReplay;
-    setText(this.count, store.alarmsKnown ? t('alarms.open', { count: all.open.length }) : '');
+    setText(this.count, store.alarmsLoaded ? t('alarms.open', { count: all.open.length }) : '');
     const used = new Set();
     this.fill(this.list, open.slice(0, SHOWN), used);
     this.fill(this.fold.lastChild, quiet.slice(0, SHOWN), used);
@@ -118,21 +118,21 @@ class FurrowAlarms extends HTMLElement {
 
   /** Those that are new since the page was opened. */
   announce(open) {
-    if (!store.alarmsKnown) {
+    if (!store.alarmsLoaded) {
       return;
     }
     const ids = new Set(open.map((each) => each.alarm));
-    if (this.known) {
-      for (const alarm of open.filter((each) => !this.known.has(each.alarm))) {
+    if (this.announced) {
+      for (const alarm of open.filter((each) => !this.announced.has(each.alarm))) {
         const place = alarm.severity === 'critical' ? this.assertive : this.polite;
         setText(place, t('alarms.announced', { severity: alarm.severity, text: textOf(alarm) }));
-        tell(alarm);
+        showNotification(alarm);
       }
     }
-    this.known = ids;
+    this.announced = ids;
   }
 
-  async askForNotifications() {
+  async requestPermission() {
     await Notification.requestPermission();
     this.draw();
   }
@@ -175,7 +175,7 @@ function show(alarm) {
 }
 
 /** Who sees the page needs no notification. */
-function tell(alarm) {
+function showNotification(alarm) {
   if (document.hidden && 'Notification' in window && Notification.permission === 'granted' && (alarm.severity === 'critical' || alarm.severity === 'major')) {
     const shown = new Notification(t('alarms.notification', { severity: alarm.severity }), { body: textOf(alarm), tag: alarm.alarm });
     shown.onclick = () => { window.focus(); show(alarm); };

@@ -15,7 +15,7 @@ const COMMAND = /_(status|info)$/;
  * @param {import('../core/entity.js').Entity} entity
  * @returns {{name: string, label: string, value: string, unit: string}[]} those that tell most, at most three
  */
-export function telling(entity, most = 3) {
+export function keyAttributes(entity, most = 3) {
   const found = [];
   for (const [name, attribute] of Object.entries(entity.attributes)) {
     if (SILENT.has(name) || COMMAND.test(name) || attribute.value === '' || attribute.value === null || typeof attribute.value === 'object') {
@@ -28,8 +28,8 @@ export function telling(entity, most = 3) {
 }
 
 function rankOf(name, attribute) {
-  const known = FIRST.indexOf(name.toLowerCase());
-  return known >= 0 ? known : typeof attribute.value === 'number' ? 100 : 200;
+  const rank = FIRST.indexOf(name.toLowerCase());
+  return rank >= 0 ? rank : typeof attribute.value === 'number' ? 100 : 200;
 }
 
 /** All attributes, as texts. @returns {{name: string, type: string, value: string}[]} */

@@ -5,14 +5,14 @@ import { h, replace, setText } from '../core/dom.js';
 import { icon } from '../core/icons.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
-import { allAttributes, lineOf, telling } from './attributes.js';
+import { allAttributes, lineOf, keyAttributes } from './attributes.js';
 import { sentencesOf } from './connection.js';
 import { commandsOf, infoOf, isPointless, outcomeOf } from './commands.js';
 import { Picture } from './picture.js';
 import { Sparkline } from './sparkline.js';
 
 /** How often the control plane is asked how a device is connected while its details are open. */
-const ASK_EVERY = 10_000;
+const REQUEST_INTERVAL = 10_000;
 
 export class Card {
   /** @param {import('../core/entity.js').Entity} entity */
@@ -20,7 +20,7 @@ export class Card {
     this.entity = entity;
     this.sent = null;
     this.open = false;
-    this.asked = -Infinity;
+    this.requestedAt = -Infinity;
     this.connection = [];
     this.name = h('button.card-name', { type: 'button', on: { click: () => store.select(entity.id, { reveal: true }) } });
     this.mark = h('span.card-mark');
@@ -54,7 +54,7 @@ export class Card {
     this.more.setAttribute('aria-label', t('cards.details', { name: entity.name }));
     this.drawFacts(now);
     const line = lineOf(entity);
-    const fact = line && telling(entity, 50).find((each) => each.name === line.name);
+    const fact = line && keyAttributes(entity, 50).find((each) => each.name === line.name);
     this.spark.draw(line, fact?.label ?? line?.name, fact?.unit ?? '');
     this.picture.draw(entity);
     this.drawCommands();
@@ -72,7 +72,7 @@ export class Card {
     if (entity.positionFault) {
       return { text: t('cards.noPosition'), className: 'warn' };
     }
-    return entity.state === 'look' ? { text: t('states.look'), className: 'warn' } : { text: '', className: '' };
+    return entity.state === 'attention' ? { text: t('states.attention'), className: 'warn' } : { text: '', className: '' };
   }
 
   drawFacts() {
@@ -81,7 +81,7 @@ export class Card {
     if (entity.word) {
       facts.push({ label: t('cards.state'), value: entity.word, unit: '' });
     }
-    facts.push(...telling(entity, 3));
+    facts.push(...keyAttributes(entity, 3));
     const suspect = store.suspects.get(entity.id);
     if (suspect) {
       facts.splice(2, 0, { label: t('cards.fieldMean'), value: temperature(suspect.mean), unit: '' });
@@ -112,7 +112,7 @@ export class Card {
       this.commandsKey = key;
       replace(this.buttons, commands.map((command) => h('button.button.small', {
         type: 'button', class: command.primary ? 'primary' : '', disabled: recorded || isPointless(entity, command.name) || Boolean(this.sent?.waiting),
-        on: { click: () => this.ask(command) },
+        on: { click: () => this.request(command) },
       }, command.name.charAt(0).toUpperCase() + command.name.slice(1))));
       this.buttons.parentElement.hidden = commands.length === 0;
     }
@@ -138,7 +138,7 @@ export class Card {
     this.outcome.className = `card-outcome small ${kind || 'muted'}`;
   }
 
-  ask(command) {
+  request(command) {
     command.risky && !window.confirm(t('cards.confirm', { command: command.name, name: this.entity.name })) || this.send(command.name);
   }
 
@@ -165,7 +165,7 @@ export class Card {
 
   drawDetails() {
     const { entity } = this;
-    this.askForConnection();
+    this.loadConnection();
     replace(this.details,
       h('p.small.muted', null, [entity.type, entity.domain, entity.mission, entity.difference && `${entity.identity.service} ${entity.identity.servicePath}`.trim()].filter(Boolean).join(' · ')),
       h('p.small.muted.code', null, entity.identity.id),
@@ -175,11 +175,11 @@ export class Card {
   }
 
   /** Of what is on no mission the control plane knows nothing. */
-  async askForConnection() {
-    if (store.isReplay || !this.entity.mission || Date.now() - this.asked < ASK_EVERY) {
+  async loadConnection() {
+    if (store.isReplay || !this.entity.mission || Date.now() - this.requestedAt < REQUEST_INTERVAL) {
       return;
     }
-    this.asked = Date.now();
+    this.requestedAt = Date.now();
     try {
       const { connection } = await api.get(deviceAt(this.entity));
       this.connection = sentencesOf(connection);

@@ -8,7 +8,7 @@ import { Card } from './card.js';
 const PORTION = 40;
 const REDRAW_MILLIS = 250;
 const ORDER_MILLIS = 1_000;
-const RANK = { look: 0, stale: 1, ok: 2, off: 2 };
+const RANK = { attention: 0, stale: 1, ok: 2, off: 2 };
 const byName = new Intl.Collator(undefined, { numeric: true, sensitivity: 'base' });
 
 class FurrowCards extends HTMLElement {
@@ -153,9 +153,9 @@ class FurrowCards extends HTMLElement {
 
   selected() {
     const id = store.selection;
-    const known = id && store.entities.get(id);
-    if (known && !this.cards.has(id)) {
-      this.limit = Math.max(this.limit, this.wanted().indexOf(known) + PORTION);
+    const existing = id && store.entities.get(id);
+    if (existing && !this.cards.has(id)) {
+      this.limit = Math.max(this.limit, this.wanted().indexOf(existing) + PORTION);
       this.order(true);
     }
     this.redraw(this.visible);
@@ -178,7 +178,7 @@ class FurrowCards extends HTMLElement {
     for (const entity of store.entities.values()) {
       if (store.inScope(entity)) {
         all++;
-        reporting += entity.state === 'ok' || entity.state === 'look';
+        reporting += entity.state === 'ok' || entity.state === 'attention';
         for (const key of [entity.kind, entity.state]) {
           counts.set(key, (counts.get(key) ?? 0) + 1);
         }
@@ -187,7 +187,7 @@ class FurrowCards extends HTMLElement {
     setText(this.count, all ? t('cards.count', { count: all, reporting }) : '');
     this.loading.hidden = store.primed || all > 0;
     this.drawEmpty(all);
-    const chips = [['robot', 'kinds'], ['sensor', 'kinds'], ['camera', 'kinds'], ['other', 'kinds'], ['look', 'states'], ['stale', 'states']].filter(([key]) => counts.get(key) || key === this.kind);
+    const chips = [['robot', 'kinds'], ['sensor', 'kinds'], ['camera', 'kinds'], ['other', 'kinds'], ['attention', 'states'], ['stale', 'states']].filter(([key]) => counts.get(key) || key === this.kind);
     const key = `${this.kind} ${chips.map(([name]) => `${name}${counts.get(name)}`).join()}`;
     if (key !== this.chipsKey) {
       this.chipsKey = key;

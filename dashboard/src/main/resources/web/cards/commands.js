@@ -50,11 +50,11 @@ export function outcomeOf(entity, sent, now) {
   const prefix = `${sent.command}_status` in entity.attributes ? sent.command : 'cmd';
   const status = String(entity.attributes[`${prefix}_status`]?.value ?? '').toUpperCase();
   const info = entity.attributes[`${prefix}_info`]?.value;
-  const heard = !sent.waiting && entity.time >= sent.at;
-  if (heard && (status === 'ERROR' || status === 'EXPIRED' || status === 'FAILED')) {
+  const reported = !sent.waiting && entity.time >= sent.at;
+  if (reported && (status === 'ERROR' || status === 'EXPIRED' || status === 'FAILED')) {
     return { state: 'failed', info: text(info) };
   }
-  const answered = heard && (status === 'OK' || status === 'DELIVERED' || status === 'FINISHED' || (info !== undefined && info !== '' && info !== sent.info));
+  const answered = reported && (status === 'OK' || status === 'DELIVERED' || status === 'FINISHED' || (info !== undefined && info !== '' && info !== sent.info));
   if (answered) {
     return { state: 'ok', info: text(info) };
   }

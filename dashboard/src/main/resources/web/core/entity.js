@@ -7,10 +7,10 @@ import { finite, isPercent, positionOf, quantityOf } from './readings.js';
 /** Points that are kept of a trail and of a number. */
 const POINTS = 120;
 /** Numbers of an entity that are kept. */
-const MOST_SERIES = 24;
+const MAX_SERIES = 24;
 /** Of an entity with more attributes, or longer values, the rest is left out. */
-const MOST_ATTRIBUTES = 200;
-const LONGEST_VALUE = 4_000;
+const MAX_ATTRIBUTES = 200;
+const MAX_VALUE = 4_000;
 /** Without a known period an entity is stale after this, ms. */
 const STALE_AFTER = 60_000;
 const FRAME = new Set(['id', 'type']);
@@ -18,7 +18,7 @@ const NOT_A_SERIES = new Set(['Time', 'TimeInstant', 'Latitude', 'Longitude', 'l
 const OFF_WORDS = new Set(['off', 'stopped', 'standby', 'sleeping']);
 /** Command states: the context broker may stamp them with another clock than the device its reports. */
 const COMMAND_STATE = /_(status|info)$/;
-const LOOK_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'emergency', 'alarm']);
+const ATTENTION_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'emergency', 'alarm']);
 
 /**
  * @typedef {Object} Entity
@@ -43,7 +43,7 @@ const LOOK_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'em
  * @property {string|null} domain
  * @property {string|null} mission
  * @property {string|null} word what the entity says of its state
- * @property {'ok'|'look'|'stale'|'off'} state
+ * @property {'ok'|'attention'|'stale'|'off'} state
  * @property {boolean} suspect
  * @property {number} omitted attributes that were left out
  */
@@ -64,7 +64,7 @@ export function newEntity(identity) {
  * @param {Entity} entity
  * @param {import('./stream.js').TopicRecord} record
  */
-export function takeReport(entity, record) {
+export function applyReport(entity, record) {
   const reported = record.value;
   entity.type = text(reported.type) || entity.type;
   let omitted = 0;
@@ -73,7 +73,7 @@ export function takeReport(entity, record) {
     if (FRAME.has(name)) {
       continue;
     }
-    if (!(name in entity.attributes) && ++count > MOST_ATTRIBUTES) {
+    if (!(name in entity.attributes) && ++count > MAX_ATTRIBUTES) {
       omitted++;
     } else if (!(entity.attributes[name]?.time > record.time) || COMMAND_STATE.test(name)) {
       const attribute = readAttribute(name, reported[name]);
@@ -109,7 +109,7 @@ function readValue(value) {
   if (typeof value !== 'string') {
     return cut(value);
   }
-  if (value.startsWith('{%27') && value.length < LONGEST_VALUE) {
+  if (value.startsWith('{%27') && value.length < MAX_VALUE) {
     try {
       const message = parse(value.replaceAll('%27', '"'));
       const names = Object.keys(message);
@@ -126,11 +126,11 @@ function readValue(value) {
 
 function cut(value) {
   if (typeof value === 'string') {
-    return value.length > LONGEST_VALUE ? `${value.slice(0, LONGEST_VALUE)}…` : value;
+    return value.length > MAX_VALUE ? `${value.slice(0, MAX_VALUE)}…` : value;
   }
   if (value !== null && typeof value === 'object') {
     const size = JSON.stringify(value).length;
-    return size > LONGEST_VALUE ? `${JSON.stringify(value).slice(0, LONGEST_VALUE)}…` : value;
+    return size > MAX_VALUE ? `${JSON.stringify(value).slice(0, MAX_VALUE)}…` : value;
   }
   return value;
 }
@@ -215,7 +215,7 @@ function addPlace(entity, lon, lat, time) {
 
 function addNumber(series, name, time, value) {
   let line = series.get(name);
-  if (!line && series.size < MOST_SERIES) {
+  if (!line && series.size < MAX_SERIES) {
     series.set(name, (line = new Line(['times', 'values'], POINTS)));
   }
   line?.push(time, value);
@@ -227,7 +227,7 @@ function addNumber(series, name, time, value) {
  * @param {Entity} entity
  * @param {import('./stream.js').TopicRecord[]} records of the entity, oldest first
  */
-export function takePast(entity, records) {
+export function applyPast(entity, records) {
   const past = { position: null, place: null, trail: NO_TRAIL, series: new Map(), attributes: Object.create(null) };
   for (const { time, value } of records) {
     if (value === null || typeof value !== 'object' || Array.isArray(value) || time > entity.time) {
@@ -252,7 +252,7 @@ export function takePast(entity, records) {
  * @param {Entity} entity
  * @param {number} now of what is shown, epoch ms
  * @param {string|null} period as its mission says, ISO 8601; null if it does not
- * @returns {'ok'|'look'|'stale'|'off'}
+ * @returns {'ok'|'attention'|'stale'|'off'}
  */
 export function stateOf(entity, now, period = null) {
   const word = entity.word?.toLowerCase() ?? '';
@@ -265,7 +265,7 @@ export function stateOf(entity, now, period = null) {
   if (now - entity.time > timeout) {
     return 'stale';
   }
-  return entity.suspect || entity.positionFault || LOOK_WORDS.has(word) ? 'look' : 'ok';
+  return entity.suspect || entity.positionFault || ATTENTION_WORDS.has(word) ? 'attention' : 'ok';
 }
 
 /** Of a duration as the control plane writes it, for instance PT1H30M or PT0.5S; else null. */

@@ -7,7 +7,7 @@ import { streams } from './stream.js';
 const LISTS = {
   domains: { path: '/api/domains', key: (each) => each.domain, topics: ['service.domains'] },
   missions: { path: '/api/missions', key: (each) => each.mission, topics: ['service.missions', 'service.missions.status'] },
-  devices: { path: '/api/devices', key: (each, known) => (known.has(each.id) ? deviceKey(each) : each.id), topics: ['service.devices'] },
+  devices: { path: '/api/devices', key: (each, existing) => (existing.has(each.id) ? deviceKey(each) : each.id), topics: ['service.devices'] },
   recordings: { path: '/api/recordings', key: (each) => each.mission, topics: ['service.recordings'] },
 };
 /** How often a replay looks for newer pictures. */
@@ -24,12 +24,12 @@ class Feeds {
   start() {
     store.feeds = this;
     this.shared = [
-      this.feed('service.fields', 'all', (record) => store.takeField(record)),
-      this.feed('service.alarms', 'all', (record) => store.takeAlarm(record), { known: () => store.alarmsRead(), whileHidden: mayNotify }),
-      this.feed('service.replays', 'all', (record) => this.takeReplay(record)),
-      this.feed('service.replays.status', 'latest', (record) => this.takeStatus(record)),
+      this.feed('service.fields', 'all', (record) => store.applyField(record)),
+      this.feed('service.alarms', 'all', (record) => store.applyAlarm(record), { loaded: () => store.alarmsRead(), whileHidden: mayNotify }),
+      this.feed('service.replays', 'all', (record) => this.applyReplay(record)),
+      this.feed('service.replays.status', 'latest', (record) => this.applyStatus(record)),
     ];
-    Object.entries(LISTS).forEach(([name, list]) => this.keep(name, list));
+    Object.entries(LISTS).forEach(([name, list]) => this.syncList(name, list));
     this.live();
     setInterval(() => document.hidden || store.tick(), 1000);
     setInterval(() => document.hidden || this.readImages(), IMAGES_MILLIS);
@@ -38,9 +38,9 @@ class Feeds {
   /**
    * A topic whose records one function takes, with its figures in `store.topics`. A known state has no deletions: `forget` gets each key
    * that an earlier stream had and the known state lacks, with the time of the newest record that it has, and when the key came last.
-   * `take` returns keys where they are not that of the record.
+   * `apply` returns keys where they are not that of the record.
    */
-  feed(topic, mode, take, { main = false, forget = (key) => take({ key, headers: {}, value: null }), known = null, whileHidden } = {}) {
+  feed(topic, mode, apply, { main = false, forget = (key) => apply({ key, headers: {}, value: null }), loaded = null, whileHidden } = {}) {
     const before = new Map();
     let [keys, newest] = [new Map(), -Infinity];
     const figures = { name: topic, count: 0, rate: 0, gap: 0, state: 'connecting', since: Date.now() };
@@ -48,29 +48,29 @@ class Feeds {
     const stream = streams.subscribe(topic, { mode, prime: true, whileHidden }, {
       records: (records, merged) => {
         for (const record of records) {
-          const taken = take(record) ?? [record.key];
+          const changedKeys = apply(record) ?? [record.key];
           record.kind === 'event' ? figures.count++ : (newest = Math.max(newest, record.time));
-          taken.forEach((key) => (record.value === null && !record.cut ? keys.delete(key) : keys.set(key, Date.now())));
+          changedKeys.forEach((key) => (record.value === null && !record.cut ? keys.delete(key) : keys.set(key, Date.now())));
         }
         figures.count += merged;
         figures.last = Date.now();
         main && (store.connection.lastRecord = Date.now());
-        store.tell('topics');
+        store.notify('topics');
       },
       primed: () => {
         before.forEach((came, key) => keys.has(key) || forget(key, newest, came));
         before.clear();
-        known?.();
+        loaded?.();
         if (main) {
           store.primed = true;
-          store.tell('entities');
+          store.notify('entities');
           store.isReplay || this.readPast();
         }
       },
       gap: (missed) => {
         figures.gap += missed;
         store.connection.missed += missed;
-        store.tell('connection');
+        store.notify('connection');
       },
       state: (state, reason) => {
         if (state === 'open') {
@@ -78,11 +78,11 @@ class Feeds {
           [keys, newest] = [new Map(), -Infinity];
         }
         Object.assign(figures, { state, reason });
-        store.tell('topics');
+        store.notify('topics');
         main && this.connection(state, reason);
       },
     });
-    return { close: () => { stream.close(); store.topics.delete(topic); store.tell('topics'); } };
+    return { close: () => { stream.close(); store.topics.delete(topic); store.notify('topics'); } };
   }
 
   connection(state, reason) {
@@ -93,18 +93,18 @@ class Feeds {
       Object.assign(store.connection, { state: next, since: Date.now(), awayFrom: isBack ? since : null, missed: next === 'lost' ? 0 : missed });
     }
     store.connection.reason = reason;
-    store.tell('connection');
+    store.notify('connection');
   }
 
   /** A list of the REST API in the store. */
-  keep(name, { path, key, topics }) {
+  syncList(name, { path, key, topics }) {
     const list = resource(path, { topics });
     list.on(() => {
       if (!list.error) {
         store[name] = new Map();
         (list.value ?? []).forEach((each) => store[name].set(key(each, store[name]), each));
       }
-      store.tell(name);
+      store.notify(name);
     });
   }
 
@@ -112,14 +112,14 @@ class Feeds {
     this.shown?.forEach((each) => each.close());
     store.setMode({ kind: 'live' });
     this.shown = [
-      this.feed('data.raw', 'latest', (record) => store.takeEntity(record), {
+      this.feed('data.raw', 'latest', (record) => store.applyEntity(record), {
         main: true,
         // what came a moment ago and is newer than the known state is not merged yet
         forget: (key, newest, came) => (store.entities.get(key)?.time <= newest || Date.now() - came > MERGED_MILLIS) && store.forgetEntity(key),
       }),
-      this.feed('data.collision', 'all', (record) => store.takeEncounter(record)),
-      this.feed('data.temperature', 'all', (record) => store.takeTemperature(record)),
-      this.feed('data.images', 'latest', (record) => store.takeImage(record)),
+      this.feed('data.collision', 'all', (record) => store.applyEncounter(record)),
+      this.feed('data.temperature', 'all', (record) => store.applyTemperature(record)),
+      this.feed('data.images', 'latest', (record) => store.applyImage(record)),
     ];
   }
 
@@ -131,36 +131,36 @@ class Feeds {
     this.pastRead = true;
     try {
       const { records } = await api.get(`/api/history/data.raw?${new URLSearchParams({ from: Date.now() - PAST_MILLIS, limit: PAST_REPORTS })}`);
-      store.isReplay || store.takePast(records);
+      store.isReplay || store.applyPast(records);
     } catch {
       // lines and trails begin now
     }
-    store.pastKnown = true;
+    store.pastLoaded = true;
   }
 
   // --- replays -----------------------------------------------------------------------------------------------------
 
-  takeReplay(record) {
-    const known = store.replays.get(record.key);
+  applyReplay(record) {
+    const existing = store.replays.get(record.key);
     if (record.value === null) {
-      known && store.replays.set(record.key, { ...known, gone: true });
+      existing && store.replays.set(record.key, { ...existing, gone: true });
     } else {
-      store.replays.set(record.key, { ...record.value, status: known?.status });
+      store.replays.set(record.key, { ...record.value, status: existing?.status });
     }
-    store.tell('replays');
+    store.notify('replays');
     this.follow(record.key);
   }
 
-  takeStatus(record) {
-    const known = store.replays.get(record.key) ?? { replay: record.key };
+  applyStatus(record) {
+    const existing = store.replays.get(record.key) ?? { replay: record.key };
     if (record.value === null && store.mode.replay === record.key) {
-      store.replays.set(record.key, { ...known, gone: true });
+      store.replays.set(record.key, { ...existing, gone: true });
     } else if (record.value === null) {
       store.replays.delete(record.key);
     } else {
-      store.replays.set(record.key, { ...known, status: { ...record.value, time: record.time } });
+      store.replays.set(record.key, { ...existing, status: { ...record.value, time: record.time } });
     }
-    store.tell('replays');
+    store.notify('replays');
     this.follow(record.key);
   }
 
@@ -184,40 +184,40 @@ class Feeds {
   /** @param {{replay: string, mission: string, topic: string, group: string=}} replay */
   enterReplay(replay) {
     const topic = replay.topic ?? store.replays.get(replay.replay)?.topic;
-    const known = store.replays.get(replay.replay);
-    const mission = replay.mission ?? known?.mission;
+    const existing = store.replays.get(replay.replay);
+    const mission = replay.mission ?? existing?.mission;
     if (!topic || !mission) {
       return; // only its status is known yet; it is entered when the rest is
     }
-    const group = replay.group ?? known?.group;
-    const members = group ? [...store.replays.values()].filter((each) => each.group === group) : [{ ...known, ...replay, topic }];
+    const group = replay.group ?? existing?.group;
+    const members = group ? [...store.replays.values()].filter((each) => each.group === group) : [{ ...existing, ...replay, topic }];
     this.shown?.forEach((each) => each.close());
     const span = store.recordings.get(mission);
     store.setMode({
       kind: 'replay', replay: replay.replay, group, mission, topic, missions: members.map((each) => each.mission),
       results: { collision: `${topic}.collision`, temperature: `${topic}.temperature`, presence: `${topic}.presence` },
-      state: 'starting', speed: known?.speed ?? 1, position: span?.first, from: span?.first, to: span?.last, at: Date.now(), epoch: -1,
+      state: 'starting', speed: existing?.speed ?? 1, position: span?.first, from: span?.first, to: span?.last, at: Date.now(), epoch: -1,
     });
     this.epochs = new Map();
     this.shown = members.flatMap((each, index) => [
-      this.feed(each.topic, 'latest', (record) => this.takeReplayed(record), { main: index === 0, forget: (key) => store.forgetEntity(key) }),
-      this.feed(`${each.topic}.collision`, 'all', (record) => this.takeResult(record, each.topic, () => store.takeEncounter(record))),
-      this.feed(`${each.topic}.temperature`, 'all', (record) => this.takeResult(record, each.topic, () => store.takeTemperature(record))),
+      this.feed(each.topic, 'latest', (record) => this.applyReplayed(record), { main: index === 0, forget: (key) => store.forgetEntity(key) }),
+      this.feed(`${each.topic}.collision`, 'all', (record) => this.applyResult(record, each.topic, () => store.applyEncounter(record))),
+      this.feed(`${each.topic}.temperature`, 'all', (record) => this.applyResult(record, each.topic, () => store.applyTemperature(record))),
     ]);
     this.follow(replay.replay);
     this.readImages();
   }
 
   /** A jump begins an epoch: nothing of the one before is shown any more. */
-  takeReplayed(record) {
+  applyReplayed(record) {
     const epoch = Number(record.headers['replay-epoch'] ?? 0);
-    const known = this.epochs.get(record.topic) ?? -1;
-    if (epoch < known) {
+    const current = this.epochs.get(record.topic) ?? -1;
+    if (epoch < current) {
       return [];
     }
-    if (epoch > known) {
+    if (epoch > current) {
       this.epochs.set(record.topic, epoch);
-      if (known >= 0 && epoch > store.mode.epoch) {
+      if (current >= 0 && epoch > store.mode.epoch) {
         store.clearShown();
         this.readImages();
       }
@@ -226,13 +226,13 @@ class Feeds {
     if (record.headers['replay-kind'] === 'end') {
       return [];
     }
-    return store.takeEntity(record.headers['replay-kind'] === 'prime' ? { ...record, kind: 'prime' } : record);
+    return store.applyEntity(record.headers['replay-kind'] === 'prime' ? { ...record, kind: 'prime' } : record);
   }
 
-  takeResult(record, topic, take) {
+  applyResult(record, topic, apply) {
     const epoch = Number(record.headers['replay-epoch'] ?? 0);
     if (epoch >= (this.epochs.get(topic) ?? 0)) {
-      take();
+      apply();
     }
   }
 
@@ -247,7 +247,7 @@ class Feeds {
       const range = new URLSearchParams({ from, to: Math.ceil(store.now()) + 1, newest: 'entity' });
       const found = await api.get(`/api/history/data.images?${range}`);
       if (store.mode.replay === replay) {
-        found.records.forEach((record) => store.takeImage(record));
+        found.records.forEach((record) => store.applyImage(record));
       }
     } catch {
       // the cards say that there is no picture
@@ -274,5 +274,5 @@ export const feeds = new Feeds();
 export async function introduce() {
   store.config = await api.get('/config.json').catch(() => ({}));
   store.me = await api.get('/api/me');
-  store.tell('me');
+  store.notify('me');
 }

@@ -20,7 +20,7 @@ export class Identities {
   }
 
   /** @param {import('./stream.js').TopicRecord} record of an entity @returns {{key: string, id: string, service: string, servicePath: string, type: string}|null} */
-  take(record) {
+  identify(record) {
     const { id, type, of } = identityOf(record);
     if (!id) {
       return null;

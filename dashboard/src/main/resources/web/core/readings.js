@@ -67,10 +67,10 @@ export function isPercent(attribute) {
 export function chargeOf(attributes) {
   const attribute = attributes[BATTERIES.find((name) => isPresent(attributes[name]?.value))];
   const number = finite(attribute?.value);
-  const said = number ?? finite(messageOf(attribute?.value)?.percentage);
+  const reading = number ?? finite(messageOf(attribute?.value)?.percentage);
   const isNamed = number !== null && unitOf(attribute) !== '';
-  const share = isNamed ? quantityOf(attribute, 'SHARE') : said > 1 || (number !== null && attribute?.percent) ? said / 100 : said;
-  return said !== null && share !== null && share >= 0 && share <= 1 ? share : null;
+  const share = isNamed ? quantityOf(attribute, 'SHARE') : reading > 1 || (number !== null && attribute?.percent) ? reading / 100 : reading;
+  return reading !== null && share !== null && share >= 0 && share <= 1 ? share : null;
 }
 
 /**

@@ -13,8 +13,8 @@ function read() {
 
 /** The hash of a place. */
 export function linkTo(view, query = {}) {
-  const known = Object.entries(query).filter(([, value]) => value !== null && value !== undefined);
-  const text = new URLSearchParams(known).toString();
+  const given = Object.entries(query).filter(([, value]) => value !== null && value !== undefined);
+  const text = new URLSearchParams(given).toString();
   return `#/${view}${text ? `?${text}` : ''}`;
 }
 

@@ -1,12 +1,12 @@
 /** All that the page shows. Feeds write it, elements listen to it. */
 import { stateOf } from './entity.js';
 import { Identities, scope } from './identities.js';
-import { Taking } from './taking.js';
+import { Reducers } from './reducers.js';
 
 /** How long an encounter that ended stays to be seen, ms of what is shown. */
 const ENDED_SHOWN = 10_000;
 
-class Store extends Taking(Object) {
+class Store extends Reducers(Object) {
   constructor() {
     super();
     this.handlers = new Map();
@@ -17,7 +17,7 @@ class Store extends Taking(Object) {
     this.recordings = new Map();
     this.replays = new Map();
     this.alarms = new Map();
-    this.alarmsKnown = false;
+    this.alarmsLoaded = false;
     this.topics = new Map();
     this.me = { user: null, role: null };
     this.config = {};
@@ -30,7 +30,7 @@ class Store extends Taking(Object) {
     this.filter = '';
     this.primed = false;
     /** What was reported before the page was opened has been read. */
-    this.pastKnown = false;
+    this.pastLoaded = false;
     this.fields = new Map();
     this.fieldVersions = new Map();
     this.clearShown();
@@ -47,7 +47,7 @@ class Store extends Taking(Object) {
     this.images = new Map();
     this.averages = new Map();
     this.all = true;
-    ['entities', 'encounters', 'suspects', 'images', 'fields'].forEach((name) => this.tell(name));
+    ['entities', 'encounters', 'suspects', 'images', 'fields'].forEach((name) => this.notify(name));
   }
 
   // --- who listens -------------------------------------------------------------------------------------------------
@@ -62,7 +62,7 @@ class Store extends Taking(Object) {
   }
 
   /** Says that something changed. @param {string=} id of the entity, for `entities` */
-  tell(name, id) {
+  notify(name, id) {
     if (!this.changed.has(name)) {
       this.changed.set(name, new Set());
     }
@@ -132,15 +132,15 @@ class Store extends Taking(Object) {
       this.primed = false;
       this.clearShown();
     }
-    this.tell('mode');
-    this.tell('clock');
+    this.notify('mode');
+    this.notify('clock');
   }
 
   /** Where a replay is. @param {Object} progress */
   setProgress(progress) {
     Object.assign(this.mode, progress);
-    this.tell('mode');
-    this.tell('clock');
+    this.notify('mode');
+    this.notify('clock');
   }
 
   /** Shows a replay instead of what is live. @param {{replay: string, mission: string, topic: string}} replay of `/api/replays` */
@@ -158,7 +158,7 @@ class Store extends Taking(Object) {
       const state = this.stateOf(entity);
       if (state !== entity.state) {
         entity.state = state;
-        this.tell('entities', entity.id);
+        this.notify('entities', entity.id);
       }
     }
     this.fieldVersions.forEach((versions, id) => this.showField(id));
@@ -167,10 +167,10 @@ class Store extends Taking(Object) {
       const timeout = encounter.phase === 'ended' || encounter.phase === 'crossed' ? ENDED_SHOWN : 60_000;
       if (now - encounter.time > timeout) {
         this.encounters.delete(pair);
-        this.tell('encounters');
+        this.notify('encounters');
       }
     }
-    this.tell('clock');
+    this.notify('clock');
   }
 
   // --- what is looked at -------------------------------------------------------------------------------------------
@@ -195,31 +195,31 @@ class Store extends Taking(Object) {
   select(id, { reveal = false } = {}) {
     this.selection = id;
     this.reveal = reveal;
-    this.tell('selection');
+    this.notify('selection');
   }
 
   setHovered(id) {
     if (this.hovered !== id) {
       this.hovered = id;
-      this.tell('hovered');
+      this.notify('hovered');
     }
   }
 
   setCursor(time) {
     this.cursor = time;
-    this.tell('cursor');
+    this.notify('cursor');
   }
 
   setFilter(text) {
     this.filter = text;
-    this.tell('filter');
+    this.notify('filter');
   }
 
   setScope(scope) {
     this.scope = { domain: scope.domain ?? null, mission: scope.mission ?? null };
     this.all = true;
-    this.tell('scope');
-    this.tell('entities');
+    this.notify('scope');
+    this.notify('entities');
   }
 
   /** @param {'operate'|'administer'} what */

@@ -3,7 +3,7 @@ import { api } from './api.js';
 import { parse } from './json.js';
 
 const FIRST_WAIT = 500;
-const LONGEST_WAIT = 15_000;
+const MAX_WAIT = 15_000;
 /** A hidden tab keeps its streams for as long, since many are only looked away from; those that are needed `whileHidden` stay. */
 const HIDDEN_AFTER = 10_000;
 
@@ -34,7 +34,7 @@ class Stream {
     if (!this.hidden) {
       this.connect();
     } else {
-      this.say('paused');
+      this.report('paused');
     }
   }
 
@@ -52,7 +52,7 @@ class Stream {
     this.hidden = true;
     this.sequence = null;
     this.disconnect();
-    this.say('paused');
+    this.report('paused');
   }
 
   async connect() {
@@ -61,7 +61,7 @@ class Stream {
     }
     clearTimeout(this.retry);
     const attempt = (this.attempt = Symbol('attempt'));
-    this.say('connecting');
+    this.report('connecting');
     try {
       const answer = await api.get(`/api/register/${encodeURIComponent(this.topic)}?${this.query}`);
       if (this.closed || this.attempt !== attempt) {
@@ -82,9 +82,9 @@ class Stream {
     socket.onopen = () => {
       this.wait = FIRST_WAIT;
       this.isFirst = true;
-      this.say('open');
+      this.report('open');
     };
-    socket.onmessage = (message) => this.take(parse(message.data));
+    socket.onmessage = (message) => this.receive(parse(message.data));
     socket.onclose = (event) => {
       if (this.socket === socket) {
         this.socket = null;
@@ -93,7 +93,7 @@ class Stream {
     };
   }
 
-  take(frame) {
+  receive(frame) {
     if (frame.records) {
       const missed = frame.records.reduce((sum, record) => sum + this.missedBefore(record), 0);
       missed && this.handlers.gap?.(missed);
@@ -122,13 +122,13 @@ class Stream {
     }
     // what is refused for good is asked for again rarely: a topic may come, a role may change
     const forGood = error?.status === 403 || error?.status === 404;
-    this.say(forGood ? 'refused' : 'waiting', error?.message);
-    const wait = forGood ? LONGEST_WAIT : this.wait;
-    this.wait = Math.min(LONGEST_WAIT, this.wait * 2);
+    this.report(forGood ? 'refused' : 'waiting', error?.message);
+    const wait = forGood ? MAX_WAIT : this.wait;
+    this.wait = Math.min(MAX_WAIT, this.wait * 2);
     this.retry = setTimeout(() => this.connect(), wait * (0.75 + Math.random() / 2));
   }
 
-  say(state, reason) {
+  report(state, reason) {
     this.state = state;
     this.handlers.state?.(state, reason);
   }

@@ -5,22 +5,22 @@ const DRAWN_SINGLY = 60;
 /** Px; symbols in one cell lie on each other. */
 export const CELL = 40;
 const FEWEST = 4;
-const RANK = { look: 3, stale: 2, off: 1, ok: 0 };
+const RANK = { attention: 3, stale: 2, off: 1, ok: 0 };
 
 /**
  * @param {{entity: Object, x: number, y: number}[]} spots in view
- * @param {function(Object): boolean} keep which entities are drawn one by one in any case
+ * @param {function(Object): boolean} isSingle which entities are drawn one by one in any case
  * @param {{x: number, y: number}} origin a place that moves with the map, so that clusters stay when it does
  * @returns {{single: Object[], clusters: {x: number, y: number, count: number, state: string, spots: Object[]}[]}}
  */
-export function cluster(spots, keep, origin) {
+export function cluster(spots, isSingle, origin) {
   if (spots.length <= DRAWN_SINGLY) {
     return { single: spots, clusters: [] };
   }
   const cells = new Map();
   const single = [];
   for (const spot of spots) {
-    if (keep(spot.entity)) {
+    if (isSingle(spot.entity)) {
       single.push(spot);
       continue;
     }
@@ -52,7 +52,7 @@ export function drawCluster(context, { x, y, count, state }, palette) {
   context.fillStyle = palette.panel;
   context.fill();
   context.lineWidth = 2.5;
-  context.strokeStyle = state === 'look' ? palette.warning : state === 'stale' ? palette.muted : palette['kind-sensor'];
+  context.strokeStyle = state === 'attention' ? palette.warning : state === 'stale' ? palette.muted : palette['kind-sensor'];
   context.setLineDash(state === 'stale' ? [4, 3] : []);
   context.stroke();
   context.setLineDash([]);

@@ -15,7 +15,7 @@ const TRAIL_POINTS = 6_000;
 const FEW_POINTS = 1_500;
 const TRAIL_PAUSE = 500;
 /** So many names at most; beyond it only those that matter have one. */
-const MOST_LABELS = 60;
+const MAX_LABELS = 60;
 const REACH = 14;
 /** From a symbol to the ring around the one that is selected, px. */
 const RING = 7;
@@ -46,7 +46,7 @@ export class DeviceDrawing {
     places.block(0, frame.height - foot.height, foot.width, frame.height);
     const inView = this.collect(frame);
     const close = devicesOfEncounters();
-    const { single, clusters } = cluster(inView, (entity) => entity.id === store.selection || entity.state === 'look' || close.has(entity.id), { x: frame.x(0, 0), y: frame.y(0, 0) });
+    const { single, clusters } = cluster(inView, (entity) => entity.id === store.selection || entity.state === 'attention' || close.has(entity.id), { x: frame.x(0, 0), y: frame.y(0, 0) });
     this.spots = single;
     this.clusters = clusters;
     const [moving, standing] = [single.filter(isRobot), single.filter((spot) => !isRobot(spot))];
@@ -117,7 +117,7 @@ export class DeviceDrawing {
 
   drawSymbols(context, spots, palette, ratio) {
     // those that need a look last, so that none hides them
-    const order = { ok: 0, off: 1, stale: 2, look: 3 };
+    const order = { ok: 0, off: 1, stale: 2, attention: 3 };
     spots.sort((a, b) => (a.entity.kind === 'robot') - (b.entity.kind === 'robot') || order[a.entity.state] - order[b.entity.state]);
     for (const { entity, x, y } of spots) {
       const chosen = entity.id === store.selection;
@@ -131,18 +131,18 @@ export class DeviceDrawing {
   drawLabels(frame, spots, places, palette, close) {
     const { context } = frame;
     const rank = ({ entity }) =>
-      (entity.id === store.selection) * 32 + (entity.id === store.hovered) * 16 + close.has(entity.id) * 8 + (entity.state === 'look') * 4 + (entity.kind === 'robot') * 2 + (entity.state !== 'stale');
+      (entity.id === store.selection) * 32 + (entity.id === store.hovered) * 16 + close.has(entity.id) * 8 + (entity.state === 'attention') * 4 + (entity.kind === 'robot') * 2 + (entity.state !== 'stale');
     const narrow = frame.width < NARROW;
-    const wanted = spots.filter(({ entity }) => !dimmed(entity) && (!narrow || rank({ entity }) > 1)).sort((a, b) => rank(b) - rank(a) || (a.entity.id < b.entity.id ? -1 : 1)).slice(0, MOST_LABELS);
+    const wanted = spots.filter(({ entity }) => !dimmed(entity) && (!narrow || rank({ entity }) > 1)).sort((a, b) => rank(b) - rank(a) || (a.entity.id < b.entity.id ? -1 : 1)).slice(0, MAX_LABELS);
     for (const { entity, x, y } of wanted) {
-      const look = entity.state === 'look';
+      const needsAttention = entity.state === 'attention';
       const stale = entity.state === 'stale';
       const text = stale ? `${entity.name} · ${age(store.now() - entity.time)}` : entity.name;
-      context.font = `${look || entity.id === store.selection ? 600 : 400} 13px ${palette.family}`;
+      context.font = `${needsAttention || entity.id === store.selection ? 600 : 400} 13px ${palette.family}`;
       const ring = entity.id === store.selection || entity.id === store.hovered ? RING : 0;
       const place = places.beside(x, y, SIZE[shapeOf(entity)] + ring, widthOf(context, text), frame.width);
       if (place) {
-        drawText(context, text, place.x, place.y, look ? palette.warning : stale ? palette.muted : palette.text, palette.background);
+        drawText(context, text, place.x, place.y, needsAttention ? palette.warning : stale ? palette.muted : palette.text, palette.background);
       }
     }
   }

@@ -20,10 +20,10 @@ export function placeEncounters(frame, palette, spotOf) {
   for (const encounter of store.encounters.values()) {
     const from = spotOf(encounter.a) ?? reported(frame, encounter.at[0]);
     const to = spotOf(encounter.b) ?? reported(frame, encounter.at[1]);
-    const look = lookOf(encounter, palette);
-    if (from && to && look.alpha > 0) {
+    const style = styleOf(encounter, palette);
+    if (from && to && style.alpha > 0) {
       const radius = Math.max(26, Math.hypot(to.x - from.x, to.y - from.y) / 2 + 20);
-      placed.push({ encounter, from, to, x: (from.x + to.x) / 2, y: (from.y + to.y) / 2, radius, look });
+      placed.push({ encounter, from, to, x: (from.x + to.x) / 2, y: (from.y + to.y) / 2, radius, style });
     }
   }
   return placed;
@@ -48,12 +48,12 @@ function reported(frame, [lon, lat]) {
   return { x: frame.x(x, y), y: frame.y(x, y) };
 }
 
-export function drawEncounter(frame, { encounter, from, to, x, y, radius, look }, palette, places) {
+export function drawEncounter(frame, { encounter, from, to, x, y, radius, style }, palette, places) {
   const { context } = frame;
-  context.globalAlpha = look.alpha;
-  context.strokeStyle = look.colour;
+  context.globalAlpha = style.alpha;
+  context.strokeStyle = style.colour;
   context.lineWidth = 3;
-  context.setLineDash(look.dash);
+  context.setLineDash(style.dash);
   context.beginPath();
   context.moveTo(from.x, from.y);
   context.lineTo(to.x, to.y);
@@ -65,11 +65,11 @@ export function drawEncounter(frame, { encounter, from, to, x, y, radius, look }
   context.stroke();
   context.setLineDash([]);
   const above = { x, y: y - radius - 14 };
-  drawPill(frame, textOf(encounter), isOver(encounter) ? [above, { x, y: y + radius + 14 }] : [above], look, palette, places);
+  drawPill(frame, textOf(encounter), isOver(encounter) ? [above, { x, y: y + radius + 14 }] : [above], style, palette, places);
   context.globalAlpha = 1;
 }
 
-function lookOf(encounter, palette) {
+function styleOf(encounter, palette) {
   if (encounter.phase === 'predicted' && store.now() - encounter.time > (encounter.tcpa ?? 0) * 1000 + PREDICTION_STAYS) {
     return { alpha: 0 };
   }
@@ -106,7 +106,7 @@ function currentDistance(encounter) {
 }
 
 /** At the edge of the map it stays on the map. Of several places it takes the first that is free, or none. */
-function drawPill(frame, text, wanted, look, palette, places) {
+function drawPill(frame, text, wanted, style, palette, places) {
   const { context } = frame;
   context.font = `700 13px ${palette.family}`;
   const half = context.measureText(text).width / 2 + 12;
@@ -122,9 +122,9 @@ function drawPill(frame, text, wanted, look, palette, places) {
   }
   context.beginPath();
   context.roundRect(place.box[0], place.box[1], 2 * half, 24, 12);
-  context.fillStyle = look.colour;
+  context.fillStyle = style.colour;
   context.fill();
-  context.fillStyle = look.ink;
+  context.fillStyle = style.ink;
   context.textAlign = 'center';
   context.textBaseline = 'middle';
   context.fillText(text, place.x, place.y + 0.5);

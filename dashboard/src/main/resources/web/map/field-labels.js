@@ -22,7 +22,7 @@ export class FieldLabels {
   /** @param {import('./fields.js').FieldDrawing} fields */
   constructor(fields) {
     this.fields = fields;
-    this.kept = new Map();
+    this.cached = new Map();
     /** The texts of the last frame: of which field, its line below the name, and where. */
     this.drawn = [];
   }
@@ -37,7 +37,7 @@ export class FieldLabels {
     const view = `${frame.resolution} ${frame.rotation} ${frame.width} ${frame.height}`;
     if (view !== this.view) {
       this.view = view;
-      this.kept.clear();
+      this.cached.clear();
     }
     const narrow = frame.width < NARROW;
     const fonts = { name: `600 ${narrow ? 13 : 14}px ${palette.family}`, line: `400 12px ${palette.family}` };
@@ -66,25 +66,25 @@ export class FieldLabels {
 
   placeOf(id, area, texts, isFree, isStill) {
     const [x, y] = area.ring[0];
-    const kept = this.kept.get(id);
-    const stays = kept?.spot && { ...kept.spot, x: x + kept.spot.x, y: y + kept.spot.y };
-    const here = stays && texts.find((text) => fits(area, stays, text, isFree));
+    const cached = this.cached.get(id);
+    const previous = cached?.spot && { ...cached.spot, x: x + cached.spot.x, y: y + cached.spot.y };
+    const here = previous && texts.find((text) => fits(area, previous, text, isFree));
     const now = performance.now();
-    if (kept && (here === texts[0] || now - kept.searched < SEARCH_PAUSE)) {
-      const text = here ?? (stays && texts.find((each) => fits(area, stays, each, isStill)));
-      return text ? { ...text, ...stays } : null;
+    if (cached && (here === texts[0] || now - cached.searched < SEARCH_PAUSE)) {
+      const text = here ?? (previous && texts.find((each) => fits(area, previous, each, isStill)));
+      return text ? { ...text, ...previous } : null;
     }
-    const found = search(area, texts, stays, isFree, isStill);
-    this.kept.set(id, { searched: now, spot: found && { x: found.x - x, y: found.y - y, beside: found.beside } });
+    const found = search(area, texts, previous, isFree, isStill);
+    this.cached.set(id, { searched: now, spot: found && { x: found.x - x, y: found.y - y, beside: found.beside } });
     return found;
   }
 }
 
 /** The longest text that has a place; the name alone only where nothing has one, and over what moves rather than not at all. */
-function search(area, texts, stays, isFree, isStill) {
-  const said = texts.length > 1 ? texts.slice(0, -1) : texts;
-  const within = (free) => (text) => (stays && fits(area, stays, text, free) ? stays : inside(area, text, free));
-  return first(said, within(isFree)) ?? first(said, (text) => beside(area, text, isFree)) ?? first(texts.slice(-1), within(isFree)) ?? first(texts, within(isStill));
+function search(area, texts, previous, isFree, isStill) {
+  const shortened = texts.length > 1 ? texts.slice(0, -1) : texts;
+  const within = (free) => (text) => (previous && fits(area, previous, text, free) ? previous : inside(area, text, free));
+  return first(shortened, within(isFree)) ?? first(shortened, (text) => beside(area, text, isFree)) ?? first(texts.slice(-1), within(isFree)) ?? first(texts, within(isStill));
 }
 
 function first(texts, find) {
@@ -107,10 +107,10 @@ function linesOf(field, now, narrow) {
     return [''];
   }
   const value = temperature(average.value);
-  const said = age(now - average.time);
+  const ago = age(now - average.time);
   const more = [average.verified ? t('map.devices', { count: average.count }) : t('map.unverified')];
   average.suspects.length && more.push(t('map.suspects', { count: average.suspects.length }));
-  return [...(narrow ? [] : [[value, ...more, said].join(' · ')]), `${value} · ${said}`, value, ''];
+  return [...(narrow ? [] : [[value, ...more, ago].join(' · ')]), `${value} · ${ago}`, value, ''];
 }
 
 function drawLabel(context, field, { x, y, line, name, width, beside: out }, fonts, palette, places) {

@@ -21,7 +21,7 @@ export function legend() {
         [symbol('robot', palette['kind-robot']), t('kinds.robot')],
         [symbol('sensor', palette['kind-sensor']), t('kinds.sensor')],
         [symbol('camera', palette['kind-camera']), t('kinds.camera')],
-        [symbol('look', palette.warning), t('states.look')],
+        [symbol('attention', palette.warning), t('states.attention')],
         [h('span.legend-line', { 'aria-hidden': 'true' }), t('map.encounter')],
       ].map(([image, words]) => h('li', null, image, words)));
     },
@@ -40,7 +40,7 @@ function symbol(shape, colour) {
   const canvas = h('canvas', { width: 40, height: 40, 'aria-hidden': 'true' });
   const context = canvas.getContext('2d');
   context.translate(20, 20);
-  trace(context, shape, shape === 'robot' || shape === 'look' ? 1.3 : 1.5);
+  trace(context, shape, shape === 'robot' || shape === 'attention' ? 1.3 : 1.5);
   context.fillStyle = colour;
   context.fill();
   return canvas;

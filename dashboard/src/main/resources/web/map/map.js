@@ -20,7 +20,7 @@ const FAR = 8;
 const NEIGHBOURHOOD = 250;
 /** As near as one comes to a cluster. */
 const CLOSEST = 22;
-const MOST_LISTED = 100;
+const MAX_LISTED = 100;
 const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
 
 class FurrowMap extends HTMLElement {
@@ -220,7 +220,7 @@ class FurrowMap extends HTMLElement {
 
   /** Of devices that no zoom tells apart. */
   openList({ x, y, spots }) {
-    const names = spots.map(({ entity }) => entity).sort((a, b) => (a.name < b.name ? -1 : 1)).slice(0, MOST_LISTED);
+    const names = spots.map(({ entity }) => entity).sort((a, b) => (a.name < b.name ? -1 : 1)).slice(0, MAX_LISTED);
     replace(this.list,
       h('p.small.muted', null, t('map.oneSpot', { count: spots.length })),
       h('ul', null, names.map((entity) => h('li', null, h('button.button.quiet', {

@@ -7,7 +7,7 @@ const HEADER_BYTES = 127;
 /** The header and the root directory lie within. */
 const FIRST_BYTES = 16_384;
 const LEAVES_KEPT = 64;
-const MOST_LEVELS = 4;
+const MAX_LEVELS = 4;
 const GZIP = 2;
 const TYPES = { 2: 'image/png', 3: 'image/jpeg', 4: 'image/webp', 5: 'image/avif' };
 
@@ -40,7 +40,7 @@ export class PmtilesFile {
     }
     const id = tileId(z, x, y);
     let directory = root;
-    for (let level = 0; level < MOST_LEVELS; level++) {
+    for (let level = 0; level < MAX_LEVELS; level++) {
       const entry = find(directory, id);
       if (!entry) {
         return null;
@@ -50,7 +50,7 @@ export class PmtilesFile {
       }
       directory = await this.leaf(header, entry);
     }
-    throw new Error(`${this.url} has directories in more than ${MOST_LEVELS} levels`);
+    throw new Error(`${this.url} has directories in more than ${MAX_LEVELS} levels`);
   }
 
   async open() {
@@ -63,14 +63,14 @@ export class PmtilesFile {
 
   /** Those that were asked for last are kept. */
   leaf(header, { offset, length }) {
-    const kept = this.leaves.get(offset) ?? this.part(header.leaves + offset, length, header.compression).then(readDirectory);
+    const cached = this.leaves.get(offset) ?? this.part(header.leaves + offset, length, header.compression).then(readDirectory);
     this.leaves.delete(offset);
-    this.leaves.set(offset, kept);
-    kept.catch(() => this.leaves.delete(offset));
+    this.leaves.set(offset, cached);
+    cached.catch(() => this.leaves.delete(offset));
     if (this.leaves.size > LEAVES_KEPT) {
       this.leaves.delete(this.leaves.keys().next().value);
     }
-    return kept;
+    return cached;
   }
 
   /** @returns {Promise<ArrayBuffer>} */

@@ -5,11 +5,11 @@ const sprites = new Map();
 const DIRECTIONS = 72;
 
 /** Half of a symbol's width, px. */
-export const SIZE = { robot: 12, sensor: 8, camera: 9, other: 7, look: 11 };
+export const SIZE = { robot: 12, sensor: 8, camera: 9, other: 7, attention: 11 };
 
 export function shapeOf(entity) {
-  if (entity.state === 'look') {
-    return entity.kind === 'robot' ? 'robot' : 'look';
+  if (entity.state === 'attention') {
+    return entity.kind === 'robot' ? 'robot' : 'attention';
   }
   return entity.kind;
 }
@@ -21,16 +21,16 @@ export function clearSymbols() {
 /** Draws the symbol of an entity at a point. */
 export function drawSymbol(context, entity, x, y, colour, palette, { alpha = 1, ratio = 1 } = {}) {
   const shape = shapeOf(entity);
-  const look = entity.state === 'look';
+  const needsAttention = entity.state === 'attention';
   const hollow = entity.state === 'off';
-  const fill = look ? palette.warning : entity.state === 'stale' ? palette.muted : colour;
+  const fill = needsAttention ? palette.warning : entity.state === 'stale' ? palette.muted : colour;
   const turn = shape === 'robot' ? Math.round(((((entity.heading ?? 0) % 360) + 360) % 360) * DIRECTIONS / 360) % DIRECTIONS : 0;
   const image = sprite(shape, fill, palette.background, hollow, ratio, turn);
   const side = image.width / ratio;
   context.globalAlpha = alpha * (entity.state === 'stale' ? 0.55 : 1);
   // on whole pixels, where a picture is copied and not blended
   context.drawImage(image, Math.round((x - side / 2) * ratio) / ratio, Math.round((y - side / 2) * ratio) / ratio, side, side);
-  if (look && shape === 'robot') {
+  if (needsAttention && shape === 'robot') {
     drawBang(context, x, y, palette);
   }
   context.globalAlpha = 1;
@@ -84,7 +84,7 @@ export function trace(context, shape, scale = 1) {
     context.lineTo(s * 0.78, s * 0.9);
     context.lineTo(0, s * 0.48);
     context.lineTo(-s * 0.78, s * 0.9);
-  } else if (shape === 'look') {
+  } else if (shape === 'attention') {
     context.moveTo(0, -s * 0.95);
     context.lineTo(s, s * 0.8);
     context.lineTo(-s, s * 0.8);

@@ -8,7 +8,7 @@ import { isOnMap } from './projection.js';
 
 const COLUMNS = ['name', 'kind', 'state', 'position', 'speed', 'age'];
 const NUMBERS = new Set(['position', 'speed', 'age', 'average', 'devices', 'distance', 'closest']);
-const MOST_ROWS = 500;
+const MAX_ROWS = 500;
 const REDRAW_MILLIS = 1_000;
 
 export function mapTables(onClose) {
@@ -37,8 +37,8 @@ export function mapTables(onClose) {
     const rows = [...store.entities.values()].filter((each) => store.inScope(each) && store.matches(each));
     rows.sort((a, b) => compare(valueOf(a, sorted), valueOf(b, sorted)) * (down ? -1 : 1) || compare(a.id, b.id));
     const focused = body.contains(document.activeElement) ? document.activeElement.dataset.id : null;
-    replace(body, rows.slice(0, MOST_ROWS).map((each) => row(each, now)));
-    more.textContent = rows.length > MOST_ROWS ? t('map.moreRows', { count: rows.length - MOST_ROWS }) : '';
+    replace(body, rows.slice(0, MAX_ROWS).map((each) => row(each, now)));
+    more.textContent = rows.length > MAX_ROWS ? t('map.moreRows', { count: rows.length - MAX_ROWS }) : '';
     focused && body.querySelector(`[data-id="${CSS.escape(focused)}"]`)?.focus();
     drawTable(encounters, 'encounters', ['pair', 'phase', 'distance', 'closest', 'age'], [...store.encounters.values()].sort((a, b) => b.time - a.time).map((each) => encounterRow(each, now)));
     drawTable(fields, 'fields', ['field', 'average', 'devices', 'suspects', 'age'], [...store.fields.values()].sort((a, b) => compare(a.name, b.name)).map((each) => fieldRow(each, now)));

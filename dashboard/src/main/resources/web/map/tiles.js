@@ -22,7 +22,7 @@ function layer(source) {
 
 async function fileSource(file, attribution) {
   const { minZoom, maxZoom } = await file.header();
-  file.metadata().then((said) => attribute(attribution, said.attribution), (error) => console.warn('map tiles:', error.message));
+  file.metadata().then((metadata) => attribute(attribution, metadata.attribution), (error) => console.warn('map tiles:', error.message));
   const nothing = document.createElement('canvas');
   return new ol.source.ImageTile({
     minZoom, maxZoom, transition: 0,

@@ -3,7 +3,7 @@ import { api } from '../core/api.js';
 import { store } from '../core/store.js';
 
 /** Between two jumps while the play head is dragged, ms. */
-const SEEK_EVERY = 400;
+const SEEK_INTERVAL = 400;
 /** After which a replay that was asked for is expected to be played. */
 const START_WITHIN = 20_000;
 
@@ -46,7 +46,7 @@ function played(isMeant) {
       off();
       reject(new Error('not-played'));
     }, START_WITHIN);
-    const look = () => {
+    const update = () => {
       const found = find();
       if (found) {
         clearTimeout(timer);
@@ -54,8 +54,8 @@ function played(isMeant) {
         resolve(found);
       }
     };
-    off = store.on('replays', look);
-    look();
+    off = store.on('replays', update);
+    update();
   });
 }
 
@@ -85,7 +85,7 @@ export class Seeking {
       } catch (error) {
         this.failed(error);
       }
-      await new Promise((resolve) => setTimeout(resolve, Math.max(0, SEEK_EVERY - (Date.now() - begun))));
+      await new Promise((resolve) => setTimeout(resolve, Math.max(0, SEEK_INTERVAL - (Date.now() - begun))));
     }
     this.busy = false;
   }

@@ -3,7 +3,7 @@ import { api } from '../core/api.js';
 
 const DEBOUNCE = 120;
 const AGAIN = 1_000;
-const MOST_AGAIN = 60;
+const MAX_ATTEMPTS = 60;
 
 export class Density {
   /** @param {function()} changed called when there is more to draw */
@@ -30,7 +30,7 @@ export class Density {
     const key = `${missions} ${from} ${to} ${buckets}`;
     if (key !== this.key) {
       this.key = key;
-      this.asked = 0;
+      this.attempts = 0;
       this.soon(() => this.load(missions, from, to, buckets), DEBOUNCE);
     }
   }
@@ -49,7 +49,7 @@ export class Density {
       if (signal.aborted) {
         return;
       }
-      this.take(answers.filter(Boolean));
+      this.merge(answers.filter(Boolean));
       this.error = null;
     } catch (error) {
       if (signal.aborted) {
@@ -58,13 +58,13 @@ export class Density {
       this.error = error;
       this.complete = error.status !== 0 && error.status !== 503;
     }
-    if (!this.complete && ++this.asked < MOST_AGAIN) {
+    if (!this.complete && ++this.attempts < MAX_ATTEMPTS) {
       this.soon(() => this.load(missions, from, to, buckets), this.error ? 5 * AGAIN : AGAIN);
     }
     this.changed();
   }
 
-  take(answers) {
+  merge(answers) {
     this.width = answers[0]?.width ?? 0;
     this.counts = new Map();
     this.complete = answers.every((each) => each.complete);

@@ -20,7 +20,7 @@ export class LiveDensity {
     this.error = null;
     this.seen = null;
     this.countedTo = null;
-    this.asked = 0;
+    this.requestedAt = 0;
   }
 
   /** Counts what came since the last call. Called each second, and when the page is seen again. */
@@ -36,14 +36,14 @@ export class LiveDensity {
       old < now - LIVE_LENGTH - WIDTH && this.counts.delete(old);
     }
     this.show();
-    if (start !== this.countedTo && now - this.asked >= WIDTH) {
-      this.asked = now;
-      this.ask(start);
+    if (start !== this.countedTo && now - this.requestedAt >= WIDTH) {
+      this.requestedAt = now;
+      this.request(start);
     }
   }
 
   /** The buckets up to the newest: all at first, then those since the last answer, and two before, as records may be late. */
-  async ask(start) {
+  async request(start) {
     const from = this.countedTo === null ? start - LIVE_LENGTH : Math.max(start - LIVE_LENGTH, this.countedTo - 2 * WIDTH);
     try {
       const { counts } = await api.get(`/api/density/${TOPIC}?${new URLSearchParams({ from, to: start + WIDTH, width: WIDTH })}`);

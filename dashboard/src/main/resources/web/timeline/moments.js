@@ -47,8 +47,8 @@ export function readEncounter(record) {
  * @returns {Promise<{records: import('../core/stream.js').TopicRecord[], since: number}>} `since`: from when on it is whole
  */
 export async function history(topic, range, options) {
-  const known = Object.entries(range).filter(([, value]) => value !== undefined);
-  return api.get(`/api/history/${encodeURIComponent(topic)}?${new URLSearchParams(known)}`, options);
+  const given = Object.entries(range).filter(([, value]) => value !== undefined);
+  return api.get(`/api/history/${encodeURIComponent(topic)}?${new URLSearchParams(given)}`, options);
 }
 
 /** As {@link history}, of a topic that comes with its first record. */

@@ -8,7 +8,7 @@ import { t } from '../texts.js';
 const SECOND = 1_000;
 const MINUTE = 60_000;
 const DAY = 86_400_000;
-const MOST_FLAGS = 80;
+const MAX_FLAGS = 80;
 const NOTE_SHOWN = 8_000;
 /** A replay that waits no longer is not worth a word. */
 const WAITED = 3_000;
@@ -66,11 +66,11 @@ export const Showing = (Base) => class extends Base {
     this.sub.title = reason ?? '';
     this.classList.toggle('over', ['ended', 'stopped', 'failed', 'over'].includes(state));
     this.waitingSince = state === 'waiting' ? this.waitingSince ?? Date.now() : null;
-    const said = state === 'failed' || (state === 'waiting' && Date.now() - this.waitingSince > WAITED) ? reason ?? null : null;
-    if (said !== this.reasonSaid) {
-      this.say(said ?? '', true);
+    const text = state === 'failed' || (state === 'waiting' && Date.now() - this.waitingSince > WAITED) ? reason ?? null : null;
+    if (text !== this.shownReason) {
+      this.announce(text ?? '', true);
     }
-    this.reasonSaid = said;
+    this.shownReason = text;
     const plays = state === 'running' || state === 'waiting' || state === 'starting';
     if (plays !== this.plays) {
       this.plays = plays;
@@ -157,14 +157,14 @@ export const Showing = (Base) => class extends Base {
 
   /** Markers are buttons for who may jump: each leads to its moment. */
   showFlags() {
-    const shown = this.markers.filter((each) => this.scale.isShown(each.time)).slice(0, MOST_FLAGS);
+    const shown = this.markers.filter((each) => this.scale.isShown(each.time)).slice(0, MAX_FLAGS);
     const may = store.may('operate');
     const key = `${shown.map((each) => each.id)} ${may}`;
     if (key !== this.flagKey) {
       this.flagKey = key;
       replace(this.flags, shown.map((marker) => {
-        const told = { 'aria-label': t('timeline.flag', { note: marker.note, time: clock(marker.time) }), title: `${marker.note}\n${clock(marker.time)} · ${marker.author}` };
-        return may ? h('button.tl-flag', { type: 'button', ...told, on: { click: () => this.seek(marker.time) } }, icon('flag', 14)) : h('span.tl-flag', { role: 'img', ...told }, icon('flag', 14));
+        const attributes = { 'aria-label': t('timeline.flag', { note: marker.note, time: clock(marker.time) }), title: `${marker.note}\n${clock(marker.time)} · ${marker.author}` };
+        return may ? h('button.tl-flag', { type: 'button', ...attributes, on: { click: () => this.seek(marker.time) } }, icon('flag', 14)) : h('span.tl-flag', { role: 'img', ...attributes }, icon('flag', 14));
       }));
     }
     shown.forEach((marker, index) => (this.flags.children[index].style.transform = `translateX(${this.scale.x(marker.time)}px)`));
@@ -186,12 +186,12 @@ export const Showing = (Base) => class extends Base {
     this.tip.style.transform = `translateX(${Math.max(0, Math.min(this.scale.width - 2 * half, x - half))}px)`;
   }
 
-  say(words, lasting = false) {
+  announce(words, lasting = false) {
     clearTimeout(this.noteTimer);
     setText(this.note, words);
     this.classList.toggle('noted', words !== '');
     if (!lasting && words) {
-      this.noteTimer = setTimeout(() => this.say(''), NOTE_SHOWN);
+      this.noteTimer = setTimeout(() => this.announce(''), NOTE_SHOWN);
     }
   }
 

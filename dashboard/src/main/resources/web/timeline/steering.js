@@ -24,10 +24,10 @@ export const Steering = (Base) => class extends Base {
     }
     try {
       await steer(store.mode, name, body);
-      this.say('');
+      this.announce('');
       return true;
     } catch (error) {
-      this.say(error.message);
+      this.announce(error.message);
       return false;
     }
   }
@@ -110,8 +110,8 @@ export const Steering = (Base) => class extends Base {
   /** `[` and `]`: one end, and with the other the loop. */
   setEdge(edge) {
     const other = edge === 'from' ? 'to' : 'from';
-    const known = this.range;
-    const next = { ...known, [edge]: this.position };
+    const range = this.range;
+    const next = { ...range, [edge]: this.position };
     next[other] ??= edge === 'from' ? this.extent[1] : this.extent[0];
     if (next.from >= next.to) {
       next[other] = edge === 'from' ? this.extent[1] : this.extent[0];
@@ -132,7 +132,7 @@ export const Steering = (Base) => class extends Base {
   }
 
   /** A link to a moment of a replay that is over: it can be started there. */
-  takeLink() {
+  openLink() {
     const { replay, mission, at } = route.query;
     const time = /^\d+$/.test(at ?? '') ? Number(at) : Date.parse(at);
     clearTimeout(this.linking);
@@ -142,8 +142,8 @@ export const Steering = (Base) => class extends Base {
     }
     const missions = mission.split(',');
     this.linking = setTimeout(() => {
-      const known = store.replays.get(replay);
-      if (store.mode.replay === replay || (known?.topic && !known.gone)) {
+      const existing = store.replays.get(replay);
+      if (store.mode.replay === replay || (existing?.topic && !existing.gone)) {
         return;
       }
       const close = () => { this.offer.hidden = true; };
@@ -157,15 +157,15 @@ export const Steering = (Base) => class extends Base {
   }
 
   async startAt(missions, time) {
-    this.say(t('timeline.starting'), true);
+    this.announce(t('timeline.starting'), true);
     try {
       await startReplay({ ...(missions.length > 1 ? { missions } : { mission: missions[0] }), analytics: ANALYTICS });
       if (time) {
         await steer(store.mode, 'seek', { to: Math.round(time) });
       }
-      this.say('');
+      this.announce('');
     } catch (error) {
-      this.say(error.message === 'not-played' ? t('timeline.notPlayed') : error.message, true);
+      this.announce(error.message === 'not-played' ? t('timeline.notPlayed') : error.message, true);
     }
   }
 };

@@ -19,7 +19,7 @@ const BAR = 6;
 const JUMP = 10_000;
 const SECOND = 1_000;
 /** Encounters and markers are looked for again after so many ms. */
-const MOMENTS_EVERY = 15_000;
+const MOMENTS_INTERVAL = 15_000;
 /** A jump that was asked for is shown at once, until the replay says so itself. */
 const SETTLES_WITHIN = 3_000;
 /** Where the replay is after a jump may differ by so many ms. */
@@ -36,7 +36,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.markers = [];
     this.jumped = null;
     this.moment = null;
-    this.seeking = new Seeking((error) => { this.jumped = null; this.say(error.message); });
+    this.seeking = new Seeking((error) => { this.jumped = null; this.announce(error.message); });
     this.build();
     this.pointer = new Pointer(this.track, this);
     this.observer = new ResizeObserver(() => this.resized());
@@ -48,18 +48,18 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     this.offs = [
       store.on('mode', () => this.modeChanged()),
       store.on('clock', () => this.tick()),
-      store.on('encounters', () => this.takeEncounters()),
+      store.on('encounters', () => this.applyEncounters()),
       store.on('recordings', () => this.showActions()),
       store.on('scope', () => this.showActions()),
       store.on('me', () => this.showActions()),
       store.on('cursor', () => this.showCursor()),
       store.on('connection', () => this.showState()),
-      onRoute(() => this.takeLink()),
+      onRoute(() => this.openLink()),
     ];
     this.timer = setInterval(() => document.hidden || this.move(), this.stepTime());
     this.lastMoments = 0;
     this.modeChanged();
-    this.takeLink();
+    this.openLink();
   }
 
   disconnectedCallback() {
@@ -105,15 +105,15 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     }
     const { position, missions, replay } = store.mode;
     // what was asked for; the mission itself may go on
-    const asked = store.replays.get(replay);
-    const [from, to] = [asked?.from ?? store.mode.from, asked?.to ?? store.mode.to];
-    const known = (missions ?? []).map((each) => store.recordings.get(each)).filter(Boolean);
-    const begin = Math.min(...known.map((each) => each.first));
+    const requested = store.replays.get(replay);
+    const [from, to] = [requested?.from ?? store.mode.from, requested?.to ?? store.mode.to];
+    const recordings = (missions ?? []).map((each) => store.recordings.get(each)).filter(Boolean);
+    const begin = Math.min(...recordings.map((each) => each.first));
     // what lies before the recording cannot be sought
-    const first = from !== undefined && known.length && !asked?.source ? Math.max(from, begin) : from ?? begin;
-    const last = Math.max(to ?? 0, ...known.filter(() => to === undefined).map((each) => each.last));
-    this.known = Number.isFinite(first) && last > first;
-    return this.known ? [first, last] : [position ?? 0, (position ?? 0) + SECOND];
+    const first = from !== undefined && recordings.length && !requested?.source ? Math.max(from, begin) : from ?? begin;
+    const last = Math.max(to ?? 0, ...recordings.filter(() => to === undefined).map((each) => each.last));
+    this.bounded = Number.isFinite(first) && last > first;
+    return this.bounded ? [first, last] : [position ?? 0, (position ?? 0) + SECOND];
   }
 
   extend() {
@@ -148,7 +148,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
   /** Each second, and with each status of a replay. */
   tick() {
     this.extend();
-    if (Date.now() - this.lastMoments > (store.isReplay ? MOMENTS_EVERY : LIVE_LENGTH)) {
+    if (Date.now() - this.lastMoments > (store.isReplay ? MOMENTS_INTERVAL : LIVE_LENGTH)) {
       this.findMoments();
     }
     store.isReplay || this.live.tick();
@@ -169,7 +169,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     const { scale, height } = this;
     this.colors ??= palette(this);
     const replaying = store.isReplay;
-    if (replaying && this.known && store.mode.missions?.length) {
+    if (replaying && this.bounded && store.mode.missions?.length) {
       this.density.want(store.mode.missions, scale.from, scale.to, Math.max(20, Math.floor(scale.width / BAR)));
     }
     this.canvas.style.width = `${scale.width}px`;
@@ -206,7 +206,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
 
   async findMoments() {
     const shown = this.shown;
-    if (this.finding === shown || (store.isReplay && !this.known)) {
+    if (this.finding === shown || (store.isReplay && !this.bounded)) {
       return;
     }
     this.finding = shown;
@@ -219,13 +219,13 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
         : [{ encounters: await encountersSince(Date.now() - LIVE_LENGTH).catch(() => null) }, [], []];
       if (shown === this.shown && this.isConnected) {
         if (live.encounters === null) {
-          this.lastMoments += MOMENTS_EVERY - LIVE_LENGTH; // not read; asked again soon
+          this.lastMoments += MOMENTS_INTERVAL - LIVE_LENGTH; // not read; asked again soon
           return;
         }
         this.encounters = union(live.encounters, replayed);
         this.markers = markers;
         this.flagKey = null;
-        this.takeEncounters(); // those that came while the history was read
+        this.applyEncounters(); // those that came while the history was read
         this.showState();
       }
     } finally {
@@ -234,16 +234,16 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
   }
 
   /** Those that come meanwhile. */
-  takeEncounters() {
+  applyEncounters() {
     let changed = false;
     for (const each of store.encounters.values()) {
       if (!['started', 'ongoing', 'ended', 'crossed'].includes(each.phase)) {
         continue;
       }
-      const known = this.encounters.find((one) => one.a === each.a && one.b === each.b && Math.abs(one.start - each.start) <= SAME);
-      if (known) {
-        known.end = Math.max(known.end, each.time);
-        known.closest = Math.min(known.closest, each.minDistance);
+      const existing = this.encounters.find((one) => one.a === each.a && one.b === each.b && Math.abs(one.start - each.start) <= SAME);
+      if (existing) {
+        existing.end = Math.max(existing.end, each.time);
+        existing.closest = Math.min(existing.closest, each.minDistance);
       } else {
         const name = (id) => store.entities.get(id)?.name ?? id;
         this.encounters.push({ ...each, pair: `${name(each.a)} – ${name(each.b)}`, end: each.time, closest: each.minDistance, missions: [], epoch: 0 });

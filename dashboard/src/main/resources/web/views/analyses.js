@@ -16,7 +16,7 @@ const PERIODS = [15 * MINUTE, 60 * MINUTE, 6 * 60 * MINUTE, 24 * 60 * MINUTE];
 const TICK = 5_000;
 /** How long before an encounter its replay begins, ms. */
 const BEFORE = 5_000;
-const MOST_ROWS = 500;
+const MAX_ROWS = 500;
 
 class Analyses extends HTMLElement {
   connectedCallback() {
@@ -109,9 +109,9 @@ class Analyses extends HTMLElement {
   get range() {
     if (store.isReplay) {
       const { from, to, mission } = store.mode;
-      const known = store.recordings.get(mission);
-      const first = from ?? known?.first ?? Date.now() - this.period;
-      return [first, Math.max(first + MINUTE, to ?? known?.last ?? Date.now())];
+      const recording = store.recordings.get(mission);
+      const first = from ?? recording?.first ?? Date.now() - this.period;
+      return [first, Math.max(first + MINUTE, to ?? recording?.last ?? Date.now())];
     }
     const now = Date.now();
     return [now - this.period, now];
@@ -201,7 +201,7 @@ class Analyses extends HTMLElement {
     const key = `table ${found.length} ${JSON.stringify(found.at(-1))}`;
     this.put(part, key, h('div.table-frame.analysis-table', { tabindex: '0', role: 'region', 'aria-label': t(`analyses.${part.name}`) }, h('table.table', null,
       h('thead', null, h('tr', null, columns.map((each) => h('th', { scope: 'col' }, t(`analyses.${each}`))))),
-      h('tbody', null, found.slice(-MOST_ROWS).reverse().map((each) => h('tr', null, cells(each).map((words) => h('td.numbers-left', null, words))))))));
+      h('tbody', null, found.slice(-MAX_ROWS).reverse().map((each) => h('tr', null, cells(each).map((words) => h('td.numbers-left', null, words))))))));
   }
 
   /** To a moment on the map: in a replay by a jump, else by a replay of what was recorded. */
@@ -219,7 +219,7 @@ class Analyses extends HTMLElement {
       store.select(a, { reveal: true });
       navigate('map');
     } catch (error) {
-      this.say(error.message === 'not-played' ? t('replays.notPlayed') : error.message);
+      this.announce(error.message === 'not-played' ? t('replays.notPlayed') : error.message);
     }
   }
 
@@ -235,13 +235,13 @@ class Analyses extends HTMLElement {
     if (running) {
       store.enterReplay(running);
     } else {
-      this.say(t('timeline.starting'));
+      this.announce(t('timeline.starting'));
       await startReplay({ ...(all.length > 1 ? { missions: all } : { mission: all[0] }), analytics: ['collision', 'presence', 'temperature'] });
     }
     await steer(store.mode, 'seek', { to: Math.max(to, Math.min(...firsts)) });
   }
 
-  say(words) {
+  announce(words) {
     this.note.hidden = false;
     setText(this.note, words);
   }

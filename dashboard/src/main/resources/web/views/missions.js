@@ -27,7 +27,7 @@ class FurrowMissions extends HTMLElement {
     replace(this, h('div.view', null, h('header', null, h('h1', null, t('views.missions')), this.tabs, h('span.spacer'), this.create), this.viewer, this.panel));
     this.offs = [onRoute(() => this.show()), store.on('missions', () => this.drawList()), store.on('me', () => this.allow())];
     this.answer = resource('/api/missions', { interval: 10_000 });
-    this.offs.push(this.answer.on(() => this.takeAnswer()));
+    this.offs.push(this.answer.on(() => this.applyAnswer()));
     this.ticking = setInterval(() => document.hidden || this.drawList(), 5_000);
     this.show();
     this.allow();
@@ -91,10 +91,10 @@ class FurrowMissions extends HTMLElement {
   }
 
   /** Whether there is no mission, or nobody said so yet. */
-  takeAnswer() {
+  applyAnswer() {
     if (store.missions.size === 0 && this.answer.value?.length > 0) {
       store.missions = new Map(this.answer.value.map((each) => [each.mission, each]));
-      store.tell('missions');
+      store.notify('missions');
     }
     this.drawList();
   }

@@ -42,7 +42,7 @@ class FurrowPlatform extends HTMLElement {
     for (const domain of store.domains.keys()) {
       if (!this.followed.has(domain)) {
         this.followed.set(domain, streams.subscribe(`data.${domain}.realtime`, { mode: 'latest', prime: false }, {
-          records: (records) => records.forEach((record) => this.delays.take(record, Date.now())),
+          records: (records) => records.forEach((record) => this.delays.add(record, Date.now())),
         }));
       }
     }
@@ -51,7 +51,7 @@ class FurrowPlatform extends HTMLElement {
   draw() {
     const { value, error } = this.platform;
     if (error) {
-      this.say(error.message, () => [h('p.error-note', null, icon('warning'), error.message)]);
+      this.drawIfChanged(error.message, () => [h('p.error-note', null, icon('warning'), error.message)]);
       return;
     }
     const kafkaAway = value.kafka?.state === 'away';
@@ -66,7 +66,7 @@ class FurrowPlatform extends HTMLElement {
       ...behind.map((each) => t('platform.behind', { group: each.group, lag: number(each.lag) })),
       ...(letters.length ? [t('platform.hasLetters', { count: number(letters.reduce((sum, each) => sum + each.records, 0)), topics: letters.length })] : []),
     ];
-    this.say(JSON.stringify(faults), () => (faults.length === 0
+    this.drawIfChanged(JSON.stringify(faults), () => (faults.length === 0
       ? [h('p.row.all-well', null, icon('check'), h('strong', null, t('platform.well')))]
       : [h('h2', null, t('platform.wrong')), h('ul.stack', null, faults.map((each) => h('li.error-note.warn-note', null, icon('warning', 18), each)))]));
     this.drawParts(parts);
@@ -80,9 +80,9 @@ class FurrowPlatform extends HTMLElement {
   }
 
   /** A live region: drawn again only where it says something else. */
-  say(what, draw) {
-    if (what !== this.said) {
-      this.said = what;
+  drawIfChanged(what, draw) {
+    if (what !== this.drawn) {
+      this.drawn = what;
       replace(this.wrong, draw());
     }
   }

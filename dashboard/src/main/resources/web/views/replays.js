@@ -12,7 +12,7 @@ import { drawRunning, grouped } from './replays/running.js';
 
 /** A mission whose newest event is no older is still being recorded, ms. */
 const RECORDED_LATELY = 90_000;
-const SAID = 6_000;
+const ANNOUNCED_MILLIS = 6_000;
 
 class Replays extends HTMLElement {
   connectedCallback() {
@@ -31,22 +31,22 @@ class Replays extends HTMLElement {
         h('th.numbers', null, t('replays.length')), h('th.numbers', null, t('replays.devices')), h('th.numbers', null, t('replays.events')), h('th.preview-cell', null, t('replays.density')))),
       this.body));
     this.state = h('div');
-    this.said = h('p.replay-said.small', { role: 'status' });
+    this.announcement = h('p.replay-said.small', { role: 'status' });
     replace(this, h('div.view', null,
-      h('header', null, h('div', null, h('h1', null, t('replays.title')), h('p.muted', null, t('replays.lead'))), h('span.spacer'), this.said),
+      h('header', null, h('div', null, h('h1', null, t('replays.title')), h('p.muted', null, t('replays.lead'))), h('span.spacer'), this.announcement),
       h('section.stack', null, this.runningTitle, this.runningList, this.noRunning),
       h('div.replay-columns', null, h('section.stack', null, this.recordedTitle, this.state, this.table), this.plan.element)));
-    this.catalog = streams.subscribe('data.catalog', { mode: 'latest', prime: true }, { records: (records) => this.takeCatalog(records) });
+    this.catalog = streams.subscribe('data.catalog', { mode: 'latest', prime: true }, { records: (records) => this.applyCatalog(records) });
     this.onScheme = () => this.rows.forEach((row) => row.preview.draw());
     window.addEventListener('schemechange', this.onScheme);
     this.offs = [
       store.on('replays', () => this.showRunning()), store.on('mode', () => this.showRunning()), store.on('recordings', () => this.showRecordings()),
-      store.on('missions', () => this.showRecordings()), store.on('me', () => this.allow()), onRoute(() => this.takeLink()),
+      store.on('missions', () => this.showRecordings()), store.on('me', () => this.allow()), onRoute(() => this.openLink()),
     ];
     this.allow();
     this.showRunning();
     this.showRecordings();
-    this.takeLink();
+    this.openLink();
     this.timer = setTimeout(() => { this.late = true; this.showRecordings(); }, 3_000);
   }
 
@@ -54,19 +54,19 @@ class Replays extends HTMLElement {
     this.offs.forEach((off) => off());
     this.catalog.close();
     clearTimeout(this.timer);
-    clearTimeout(this.saying);
+    clearTimeout(this.announceTimer);
     window.removeEventListener('schemechange', this.onScheme);
     this.rows.forEach((row) => row.preview.close());
   }
 
   /** Who may start none has nothing to choose. */
   allow() {
-    this.classList.toggle('looks-only', !store.may('operate'));
+    this.classList.toggle('view-only', !store.may('operate'));
     this.choose();
   }
 
   /** `#/replays?mission=a,b&at=ISO` */
-  takeLink() {
+  openLink() {
     const { mission, at } = route.query;
     if (route.view === 'replays' && mission) {
       this.linked = { missions: mission.split(','), at: at ? Date.parse(at) : undefined };
@@ -74,7 +74,7 @@ class Replays extends HTMLElement {
     }
   }
 
-  takeCatalog(records) {
+  applyCatalog(records) {
     for (const { key, value } of records) {
       const mission = value?.mission ?? String(key).split('|')[2];
       const types = this.entities.get(mission) ?? new Map();
@@ -86,7 +86,7 @@ class Replays extends HTMLElement {
 
   showRunning() {
     const entries = grouped(store.replays.values());
-    drawRunning(this.runningList, this.runningDrawn, entries, (words) => this.say(words));
+    drawRunning(this.runningList, this.runningDrawn, entries, (words) => this.announce(words));
     setText(this.runningTitle.lastChild, entries.length || '');
     this.noRunning.hidden = entries.length > 0;
   }
@@ -102,10 +102,10 @@ class Replays extends HTMLElement {
       }
     }
     recordings.forEach((recording, index) => {
-      const known = this.rows.get(recording.mission);
-      const row = known ?? this.row(recording.mission);
+      const existing = this.rows.get(recording.mission);
+      const row = existing ?? this.row(recording.mission);
       // rows that are there stay where they are, under whoever points at them
-      known || this.body.insertBefore(row.element, this.body.children[index] ?? null);
+      existing || this.body.insertBefore(row.element, this.body.children[index] ?? null);
       this.fill(row);
       row.preview.update(recording.last);
     });
@@ -178,10 +178,10 @@ class Replays extends HTMLElement {
     this.plan.show([...this.chosen], this.at);
   }
 
-  say(words) {
-    clearTimeout(this.saying);
-    setText(this.said, words);
-    this.saying = setTimeout(() => setText(this.said, ''), SAID);
+  announce(words) {
+    clearTimeout(this.announceTimer);
+    setText(this.announcement, words);
+    this.announceTimer = setTimeout(() => setText(this.announcement, ''), ANNOUNCED_MILLIS);
   }
 }
 

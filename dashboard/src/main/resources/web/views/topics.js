@@ -25,7 +25,7 @@ class FurrowTopics extends HTMLElement {
       h('header', null, h('h1', null, t('views.topics')), h('span.spacer'), h('p.small.muted', null, t('topics.hint'))),
       h('div.topic-columns', null, this.tree, this.records.element)));
     this.list = resource('/api/topics', { interval: POLL_MILLIS });
-    this.offs = [this.list.on(() => this.take()), ...['domains', 'missions', 'scope'].map((name) => store.on(name, () => this.draw()))];
+    this.offs = [this.list.on(() => this.update()), ...['domains', 'missions', 'scope'].map((name) => store.on(name, () => this.draw()))];
     replace(this.tree, [0, 1, 2, 3, 4].map(() => h('div.skeleton.topic-skeleton', null, '…')));
   }
 
@@ -36,7 +36,7 @@ class FurrowTopics extends HTMLElement {
   }
 
   /** Rates come from two looks at how long topics are. */
-  take() {
+  update() {
     if (this.list.error) {
       replace(this.tree, h('p.error-note', { role: 'alert' }, icon('warning'), this.list.error.message));
       this.key = null;

@@ -63,30 +63,30 @@ public final class TimeoutIsFinal
 
     @Override
     public void handleTestExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
-        throw noted(context, failure);
+        throw recorded(context, failure);
     }
 
     @Override
     public void handleBeforeAllMethodExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
-        throw noted(context, failure);
+        throw recorded(context, failure);
     }
 
     @Override
     public void handleBeforeEachMethodExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
-        throw noted(context, failure);
+        throw recorded(context, failure);
     }
 
     @Override
     public void handleAfterEachMethodExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
-        throw noted(context, failure);
+        throw recorded(context, failure);
     }
 
     @Override
     public void handleAfterAllMethodExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
-        throw noted(context, failure);
+        throw recorded(context, failure);
     }
 
-    private static Throwable noted(ExtensionContext context, Throwable failure) {
+    private static Throwable recorded(ExtensionContext context, Throwable failure) {
         CountDownLatch returned = INTERRUPTED.remove(context.getUniqueId());
         if (returned != null) {
             returned.countDown();

@@ -26,16 +26,16 @@ public final class ComposeCommand {
         }
         part.properties()
                 .forEach(entry -> print(entry.getKey() + "=" + entry.getValue().asText(), variables));
-        part.elements().forEachRemaining(word -> {
+        part.elements().forEachRemaining(argument -> {
             if (part.isArray()) {
-                print(word.asText(), variables);
+                print(argument.asText(), variables);
             }
         });
     }
 
-    private static void print(String word, Properties variables) {
+    private static void print(String argument, Properties variables) {
         System.out.println(ComposeFile.VARIABLE
-                .matcher(word)
+                .matcher(argument)
                 .replaceAll(found -> Matcher.quoteReplacement(variables.getProperty(found.group(1)))));
     }
 }

@@ -54,7 +54,7 @@ final class ComposeFile {
         return services().entrySet().stream()
                 .filter(service -> service.getValue().path("image").asText().equals(image)
                         && !service.getValue().has("entrypoint"))
-                .collect(Collectors.toMap(Map.Entry::getKey, service -> words(service.getValue())));
+                .collect(Collectors.toMap(Map.Entry::getKey, service -> arguments(service.getValue())));
     }
 
     /** What it takes from the environment. */
@@ -69,9 +69,9 @@ final class ComposeFile {
         return variables;
     }
 
-    private static List<String> words(JsonNode service) {
+    private static List<String> arguments(JsonNode service) {
         return StreamSupport.stream(service.path("command").spliterator(), false)
-                .map(word -> VARIABLE.matcher(word.asText()).replaceAll("secret"))
+                .map(argument -> VARIABLE.matcher(argument.asText()).replaceAll("secret"))
                 .toList();
     }
 }

@@ -64,15 +64,15 @@ class ComposeFileTest {
     }
 
     @Test
-    void saysCommandsAndOptionsThatThereAre() {
+    void reportsCommandsAndOptionsThatThereAre() {
         Map<String, List<String>> commands = compose.commands("furrow:local");
 
         assertThat(commands.keySet())
                 .containsExactlyInAnyOrder("control-plane", "dashboard", "replay-analytics", "simulators");
-        commands.forEach(
-                (service, words) -> assertThat(last(Furrow.commandLine(), words).isUsageHelpRequested())
-                        .as(service)
-                        .isFalse());
+        commands.forEach((service, arguments) -> assertThat(
+                        last(Furrow.commandLine(), arguments).isUsageHelpRequested())
+                .as(service)
+                .isFalse());
     }
 
     @Test
@@ -94,10 +94,10 @@ class ComposeFileTest {
     @Test
     void submitsEachJobWithOptionsThatItHas() {
         Map<String, String> submitted = new HashMap<>();
-        compose.commands("furrow-flink:local").forEach((service, words) -> {
-            if (words.get(0).equals("/opt/furrow/submit")) {
-                String jar = Path.of(words.get(1)).getFileName().toString();
-                CommandLine job = last(JobCommandLine.of(JOBS.get(jar)), words.subList(2, words.size()));
+        compose.commands("furrow-flink:local").forEach((service, arguments) -> {
+            if (arguments.get(0).equals("/opt/furrow/submit")) {
+                String jar = Path.of(arguments.get(1)).getFileName().toString();
+                CommandLine job = last(JobCommandLine.of(JOBS.get(jar)), arguments.subList(2, arguments.size()));
                 Object options = job.getCommand();
                 assertThat(options).as(service).isInstanceOf(JobOptions.class);
                 submitted.put(job.getCommandName(), jar);
@@ -124,17 +124,17 @@ class ComposeFileTest {
     }
 
     @Test
-    void keepsSecretsInFilesAndOutOfTheWordsOfProcesses() {
+    void passesSecretsInFilesAndNotAsArguments() {
         compose.services().forEach((name, service) -> {
             Set<String> mounted = new TreeSet<>();
             service.path("secrets").forEach(secret -> mounted.add("/run/secrets/" + secret.asText()));
             service.path("configs")
                     .forEach(config -> mounted.add(config.path("target").asText()));
             for (String part : List.of("/command", "/entrypoint", "/healthcheck/test")) {
-                service.at(part).forEach(word -> {
-                    assertThat(word.asText()).as(name).doesNotContainPattern("\\$.*(PASSWORD|SECRET|TOKEN)");
-                    if (word.asText().contains("/run/secrets/")) {
-                        assertThat(mounted).as(name).contains(word.asText().replaceFirst("^@", ""));
+                service.at(part).forEach(argument -> {
+                    assertThat(argument.asText()).as(name).doesNotContainPattern("\\$.*(PASSWORD|SECRET|TOKEN)");
+                    if (argument.asText().contains("/run/secrets/")) {
+                        assertThat(mounted).as(name).contains(argument.asText().replaceFirst("^@", ""));
                     }
                 });
             }
@@ -239,15 +239,17 @@ class ComposeFileTest {
                 .findFirst()
                 .orElseThrow();
 
-        List<String> words = List.of(start.split(" "));
-        assertThat(words.get(0)).isEqualTo("ExecStart=/opt/furrow/bin/furrow");
-        assertThat(last(Furrow.commandLine(), words.subList(1, words.size())).getCommandName())
+        List<String> arguments = List.of(start.split(" "));
+        assertThat(arguments.get(0)).isEqualTo("ExecStart=/opt/furrow/bin/furrow");
+        assertThat(last(Furrow.commandLine(), arguments.subList(1, arguments.size()))
+                        .getCommandName())
                 .isEqualTo("up");
     }
 
     /** @throws CommandLine.ParameterException if a word is unknown or its value cannot be used */
-    private static CommandLine last(CommandLine root, List<String> words) {
-        List<CommandLine> parsed = root.parseArgs(words.toArray(String[]::new)).asCommandLineList();
+    private static CommandLine last(CommandLine root, List<String> arguments) {
+        List<CommandLine> parsed =
+                root.parseArgs(arguments.toArray(String[]::new)).asCommandLineList();
         return parsed.get(parsed.size() - 1);
     }
 }

@@ -126,15 +126,15 @@ class ContainerScriptsTest {
 
     /** What the compose file asks again and again, of this broker. */
     private static List<String> probe(int port) throws IOException {
-        List<String> words = new ArrayList<>();
+        List<String> arguments = new ArrayList<>();
         ComposeFile.read()
                 .services()
                 .get("mosquitto")
                 .at("/healthcheck/test")
-                .forEach(word -> words.add(word.asText()));
-        assertThat(words.remove(0)).isEqualTo("CMD");
-        words.addAll(List.of("-h", "127.0.0.1", "-p", Integer.toString(port)));
-        return words;
+                .forEach(argument -> arguments.add(argument.asText()));
+        assertThat(arguments.remove(0)).isEqualTo("CMD");
+        arguments.addAll(List.of("-h", "127.0.0.1", "-p", Integer.toString(port)));
+        return arguments;
     }
 
     private Path completed(String checkpoint, int secondsAgo) throws IOException {
@@ -171,8 +171,8 @@ class ContainerScriptsTest {
                 == 0;
     }
 
-    private static int run(String... words) throws Exception {
-        Process process = new ProcessBuilder(words)
+    private static int run(String... arguments) throws Exception {
+        Process process = new ProcessBuilder(arguments)
                 .redirectErrorStream(true)
                 .redirectOutput(ProcessBuilder.Redirect.DISCARD)
                 .start();
@@ -180,15 +180,16 @@ class ContainerScriptsTest {
         return process.exitValue();
     }
 
-    private String submit(String... words) throws Exception {
-        assertThat(start("flink/submit", words).waitFor(1, TimeUnit.MINUTES)).isTrue();
+    private String submit(String... arguments) throws Exception {
+        assertThat(start("flink/submit", arguments).waitFor(1, TimeUnit.MINUTES))
+                .isTrue();
         return Files.readString(directory.resolve("out"));
     }
 
-    private Process start(String script, String... words) throws IOException {
+    private Process start(String script, String... arguments) throws IOException {
         List<String> command =
                 new ArrayList<>(List.of(ComposeFile.FOLDER.resolve(script).toString()));
-        command.addAll(List.of(words));
+        command.addAll(List.of(arguments));
         return start(command);
     }
 

@@ -176,7 +176,7 @@ public final class BadAmongGood implements AutoCloseable {
             faults.add("of " + good + " good events " + (good - seen.cardinality()) + " did not come out, " + repeated
                     + " came out more than once");
         }
-        faults.addAll(wrongLetters(bad, 1, until));
+        faults.addAll(wrongDeadLetters(bad, 1, until));
         return faults;
     }
 
@@ -198,7 +198,7 @@ public final class BadAmongGood implements AutoCloseable {
         if (fed != bad) {
             faults.add(fed + " dead letters were brought back instead of " + bad);
         }
-        faults.addAll(wrongLetters(bad, 2, until));
+        faults.addAll(wrongDeadLetters(bad, 2, until));
         try (var consumer = consumer(List.of(OUT))) {
             long out = consumer.endOffsets(consumer.assignment()).values().stream()
                     .mapToLong(Long::longValue)
@@ -211,22 +211,22 @@ public final class BadAmongGood implements AutoCloseable {
     }
 
     /** @param times how often each bad record should have become a letter */
-    private List<String> wrongLetters(int bad, int times, long until) {
-        Map<String, Integer> letters = new TreeMap<>();
+    private List<String> wrongDeadLetters(int bad, int times, long until) {
+        Map<String, Integer> deadLetters = new TreeMap<>();
         List<String> faults = new ArrayList<>();
         int read = 0;
         try (var consumer = consumer(DEAD)) {
             while (read < bad * times && System.nanoTime() < until) {
-                for (ConsumerRecord<byte[], byte[]> letter : consumer.poll(Duration.ofMillis(500))) {
+                for (ConsumerRecord<byte[], byte[]> deadLetter : consumer.poll(Duration.ofMillis(500))) {
                     read++;
-                    letters.merge(header(letter, KIND), 1, Integer::sum);
-                    wrong(letter).ifPresent(faults::add);
+                    deadLetters.merge(header(deadLetter, KIND), 1, Integer::sum);
+                    wrong(deadLetter).ifPresent(faults::add);
                 }
             }
         }
         for (int i = 0; i < kinds.size(); i++) {
             int desired = times * (bad / kinds.size() + (i < bad % kinds.size() ? 1 : 0));
-            int found = letters.getOrDefault(kinds.get(i).kind(), 0);
+            int found = deadLetters.getOrDefault(kinds.get(i).kind(), 0);
             System.out.printf(
                     "%6d %-16s %s%n", found, kinds.get(i).reason(), kinds.get(i).kind());
             if (found != desired) {
@@ -237,23 +237,24 @@ public final class BadAmongGood implements AutoCloseable {
         return faults;
     }
 
-    private Optional<String> wrong(ConsumerRecord<byte[], byte[]> letter) {
+    private Optional<String> wrong(ConsumerRecord<byte[], byte[]> deadLetter) {
         Optional<BadRecord> kind = kinds.stream()
-                .filter(each -> each.kind().equals(header(letter, KIND)))
+                .filter(each -> each.kind().equals(header(deadLetter, KIND)))
                 .findFirst();
         if (kind.isEmpty()) {
-            return Optional.of("a good record was set aside: " + header(letter, DeadLetter.MESSAGE));
+            return Optional.of("a good record was set aside: " + header(deadLetter, DeadLetter.MESSAGE));
         }
-        boolean asItShould = header(letter, DeadLetter.REASON).equals(kind.get().reason())
-                && letter.topic().equals(Topics.dead(kind.get().topic()));
+        boolean asItShould =
+                header(deadLetter, DeadLetter.REASON).equals(kind.get().reason())
+                        && deadLetter.topic().equals(Topics.dead(kind.get().topic()));
         // Of a notification of several entities each bad one is a letter of its own.
-        boolean whole = Arrays.equals(letter.value(), kind.get().value())
+        boolean whole = Arrays.equals(deadLetter.value(), kind.get().value())
                 || new String(kind.get().value(), StandardCharsets.UTF_8)
-                        .contains(new String(letter.value(), StandardCharsets.UTF_8));
+                        .contains(new String(deadLetter.value(), StandardCharsets.UTF_8));
         return asItShould && whole
                 ? Optional.empty()
-                : Optional.of(
-                        kind.get().kind() + " became " + header(letter, DeadLetter.REASON) + " on " + letter.topic());
+                : Optional.of(kind.get().kind() + " became " + header(deadLetter, DeadLetter.REASON) + " on "
+                        + deadLetter.topic());
     }
 
     private KafkaConsumer<byte[], byte[]> consumer(List<String> topics) {

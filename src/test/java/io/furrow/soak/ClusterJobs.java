@@ -45,9 +45,9 @@ public final class ClusterJobs {
         expect(options.has("--bootstrap-servers"), name + " does not show its options");
 
         for (JsonNode vertex : job.path("vertices")) {
-            String words = vertex.path("name").asText();
-            System.out.println("    " + vertex.path("parallelism").asInt() + " × " + words);
-            expect(named(words), name + " has a vertex without a name of its own: " + words);
+            String vertexName = vertex.path("name").asText();
+            System.out.println("    " + vertex.path("parallelism").asInt() + " × " + vertexName);
+            expect(named(vertexName), name + " has a vertex without a name of its own: " + vertexName);
         }
         JsonNode failures =
                 get("/jobs/" + id + "/exceptions").path("exceptionHistory").path("entries");

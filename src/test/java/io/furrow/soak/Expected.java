@@ -90,8 +90,8 @@ final class Expected {
         double lastClose = 0;
         long reported = 0;
         for (Entity event : events.values()) {
-            first = event.id().equals(Farm.FIRST_ROBOT) ? position(event) : first;
-            second = event.id().equals(Farm.SECOND_ROBOT) ? position(event) : second;
+            first = event.id().equals(SoakFarm.FIRST_ROBOT) ? position(event) : first;
+            second = event.id().equals(SoakFarm.SECOND_ROBOT) ? position(event) : second;
             if (!event.type().equals("Robot") || first == null || second == null) {
                 continue;
             }

@@ -27,7 +27,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
 /**
- * Makes {@code data.raw} and {@value #NATIVE}, and writes the reports of the {@link Farm} to both, numbered from 1, at a steady
+ * Makes {@code data.raw} and {@value #NATIVE}, and writes the reports of the {@link SoakFarm} to both, numbered from 1, at a steady
  * rate: as events, and as the context broker's own notifications.
  */
 public final class NumberedEvents {
@@ -72,7 +72,7 @@ public final class NumberedEvents {
         for (long number = 1; number <= events; number++) {
             LockSupport.parkNanos(begin + number * STEP.toNanos() - System.nanoTime());
             time = Math.max(time + 1, System.currentTimeMillis());
-            Entity entity = Farm.report(number, time);
+            Entity entity = SoakFarm.report(number, time);
             producer.send(event(entity, time), (written, failure) -> lost.compareAndSet(null, failure));
             producer.send(notification(entity, time), (written, failure) -> lost.compareAndSet(null, failure));
         }

@@ -30,10 +30,10 @@ public final class NumberedResults {
     private static final double WIDE_THRESHOLD_METERS = 8;
     /** Where the devices stand in {@code fields.geojson}, however the second robot goes. */
     private static final Map<String, List<String>> FIELDS_OF = Map.of(
-            Farm.FIRST_THERMOMETER, List.of("farm"),
-            Farm.SECOND_THERMOMETER, List.of("farm", "corner"),
-            Farm.FIRST_ROBOT, List.of("farm"),
-            Farm.SECOND_ROBOT, List.of("farm"));
+            SoakFarm.FIRST_THERMOMETER, List.of("farm"),
+            SoakFarm.SECOND_THERMOMETER, List.of("farm", "corner"),
+            SoakFarm.FIRST_ROBOT, List.of("farm"),
+            SoakFarm.SECOND_ROBOT, List.of("farm"));
 
     private final Expected expected;
     private final String bootstrapServers;
@@ -53,12 +53,12 @@ public final class NumberedResults {
     }
 
     private boolean isClean() throws UnreadableException {
-        Map<String, Comparison> comparisons = new LinkedHashMap<>();
-        for (String topic :
-                List.of(Topics.realtime(Farm.DOMAIN), Topics.realtime(Farm.DOMAIN, Farm.MISSION), NORMALIZED)) {
+        Map<String, ResultComparison> comparisons = new LinkedHashMap<>();
+        for (String topic : List.of(
+                Topics.realtime(SoakFarm.DOMAIN), Topics.realtime(SoakFarm.DOMAIN, SoakFarm.MISSION), NORMALIZED)) {
             try (TopicLog log = new TopicLog(bootstrapServers, topic)) {
                 comparisons.put(topic, compared(log, expected.numbers(), Long.MAX_VALUE));
-                System.out.printf("%-32s nothing for %.1f s at most%n", topic, log.longestSilence() / 1000.0);
+                System.out.printf("%-32s nothing for %.1f s at most%n", topic, log.maxSilence() / 1000.0);
             }
         }
         for (Map.Entry<String, List<Result>> topic : results().entrySet()) {
@@ -69,7 +69,7 @@ public final class NumberedResults {
         long aside = TopicLog.count(bootstrapServers, List.of(".dead", ".late"));
         comparisons.forEach(NumberedResults::print);
         System.out.printf("%-32s %5d records%n", "late and dead", aside);
-        return aside == 0 && comparisons.values().stream().allMatch(Comparison::isClean);
+        return aside == 0 && comparisons.values().stream().allMatch(ResultComparison::isClean);
     }
 
     /** Of each topic of results; blue and green tell the same, another threshold tells something else. */
@@ -84,20 +84,21 @@ public final class NumberedResults {
     }
 
     private List<Result> windows() {
-        List<String> both = List.of(Farm.FIRST_THERMOMETER, Farm.SECOND_THERMOMETER);
+        List<String> both = List.of(SoakFarm.FIRST_THERMOMETER, SoakFarm.SECOND_THERMOMETER);
         List<Result> all = new ArrayList<>(expected.windows("farm", both, windowMillis));
-        all.addAll(expected.windows("corner", List.of(Farm.SECOND_THERMOMETER), windowMillis));
+        all.addAll(expected.windows("corner", List.of(SoakFarm.SECOND_THERMOMETER), windowMillis));
         return all;
     }
 
     /** Waits while something is missing; then once more, so that a late repetition counts. */
-    private static Comparison compared(TopicLog log, List<Result> expected, long horizon) throws UnreadableException {
+    private static ResultComparison compared(TopicLog log, List<Result> expected, long horizon)
+            throws UnreadableException {
         long deadline = System.nanoTime() + TIMEOUT.toNanos();
-        Comparison comparison;
+        ResultComparison comparison;
         do {
-            comparison = Comparison.of(expected, results(log.read(QUIET)), horizon);
+            comparison = ResultComparison.of(expected, results(log.read(QUIET)), horizon);
         } while (!comparison.missing().isEmpty() && System.nanoTime() < deadline);
-        return Comparison.of(expected, results(log.read(QUIET)), horizon);
+        return ResultComparison.of(expected, results(log.read(QUIET)), horizon);
     }
 
     private static List<Result> results(List<Entity> entities) {
@@ -131,7 +132,7 @@ public final class NumberedResults {
         return entity.number(attribute).orElseThrow().longValue();
     }
 
-    private static void print(String topic, Comparison comparison) {
+    private static void print(String topic, ResultComparison comparison) {
         System.out.printf("%-32s %s%n", topic, comparison);
         Stream.of(
                         comparison.missing().stream().map(name -> "missing: " + name),

@@ -69,7 +69,7 @@ public final class TopicLog implements AutoCloseable {
     }
 
     /** The longest time in which ingest passed nothing on, ms. */
-    long longestSilence() {
+    long maxSilence() {
         long[] times = ingestTimes.stream().mapToLong(Long::longValue).sorted().toArray();
         return LongStream.range(1, times.length)
                 .map(i -> times[(int) i] - times[(int) i - 1])

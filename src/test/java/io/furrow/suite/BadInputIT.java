@@ -82,7 +82,7 @@ class BadInputIT {
     }
 
     @Test
-    void setsAsideAResultThatTheContextBrokerRefuses() throws Exception {
+    void setsAsideAResultThatTheContextBrokerRejects() throws Exception {
         try (KafkaProducer<String, String> producer = new KafkaProducer<>(
                 running.suite().kafka().clientProperties(), new StringSerializer(), new StringSerializer())) {
             for (String text : List.of("(refused)", "accepted")) {

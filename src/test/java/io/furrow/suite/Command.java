@@ -14,40 +14,40 @@ import static org.assertj.core.api.Assertions.assertThat;
 final class Command implements AutoCloseable {
     private static final long SECONDS = 120;
 
-    private final List<String> words;
+    private final List<String> arguments;
     private final Process process;
     private final Path output;
 
-    private Command(List<String> words, Process process, Path output) {
-        this.words = words;
+    private Command(List<String> arguments, Process process, Path output) {
+        this.arguments = arguments;
         this.process = process;
         this.output = output;
     }
 
     /** Starts it and goes on; the words are its name and arguments. */
-    static Command start(String... words) {
-        return start(Map.of(), words);
+    static Command start(String... arguments) {
+        return start(Map.of(), arguments);
     }
 
     /** The same with further variables of its environment. */
-    static Command start(Map<String, String> variables, String... words) {
+    static Command start(Map<String, String> variables, String... arguments) {
         try {
             Path output = Files.createTempFile("command", ".out");
             ProcessBuilder builder =
-                    new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(output.toFile());
+                    new ProcessBuilder(arguments).redirectErrorStream(true).redirectOutput(output.toFile());
             builder.environment().putAll(variables);
-            return new Command(List.of(words), builder.start(), output);
+            return new Command(List.of(arguments), builder.start(), output);
         } catch (IOException e) {
             throw new IllegalStateException(
-                    words[0] + " is missing; install the Debian packages mosquitto-clients and curl", e);
+                    arguments[0] + " is missing; install the Debian packages mosquitto-clients and curl", e);
         }
     }
 
     /** Runs it to its end and returns what it printed. */
-    static String run(String... words) throws IOException, InterruptedException {
-        try (Command command = start(words)) {
+    static String run(String... arguments) throws IOException, InterruptedException {
+        try (Command command = start(arguments)) {
             assertThat(command.exitCode())
-                    .as("%s: %s", command.words, command.printed())
+                    .as("%s: %s", command.arguments, command.printed())
                     .isZero();
             return command.printed();
         }
@@ -55,7 +55,7 @@ final class Command implements AutoCloseable {
 
     int exitCode() throws InterruptedException {
         assertThat(process.waitFor(SECONDS, TimeUnit.SECONDS))
-                .as("%s ends", words)
+                .as("%s ends", arguments)
                 .isTrue();
         return process.exitValue();
     }

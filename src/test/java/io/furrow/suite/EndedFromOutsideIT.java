@@ -27,9 +27,9 @@ class EndedFromOutsideIT {
                     bench analytics --parts KAFKA           | Flink                | INT
                     bench fleet --devices 10                |                      | TERM
                     """)
-    void leavesNoFolder(String words, String ready, String signal) throws Exception {
+    void leavesNoFolder(String arguments, String ready, String signal) throws Exception {
         Path temporary = Files.createDirectory(directory.resolve("tmp"));
-        try (FurrowProcess furrow = FurrowProcess.start(temporary, words.split(" "))) {
+        try (FurrowProcess furrow = FurrowProcess.start(temporary, arguments.split(" "))) {
             await().atMost(FurrowProcess.TIMEOUT).until(() -> {
                 assertThat(furrow.isAlive()).as(furrow.printed()).isTrue();
                 return ready == null

@@ -26,7 +26,7 @@ final class FurrowProcess implements AutoCloseable {
     }
 
     /** @param temporary where the process makes its temporary files; what it prints is beside it */
-    static FurrowProcess start(Path temporary, String... words) throws IOException {
+    static FurrowProcess start(Path temporary, String... arguments) throws IOException {
         List<String> command = new ArrayList<>();
         command.add(Path.of(System.getProperty("java.home"), "bin", "java").toString());
         // What Flink opens to reflection, as this JVM has it.
@@ -41,7 +41,7 @@ final class FurrowProcess implements AutoCloseable {
                 "-cp",
                 System.getProperty("java.class.path"),
                 BenchCommand.class.getName()));
-        command.addAll(List.of(words));
+        command.addAll(List.of(arguments));
         Path output = temporary.resolveSibling(temporary.getFileName() + ".out");
         Process process = new ProcessBuilder(command)
                 .redirectErrorStream(true)

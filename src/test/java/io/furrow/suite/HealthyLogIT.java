@@ -57,9 +57,9 @@ class HealthyLogIT {
         assertThat(log).noneMatch(line -> TROUBLE.matcher(line).matches());
     }
 
-    private void run(String words, String name, long windows) throws Exception {
+    private void run(String arguments, String name, long windows) throws Exception {
         Path temporary = Files.createDirectory(directory.resolve(name));
-        try (FurrowProcess furrow = FurrowProcess.start(temporary, words.split(" "))) {
+        try (FurrowProcess furrow = FurrowProcess.start(temporary, arguments.split(" "))) {
             await().atMost(FurrowProcess.TIMEOUT).until(() -> {
                 assertThat(furrow.isAlive()).as(furrow.printed()).isTrue();
                 return AVERAGE.matcher(furrow.printed()).results().count() >= windows;

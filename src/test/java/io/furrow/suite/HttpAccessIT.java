@@ -73,7 +73,7 @@ class HttpAccessIT {
     }
 
     @Test
-    void refusesAForeignHostOnEveryHttpPort() throws IOException {
+    void rejectsAForeignHostOnEveryHttpPort() throws IOException {
         List<String> let = new ArrayList<>();
         for (int port : httpPorts) {
             for (String host : List.of("evil.example", "evil.example:" + port, "127.0.0.1.evil.example:" + port)) {
@@ -85,7 +85,7 @@ class HttpAccessIT {
     }
 
     @Test
-    void refusesAForeignOriginOnEveryHttpPort() throws IOException {
+    void rejectsAForeignOriginOnEveryHttpPort() throws IOException {
         List<String> let = new ArrayList<>();
         for (int port : httpPorts) {
             for (String origin : List.of("https://evil.example", "null", "http://127.0.0.1:1", "http://localhost")) {
@@ -97,7 +97,7 @@ class HttpAccessIT {
     }
 
     @Test
-    void refusesWebSocketsAndPreflightsOfForeignPages() throws IOException {
+    void rejectsWebSocketsAndPreflightsOfForeignPages() throws IOException {
         List<String> let = new ArrayList<>();
         for (int port : httpPorts) {
             String[] foreign = {"Host: 127.0.0.1:" + port, "Origin: https://evil.example"};

@@ -38,11 +38,11 @@ class MissionsIT {
     private static final HttpClient HTTP = HttpClient.newHttpClient();
 
     @TempDir
-    Path kept;
+    Path stored;
 
     @Test
     void startsAMissionOfAHundredDevicesGoesOnAfterARestartAndStopsIt(TestReporter reporter) throws Exception {
-        try (RunningSuite running = RunningSuite.start(kept)) {
+        try (RunningSuite running = RunningSuite.start(stored)) {
             Suite suite = running.suite();
             suite.kafka()
                     .admin()
@@ -57,7 +57,7 @@ class MissionsIT {
             }
             assertThat(provisioned(suite)).isEqualTo(DEVICES);
         }
-        try (RunningSuite running = RunningSuite.start(kept)) {
+        try (RunningSuite running = RunningSuite.start(stored)) {
             Suite suite = running.suite();
             await().atMost(TIMEOUT).until(() -> state(suite).equals("running"));
             JsonNode thermometer = running.ngsi()
@@ -80,7 +80,7 @@ class MissionsIT {
     @Test
     void goesOnReportingThroughARotationOfTheFarmsSecret() throws Exception {
         try (RunningSuite running =
-                RunningSuite.start(kept, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
+                RunningSuite.start(stored, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();
             assertThat(publish(suite, Suite.MQTT_USER, Suite.MQTT_PASSWORD, "/key/any/attrs", "{}"))
                     .contains("bad user name or password");
@@ -97,7 +97,7 @@ class MissionsIT {
             await().atMost(TIMEOUT).until(() -> state(suite).equals("running"));
 
             Instant over = Instant.now().plusSeconds(5);
-            Path file = kept.resolve("farm-secret");
+            Path file = stored.resolve("farm-secret");
             FarmSecret rotated = FarmSecret.read(file).rotated(Instant.now(), over, false);
             Files.writeString(file, FarmSecretCodec.write(rotated));
 
@@ -121,9 +121,9 @@ class MissionsIT {
 
     /** As somebody who sets up a device by hand, and errs. */
     @Test
-    void saysWhyADeviceIsNotHeard() throws Exception {
+    void reportsWhyADeviceIsSilent() throws Exception {
         try (RunningSuite running =
-                RunningSuite.start(kept, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
+                RunningSuite.start(stored, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();
             String device = "urn:ngsi-ld:Thermometer:own";
             await().atMost(TIMEOUT)
@@ -168,10 +168,11 @@ class MissionsIT {
             throws Exception {
         URI broker = suite.devices().mqtt();
         String port = Integer.toString(broker.getPort());
-        List<String> words = List.of("mosquitto_pub", "-h", broker.getHost(), "-p", port, "-u", user, "-P", password);
+        List<String> arguments =
+                List.of("mosquitto_pub", "-h", broker.getHost(), "-p", port, "-u", user, "-P", password);
         List<String> about = List.of("-q", "1", "-t", topic, "-m", message);
         try (Command publisher =
-                Command.start(Stream.concat(words.stream(), about.stream()).toArray(String[]::new))) {
+                Command.start(Stream.concat(arguments.stream(), about.stream()).toArray(String[]::new))) {
             publisher.exitCode();
             return publisher.printed();
         }

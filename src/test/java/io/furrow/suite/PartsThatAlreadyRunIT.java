@@ -28,7 +28,7 @@ class PartsThatAlreadyRunIT {
     Path documents;
 
     @TempDir
-    Path kept;
+    Path stored;
 
     @Test
     void usesTheContextBrokerTheKafkaAndTheMongoThatItIsGiven() throws Exception {
@@ -36,7 +36,7 @@ class PartsThatAlreadyRunIT {
                 EmbeddedMongo mongo = EmbeddedMongo.start(documents);
                 FiwareStandIn orion = FiwareStandIn.start(FiwareSettings.httpOnly());
                 RunningSuite running = RunningSuite.start(
-                        kept,
+                        stored,
                         new SuiteSettings(
                                 null,
                                 SuiteSettings.Fiware.of("farm"),

@@ -87,7 +87,7 @@ class RealClientsIT {
     }
 
     @Test
-    void refusesAWrongPassword() throws Exception {
+    void rejectsAWrongPassword() throws Exception {
         try (Command stranger =
                 Command.start(mosquitto("mosquitto_pub", "guessed", "/secret/mine/attrs", "-m", "{\"temp\": 99}"))) {
             assertThat(stranger.exitCode()).isNotZero();
@@ -134,11 +134,11 @@ class RealClientsIT {
 
     private static String[] mosquitto(String program, String password, String topic, String... more) {
         URI broker = running.suite().devices().mqtt();
-        List<String> words =
+        List<String> arguments =
                 new ArrayList<>(List.of("stdbuf", "-oL", program)); // a line at once, though it is no terminal
-        words.addAll(List.of("-h", broker.getHost(), "-p", Integer.toString(broker.getPort())));
-        words.addAll(List.of("-u", Suite.MQTT_USER, "-P", password, "-q", "1", "-t", topic));
-        words.addAll(List.of(more));
-        return words.toArray(String[]::new);
+        arguments.addAll(List.of("-h", broker.getHost(), "-p", Integer.toString(broker.getPort())));
+        arguments.addAll(List.of("-u", Suite.MQTT_USER, "-P", password, "-q", "1", "-t", topic));
+        arguments.addAll(List.of(more));
+        return arguments.toArray(String[]::new);
     }
 }

@@ -17,15 +17,15 @@ class RestartIT {
     private static final int EVENTS = 20;
 
     @TempDir
-    Path kept;
+    Path stored;
 
     @Test
     void goesOnWhereItWasAfterARestart() throws Exception {
-        try (RunningSuite first = RunningSuite.start(kept)) {
+        try (RunningSuite first = RunningSuite.start(stored)) {
             send(first, 0);
             awaitRouted(first, EVENTS);
         }
-        try (RunningSuite second = RunningSuite.start(kept)) {
+        try (RunningSuite second = RunningSuite.start(stored)) {
             assertThat(second.ngsi().entities("id=probe").at("/0/n/value").asInt())
                     .as("the context broker has kept its entities")
                     .isEqualTo(EVENTS - 1);
@@ -48,10 +48,10 @@ class RestartIT {
         }
     }
 
-    private static List<String> awaitRouted(RunningSuite running, int least) {
+    private static List<String> awaitRouted(RunningSuite running, int min) {
         try (TopicLog topic = running.topic("data.kept.realtime")) {
             await().atMost(TIMEOUT)
-                    .untilAsserted(() -> assertThat(topic.records()).hasSizeGreaterThanOrEqualTo(least));
+                    .untilAsserted(() -> assertThat(topic.records()).hasSizeGreaterThanOrEqualTo(min));
             return topic.records().stream()
                     .map(record -> TopicLog.headers(record).get(HeaderNames.CE_ID))
                     .toList();

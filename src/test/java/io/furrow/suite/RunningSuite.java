@@ -20,13 +20,13 @@ public final class RunningSuite implements AutoCloseable {
         this.suite = suite;
     }
 
-    /** @param kept null for a temporary directory */
-    public static RunningSuite start(Path kept) throws Exception {
-        return start(kept, SuiteSettings.onFreePorts("2s"));
+    /** @param stored null for a temporary directory */
+    public static RunningSuite start(Path stored) throws Exception {
+        return start(stored, SuiteSettings.onFreePorts("2s"));
     }
 
-    public static RunningSuite start(Path kept, SuiteSettings settings) throws Exception {
-        RunDirectory directory = RunDirectory.open(kept);
+    public static RunningSuite start(Path stored, SuiteSettings settings) throws Exception {
+        RunDirectory directory = RunDirectory.open(stored);
         PrintWriter out = new PrintWriter(new OutputStreamWriter(System.out, StandardCharsets.UTF_8));
         return new RunningSuite(directory, Suite.start(settings, directory, new Progress(out)));
     }

@@ -44,7 +44,7 @@ class SlowClockIT {
     }
 
     @Test
-    void keepsNoEncounterBackAndIsReported() {
+    void delaysNoEncounterAndIsReported() {
         try (TopicLog collisions = running.topic(Topics.COLLISION);
                 TopicLog alarms = running.topic(Topics.ALARMS)) {
             long begun = System.currentTimeMillis();

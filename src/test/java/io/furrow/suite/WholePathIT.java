@@ -72,12 +72,13 @@ class WholePathIT {
     @Test
     void averagesAFieldThatIsImportedWhileItRuns() throws Exception {
         FieldsTopic fields = new FieldsTopic(running.suite().kafka().clientProperties());
-        FieldVersion known = fields.read().stream()
+        FieldVersion existing = fields.read().stream()
                 .filter(field -> field.id().equals("field-1"))
                 .findFirst()
                 .orElseThrow();
-        ObjectNode properties = known.properties().deepCopy().put("name", NAME).put("Domain", "farm (north)");
-        fields.write(List.of(new FieldVersion("imported", 0, known.geometry(), properties)));
+        ObjectNode properties =
+                existing.properties().deepCopy().put("name", NAME).put("Domain", "farm (north)");
+        fields.write(List.of(new FieldVersion("imported", 0, existing.geometry(), properties)));
 
         await().atMost(TIMEOUT).untilAsserted(() -> {
             JsonNode average = running.ngsi()
@@ -126,7 +127,7 @@ class WholePathIT {
     }
 
     @Test
-    void keepsEveryEventOfAMissionInMongo() {
+    void storesEveryEventOfAMissionInMongo() {
         try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
                 StoredMissions missions = StoredMissions.open(running.suite().mongo())) {
             await().atMost(TIMEOUT)
@@ -134,9 +135,9 @@ class WholePathIT {
             await().atMost(TIMEOUT).untilAsserted(() -> {
                 ByteArrayOutputStream lines = new ByteArrayOutputStream();
                 missions.export("weeding", lines, ignored -> {});
-                String kept = lines.toString(StandardCharsets.UTF_8);
+                String stored = lines.toString(StandardCharsets.UTF_8);
                 assertThat(weeding.records().subList(0, 10))
-                        .allSatisfy(record -> assertThat(kept)
+                        .allSatisfy(record -> assertThat(stored)
                                 .contains(TopicLog.headers(record).get(HeaderNames.CE_ID))
                                 .contains("\"entity\":" + new String(record.value(), StandardCharsets.UTF_8)));
             });

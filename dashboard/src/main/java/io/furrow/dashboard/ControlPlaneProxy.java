@@ -88,11 +88,11 @@ final class ControlPlaneProxy extends ProxyHandler.Reverse {
         } else if (response.isCommitted()) {
             callback.failed(failure);
         } else {
-            away(response, callback, failure);
+            unavailable(response, callback, failure);
         }
     }
 
-    private void away(Response response, Callback callback, Throwable failure) {
+    private void unavailable(Response response, Callback callback, Throwable failure) {
         HttpFields.Mutable headers = response.getHeaders();
         headers.clear();
         headers.put(HttpHeader.CONTENT_TYPE, "application/json");

@@ -27,7 +27,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.dashboard.auth.ProxyHeaders;
-import io.furrow.dashboard.auth.Users;
+import io.furrow.dashboard.auth.UserCache;
 import io.furrow.dashboard.http.Problem;
 import io.furrow.dashboard.image.ImageIndex;
 import io.furrow.dashboard.image.ImageServlet;
@@ -40,8 +40,8 @@ import io.furrow.dashboard.proxy.RegisterServlet;
 import io.furrow.dashboard.proxy.StreamServlet;
 import io.furrow.dashboard.proxy.TopicStreams;
 import io.furrow.dashboard.proxy.TopicsServlet;
+import io.furrow.dashboard.status.BackendHealth;
 import io.furrow.dashboard.status.StatusPages;
-import io.furrow.dashboard.status.Surroundings;
 import io.furrow.http.AccessRule;
 import io.furrow.http.OptionNames;
 import io.furrow.http.jetty.AccessHandler;
@@ -82,16 +82,16 @@ public final class Dashboard implements AutoCloseable {
     private final Server server = new Server(threads);
     private final TopicStreams streams;
     private final ImageIndex images;
-    private final Users users;
+    private final UserCache users;
     private final Admin admin;
-    private final Surroundings surroundings;
+    private final BackendHealth surroundings;
 
     private Dashboard(DashboardSettings settings) {
-        this.users = new Users(settings.controlPlane(), System::nanoTime);
+        this.users = new UserCache(settings.controlPlane(), System::nanoTime);
         this.streams = new TopicStreams(settings.client(), settings.rules(), settings.limits(), users);
         this.admin = Admin.create(settings.client());
         this.images = new ImageIndex(settings.client());
-        this.surroundings = new Surroundings(streams, settings.controlPlane(), Clock.systemUTC());
+        this.surroundings = new BackendHealth(streams, settings.controlPlane(), Clock.systemUTC());
     }
 
     /** @throws IOException if the port is taken */
@@ -134,8 +134,8 @@ public final class Dashboard implements AutoCloseable {
         AccessRule rule = AccessRule.allowing(settings.allowed(), OPTIONS)
                 .servedAs(settings.host())
                 .withProbes(StatusPages.HEALTH, StatusPages.READY);
-        Handler known = new ProxyHeaders(settings.proxy(), users, streams.counters()::refused, paths);
-        Handler working = new Workers(path -> path.startsWith(WAITING), streams.counters()::refused, known);
+        Handler signedIn = new ProxyHeaders(settings.proxy(), users, streams.counters()::refused, paths);
+        Handler working = new RequestWorkers(path -> path.startsWith(WAITING), streams.counters()::refused, signedIn);
         server.setHandler(new AccessHandler(
                 rule,
                 refused -> {

@@ -93,10 +93,10 @@ final class PlatformServlet extends HttpServlet {
 
     /** What Kafka says; where it does not, that, so that the rest is shown all the same, and nobody else waits for it. */
     private void addKafka(ObjectNode platform) {
-        ArrayNode letters = platform.putArray("deadLetters");
+        ArrayNode deadLetters = platform.putArray("deadLetters");
         ArrayNode groups = platform.putArray("groups");
         ObjectNode kafka = platform.putObject("kafka");
-        if (streams.isKafkaAway()) { // whoever asks need not wait to hear it again
+        if (streams.isKafkaUnavailable()) { // whoever asks need not wait to hear it again
             kafka.put("state", "away").put("reason", reason(new TimeoutException()));
             return;
         }
@@ -106,7 +106,7 @@ final class PlatformServlet extends HttpServlet {
             kafka.put(
                     "topics",
                     ends.keySet().stream().map(TopicPartition::topic).distinct().count());
-            addDeadLetters(letters, ends);
+            addDeadLetters(deadLetters, ends);
             addGroups(groups, ends);
         } catch (ExecutionException | TimeoutException e) {
             Throwable cause = e instanceof ExecutionException ? e.getCause() : e;
@@ -153,9 +153,9 @@ final class PlatformServlet extends HttpServlet {
         Set<TopicPartition> dead = new HashSet<>(ends.keySet());
         dead.removeIf(each -> !each.topic().endsWith(DEAD));
         Map<TopicPartition, Long> begins = offsets(dead, OffsetSpec.earliest());
-        Map<String, Long> letters = new TreeMap<>();
-        dead.forEach(each -> letters.merge(each.topic(), ends.get(each) - begins.get(each), Long::sum));
-        letters.forEach((topic, count) -> to.addObject().put("topic", topic).put("records", count));
+        Map<String, Long> deadLetters = new TreeMap<>();
+        dead.forEach(each -> deadLetters.merge(each.topic(), ends.get(each) - begins.get(each), Long::sum));
+        deadLetters.forEach((topic, count) -> to.addObject().put("topic", topic).put("records", count));
     }
 
     private void addGroups(ArrayNode to, Map<TopicPartition, Long> ends)

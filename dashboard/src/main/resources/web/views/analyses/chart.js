@@ -139,7 +139,7 @@ export class AveragesChart {
   showLegend() {
     const key = this.fields.map((field) => `${field} ${this.nameOf(field)} ${this.hidden.has(field)} ${this.suspects.some((each) => each.size)}`).join('|') + this.device?.id;
     if (key === this.legendKey) {
-      this.say(this.said);
+      this.showValues(this.shownIndex);
       return;
     }
     this.legendKey = key;
@@ -155,7 +155,7 @@ export class AveragesChart {
       }, h('svg:svg', { width: 26, height: 12, 'aria-hidden': 'true' }, line), this.nameOf(field), this.values[index]);
     }), this.deviceEntry(), this.suspects.some((each) => each.size) && h('span.small.muted.suspect-key', null, h('span', { 'aria-hidden': 'true' }), t('analyses.suspectMark')));
     focused >= 0 && this.legend.children[focused]?.focus();
-    this.say(this.said);
+    this.showValues(this.shownIndex);
   }
 
   deviceEntry() {
@@ -183,7 +183,7 @@ export class AveragesChart {
     if (left >= 0) {
       store.setCursor(plot.posToVal(left, 'x') * 1000);
     }
-    this.say(left >= 0 ? idx : null);
+    this.showValues(left >= 0 ? idx : null);
   }
 
   follow() {
@@ -193,16 +193,16 @@ export class AveragesChart {
     }
     this.following = true;
     plot.setCursor(store.cursor === null ? { left: -10, top: -10 } : { left: plot.valToPos(store.cursor / 1000, 'x'), top: 10 });
-    this.say(store.cursor === null ? null : plot.cursor.idx);
+    this.showValues(store.cursor === null ? null : plot.cursor.idx);
     this.following = false;
   }
 
   /** The averages of a moment are told beside the names of their lines; of none the newest. @param {number|null|undefined} index of its time */
-  say(index) {
+  showValues(index) {
     const time = this.data[0][index];
-    this.said = time === undefined ? null : index;
-    this.values.forEach((value, at) => setText(value, temperature(this.said === null ? this.data[at + 1].findLast(Number.isFinite) : this.data[at + 1][index])));
-    this.time.hidden = this.said === null || !this.plot;
+    this.shownIndex = time === undefined ? null : index;
+    this.values.forEach((value, at) => setText(value, temperature(this.shownIndex === null ? this.data[at + 1].findLast(Number.isFinite) : this.data[at + 1][index])));
+    this.time.hidden = this.shownIndex === null || !this.plot;
     if (!this.time.hidden) {
       setText(this.time, clock(time * 1000));
       const x = this.plot.valToPos(time, 'x');

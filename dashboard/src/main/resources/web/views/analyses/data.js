@@ -61,21 +61,21 @@ export class Findings {
   async load(topics, from) {
     const within = this.replay ? { from: 0 } : { from: Math.floor(from) };
     const [averages, encounters, stays] = await Promise.all([
-      this.follow(topics.averages, within, (record) => this.takeAverage(record)),
-      this.follow(topics.encounters, { ...within, newest: 'encounter' }, (record) => this.takeEncounter(record)),
-      this.follow(topics.stays, { from: Math.max(0, within.from - STAYED_BEFORE), newest: 'stay' }, (record) => this.takeStay(record)),
+      this.follow(topics.averages, within, (record) => this.applyAverage(record)),
+      this.follow(topics.encounters, { ...within, newest: 'encounter' }, (record) => this.applyEncounter(record)),
+      this.follow(topics.stays, { from: Math.max(0, within.from - STAYED_BEFORE), newest: 'stay' }, (record) => this.applyStay(record)),
     ]);
     this.since = { averages, encounters, stays: Math.max(from, stays) };
     this.loading = false;
-    this.tell();
+    this.notify();
   }
 
   /** The stream first: what comes while the history is read lies in both, and counts once. @returns {Promise<number>} since when it is whole */
-  follow(topic, range, take) {
+  follow(topic, range, apply) {
     const read = async () => {
       try {
         const { records, since } = await historyIfAny(topic, range, { signal: this.abort.signal });
-        records.forEach(take);
+        records.forEach(apply);
         this.error = this.error?.topic === topic ? null : this.error;
         return since;
       } catch (error) {
@@ -85,25 +85,25 @@ export class Findings {
     };
     let away = false;
     this.streams.push(streams.subscribe(topic, { mode: 'all', prime: false }, {
-      records: (records) => { records.forEach(take); this.changed(); },
+      records: (records) => { records.forEach(apply); this.changed(); },
       state: (state) => {
-        state === 'open' && away && read().then(() => this.tell());
+        state === 'open' && away && read().then(() => this.notify());
         away = state !== 'open' && (away || state !== 'connecting');
       },
     }));
     return read();
   }
 
-  tell() {
+  notify() {
     this.abort.signal.aborted || this.changed();
   }
 
-  takeAverage(record) {
+  applyAverage(record) {
     const average = readAverage(record);
     if (average && (this.replay || average.end >= this.from)) {
       const key = `${average.field} ${average.start}`;
-      const known = this.averagesByWindow.get(key);
-      if (!known || known.epoch <= average.epoch) {
+      const existing = this.averagesByWindow.get(key);
+      if (!existing || existing.epoch <= average.epoch) {
         this.averagesByWindow.set(key, average);
       }
       if (this.averagesByWindow.size > MOST) {
@@ -112,7 +112,7 @@ export class Findings {
     }
   }
 
-  takeEncounter(record) {
+  applyEncounter(record) {
     const encounter = readEncounter(record);
     if (!encounter) {
       return;
@@ -125,13 +125,13 @@ export class Findings {
     }
   }
 
-  takeStay(record) {
+  applyStay(record) {
     const stay = readStay(record);
     if (stay) {
       // a jump begins stays anew, under another id
       const id = this.replay ? `${stay.device} ${stay.field} ${stay.from}` : stay.id;
-      const known = this.staysById.get(id);
-      if (!known || known.to === null || stay.to !== null) {
+      const existing = this.staysById.get(id);
+      if (!existing || existing.to === null || stay.to !== null) {
         this.staysById.set(id, stay);
       }
     }

@@ -5,7 +5,7 @@ import { icon } from '../../core/icons.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 
-const MOST_ROWS = 200;
+const MAX_ROWS = 200;
 const COLUMNS = {
   when: (each) => each.start, pair: (each) => each.pair, closest: (each) => each.closest, duration: (each) => each.end - each.start, phase: (each) => each.phase,
 };
@@ -45,9 +45,9 @@ export class EncounterTable {
       const name = Object.keys(COLUMNS)[index];
       name === this.column ? head.setAttribute('aria-sort', this.down ? 'descending' : 'ascending') : head.removeAttribute('aria-sort');
     });
-    const shown = sorted.slice(0, MOST_ROWS);
-    this.more.hidden = sorted.length <= MOST_ROWS;
-    setText(this.more, sorted.length > MOST_ROWS ? t('analyses.more', { shown: MOST_ROWS, count: sorted.length }) : '');
+    const shown = sorted.slice(0, MAX_ROWS);
+    this.more.hidden = sorted.length <= MAX_ROWS;
+    setText(this.more, sorted.length > MAX_ROWS ? t('analyses.more', { shown: MAX_ROWS, count: sorted.length }) : '');
     const ids = new Set(shown.map((each) => each.id));
     for (const [id, row] of this.rows) {
       if (!ids.has(id)) {

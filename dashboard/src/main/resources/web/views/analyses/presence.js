@@ -5,7 +5,7 @@ import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { Scale } from '../../timeline/scale.js';
 
-const MOST_LINES = 200;
+const MAX_LINES = 200;
 
 export class PresenceBars {
   /** @param {function(Object)} lead to the moment of a stay */
@@ -39,7 +39,7 @@ export class PresenceBars {
       byLine.has(key) || byLine.set(key, []);
       byLine.get(key).push(stay);
     }
-    const lines = [...byLine.entries()].sort(([one], [other]) => one.localeCompare(other, undefined, { numeric: true })).slice(0, MOST_LINES);
+    const lines = [...byLine.entries()].sort(([one], [other]) => one.localeCompare(other, undefined, { numeric: true })).slice(0, MAX_LINES);
     this.more.hidden = lines.length === byLine.size;
     setText(this.more, t('analyses.more', { shown: lines.length, count: byLine.size }));
     const now = store.isReplay ? Math.max(store.now(), range[0]) : range[1];
@@ -68,9 +68,9 @@ export class PresenceBars {
     const from = Math.max(stay.from, first);
     const to = Math.min(stay.to ?? now, last);
     const words = t('analyses.stay', { device: stay.name, field: stay.fieldName, from: clock(stay.from), to: stay.to === null ? t('analyses.stillIn') : `${clock(stay.to)} · ${duration(stay.to - stay.from)}` });
-    const look = `gantt-bar${stay.to === null ? '.open' : ''}${stay.from < first ? '.before' : ''}`;
-    const told = { data: { stay: stay.id }, title: words, 'aria-label': words };
-    const bar = store.may('operate') ? h(`button.${look}`, { type: 'button', ...told, on: { click: () => this.lead(stay) } }) : h(`span.${look}`, { role: 'img', ...told });
+    const selector = `gantt-bar${stay.to === null ? '.open' : ''}${stay.from < first ? '.before' : ''}`;
+    const attributes = { data: { stay: stay.id }, title: words, 'aria-label': words };
+    const bar = store.may('operate') ? h(`button.${selector}`, { type: 'button', ...attributes, on: { click: () => this.lead(stay) } }) : h(`span.${selector}`, { role: 'img', ...attributes });
     bar.style.left = `${(100 * (from - first)) / (last - first)}%`;
     bar.style.width = `${Math.max(0.15, (100 * Math.max(0, to - from)) / (last - first))}%`;
     return bar;

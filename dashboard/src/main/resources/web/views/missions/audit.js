@@ -13,7 +13,7 @@ const POLL_MILLIS = 4_000;
 const TARGETS = { __proto__: null, 'service.missionmanager': 'mission', 'service.domainmanager': 'domain', 'service.replaymanager': 'replay', 'service.alarmmanager': 'alarm', 'service.fields': 'field', device: 'device', marker: 'marker' };
 
 /** Where nothing wanted is on a page, so many are read for one press of the button. */
-const MOST_PAGES = 5;
+const MAX_PAGES = 5;
 
 /** A page of the audit. @returns {Promise<{entries: object[], older: string|null}>} `older` is the path of the next page, if there is one */
 async function page(path) {
@@ -36,17 +36,17 @@ export function auditTable({ mission, device, limit = 50 } = {}) {
   let shown = null;
   const off = list.on(() => {
     if (!list.error) {
-      take(list.value);
+      merge(list.value);
     }
     draw();
   });
 
   /** The newest page, before those that were read on request; where it does not reach them any more, they are dropped. */
-  function take(newest) {
-    const known = entries[0]?.position ?? -1;
-    const reaches = newest.older === null || !newest.entries.length || newest.entries.at(-1).position <= known || known < 0;
+  function merge(newest) {
+    const newestShown = entries[0]?.position ?? -1;
+    const reaches = newest.older === null || !newest.entries.length || newest.entries.at(-1).position <= newestShown || newestShown < 0;
     if (extended && reaches) {
-      entries = [...newest.entries.filter((each) => each.position > known), ...entries];
+      entries = [...newest.entries.filter((each) => each.position > newestShown), ...entries];
     } else {
       ({ entries, older } = newest);
       extended = false;
@@ -58,7 +58,7 @@ export function auditTable({ mission, device, limit = 50 } = {}) {
     failure = null;
     draw();
     try {
-      for (let pages = 0, found = 0; older && !found && pages < MOST_PAGES && !closed; pages++) {
+      for (let pages = 0, found = 0; older && !found && pages < MAX_PAGES && !closed; pages++) {
         const next = await page(older);
         entries = [...entries, ...next.entries];
         ({ older } = next);
@@ -130,7 +130,7 @@ function row(entry) {
 
 function aboutOf(about = {}) {
   const { device, mission, ...rest } = about;
-  const words = Object.entries(rest).map(([name, value]) => `${name} ${said(name, value)}`).join(', ');
+  const words = Object.entries(rest).map(([name, value]) => `${name} ${textOf(name, value)}`).join(', ');
   return [
     typeof mission === 'string' && h('a', { href: linkTo('missions', { mission }) }, mission),
     typeof device === 'string' && h('a', { href: linkTo('map', { select: device }) }, shortId(device)),
@@ -139,6 +139,6 @@ function aboutOf(about = {}) {
 }
 
 /** Moments of replays are times of the events. */
-function said(name, value) {
+function textOf(name, value) {
   return ['from', 'to', 'start', 'until'].includes(name) && Number.isFinite(value) && value > 1e11 ? dateTime(value) : plain(value);
 }

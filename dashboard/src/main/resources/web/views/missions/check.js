@@ -48,12 +48,12 @@ function atStart(group, count) {
 }
 
 function checkDevice(id, group, domain, farm) {
-  const known = farm.devices.get(id);
+  const listed = farm.devices.get(id);
   const entity = farm.entities.get(id);
-  if (!known && !entity && !group.outside) {
+  if (!listed && !entity && !group.outside) {
     return judged(id, [atStart(group, 1), place(group, null, domain, farm)]);
   }
-  return judged(id, [use(known, farm), reach(known, entity, group, farm), battery(known, entity), place(group, entity, domain, farm)].filter(Boolean));
+  return judged(id, [use(listed, farm), reach(listed, entity, group, farm), battery(listed, entity), place(group, entity, domain, farm)].filter(Boolean));
 }
 
 function judged(name, findings) {
@@ -62,20 +62,20 @@ function judged(name, findings) {
 }
 
 /** A simulated device that its host has switched off is silent rightly, until the mission starts. */
-function reach(known, entity, { outside }, { now }) {
-  if (!outside && known?.wanted === 'stopped') {
+function reach(listed, entity, { outside }, { now }) {
+  if (!outside && listed?.wanted === 'stopped') {
     return { level: 'ok', what: 'reach', text: 'off', values: {} };
   }
-  const seen = Math.max(known?.health?.lastSeen ?? 0, entity?.time ?? 0);
+  const seen = Math.max(listed?.health?.lastSeen ?? 0, entity?.time ?? 0);
   if (seen === 0) {
     return { level: outside ? 'warning' : 'unknown', what: 'reach', text: 'neverSeen', values: {} };
   }
-  const silent = known?.health?.silent ?? now - seen > OLD_REPORT;
+  const silent = listed?.health?.silent ?? now - seen > OLD_REPORT;
   return { level: silent ? 'warning' : 'ok', what: 'reach', text: silent ? 'silent' : 'seen', values: { ago: now - seen } };
 }
 
-function battery(known, entity) {
-  const share = known?.health?.battery ?? (entity && chargeOf(entity.attributes));
+function battery(listed, entity) {
+  const share = listed?.health?.battery ?? (entity && chargeOf(entity.attributes));
   if (typeof share !== 'number') {
     return { level: 'unknown', what: 'battery', text: 'noBattery', values: {} };
   }
@@ -83,9 +83,9 @@ function battery(known, entity) {
   return { level: percent < LOW_BATTERY ? 'warning' : 'ok', what: 'battery', text: percent < LOW_BATTERY ? 'batteryLow' : 'battery', values: { percent } };
 }
 
-function use(known, { missions, mission }) {
-  const other = known?.mission && known.mission !== mission ? missions.get(known.mission) : null;
-  return other?.running && known.wanted !== 'stopped' ? { level: 'problem', what: 'use', text: 'used', values: { mission: known.mission } } : null;
+function use(listed, { missions, mission }) {
+  const other = listed?.mission && listed.mission !== mission ? missions.get(listed.mission) : null;
+  return other?.running && listed.wanted !== 'stopped' ? { level: 'problem', what: 'use', text: 'used', values: { mission: listed.mission } } : null;
 }
 
 /** Where it is, or begins; a device that is to roam a field is in it. */

@@ -12,7 +12,7 @@ export class HopDelays {
   }
 
   /** @param {import('../../core/stream.js').TopicRecord} record of a domain's topic @param {number} now epoch ms */
-  take(record, now) {
+  add(record, now) {
     const of = (name) => Number(record.headers[name]);
     const [device, source, ingest] = [of('ts-device'), of('ts-source'), of('ts-ingest')];
     if (record.kind === 'event' && device > 0 && source > 0 && ingest > 0) {

@@ -48,7 +48,7 @@ export class Plan {
   show(missions, at) {
     const changed = missions.join() !== this.missions.join();
     this.missions = missions;
-    const known = missions.map((each) => store.recordings.get(each)).filter(Boolean);
+    const recordings = missions.map((each) => store.recordings.get(each)).filter(Boolean);
     const may = store.may('operate');
     setText(this.heading, missions.length ? t('replays.planOf', { missions: missions.join(' + ') }) : t('replays.plan'));
     setText(this.hint, !may ? t('replays.viewer') : missions.length === 0 ? t('replays.chooseOne') : missions.length > 1 ? t('replays.oneClock') : '');
@@ -60,8 +60,8 @@ export class Plan {
     if (fastest.disabled && this.speed.value === 'max') {
       this.speed.value = '60';
     }
-    if (known.length) {
-      this.span = [Math.min(...known.map((each) => each.first)), Math.max(...known.map((each) => each.last))];
+    if (recordings.length) {
+      this.span = [Math.min(...recordings.map((each) => each.first)), Math.max(...recordings.map((each) => each.last))];
       const [first, last] = this.span;
       (changed || !this.from.isChosen) && this.from.show(at > first && at < last ? at : first);
       (changed || !this.to.isChosen) && this.to.show(last);

@@ -34,8 +34,8 @@ export function linkToMoment({ replay, mission, group }, missions, time) {
 }
 
 export class RunningReplay {
-  constructor(entry, said) {
-    this.said = said;
+  constructor(entry, announce) {
+    this.announce = announce;
     this.name = h('h3');
     this.pill = h('span.pill');
     this.bar = h('span');
@@ -96,7 +96,7 @@ export class RunningReplay {
     try {
       await act();
     } catch (error) {
-      this.said(error.message);
+      this.announce(error.message);
     }
   }
 
@@ -106,15 +106,15 @@ export class RunningReplay {
     const link = linkToMoment(first, this.entry.missions, time);
     try {
       await navigator.clipboard.writeText(link);
-      this.said(t('replays.copied', { time: clock(time) }));
+      this.announce(t('replays.copied', { time: clock(time) }));
     } catch {
-      this.said(t('replays.copyFailed', { link }));
+      this.announce(t('replays.copyFailed', { link }));
     }
   }
 }
 
 /** Keeps elements of entries, so that nothing that has the focus is made anew. */
-export function drawRunning(list, drawn, entries, said) {
+export function drawRunning(list, drawn, entries, announce) {
   for (const [key, each] of drawn) {
     if (!entries.some((entry) => entry.key === key)) {
       each.element.remove();
@@ -122,11 +122,11 @@ export function drawRunning(list, drawn, entries, said) {
     }
   }
   for (const entry of entries) {
-    const known = drawn.get(entry.key);
-    if (known) {
-      known.update(entry);
+    const existing = drawn.get(entry.key);
+    if (existing) {
+      existing.update(entry);
     } else {
-      const made = new RunningReplay(entry, said);
+      const made = new RunningReplay(entry, announce);
       drawn.set(entry.key, made);
       list.append(made.element);
     }

@@ -8,7 +8,7 @@ import { t } from '../../texts.js';
 const KEPT = 200;
 const SHOWN = 100;
 const REDRAW_MILLIS = 300;
-const LONGEST_TEXT = 20_000;
+const MAX_TEXT = 20_000;
 
 export class Records {
   constructor() {
@@ -47,14 +47,14 @@ export class Records {
   follow(topic) {
     const followed = { gap: 0, state: 'connecting', close: () => stream.close() };
     const stream = streams.subscribe(topic, { mode: 'all', prime: false }, {
-      records: (records) => this.take(records),
+      records: (records) => this.append(records),
       gap: (missed) => { followed.gap += missed; this.soon(); },
       state: (state, reason) => { Object.assign(followed, { state, reason }); this.soon(); },
     });
     return followed;
   }
 
-  take(records) {
+  append(records) {
     if (!this.paused) {
       this.records.push(...records);
       this.records.splice(0, this.records.length - KEPT);
@@ -81,8 +81,8 @@ export class Records {
     const shown = this.records.filter((each) => this.key === '' || String(each.key ?? '').toLowerCase().includes(this.key)).slice(-SHOWN).reverse();
     setText(this.note, this.stateOf(shown));
     const rows = [...this.body.children];
-    const known = new Map(rows.map((each) => [each.dataset.at, each]));
-    const wanted = shown.flatMap((record) => this.rowsOf(record, known));
+    const existingRows = new Map(rows.map((each) => [each.dataset.at, each]));
+    const wanted = shown.flatMap((record) => this.rowsOf(record, existingRows));
     wanted.forEach((row, index) => this.body.children[index] !== row && this.body.insertBefore(row, this.body.children[index] ?? null));
     while (this.body.children.length > wanted.length) {
       this.body.lastChild.remove();
@@ -99,12 +99,12 @@ export class Records {
     return parts.join(' · ');
   }
 
-  rowsOf(record, known) {
+  rowsOf(record, existingRows) {
     const at = `${record.topic} ${record.partition} ${record.offset}`;
     const open = this.open.has(at);
-    const row = known.get(at) ?? this.makeRow(record, at);
+    const row = existingRows.get(at) ?? this.makeRow(record, at);
     row.querySelector('button').setAttribute('aria-expanded', String(open));
-    return open ? [row, known.get(`${at} open`) ?? openedRow(record, at)] : [row];
+    return open ? [row, existingRows.get(`${at} open`) ?? openedRow(record, at)] : [row];
   }
 
   makeRow(record, at) {
@@ -140,7 +140,7 @@ function nameOf(key) {
 
 function openedRow(record, at) {
   const value = record.cut ? t('topics.cut', { size: bytes(record.cut) }) : JSON.stringify(record.value, null, 2);
-  const text = value.length > LONGEST_TEXT ? `${value.slice(0, LONGEST_TEXT)}\n… ${t('topics.shortened', { size: bytes(value.length) })}` : value;
+  const text = value.length > MAX_TEXT ? `${value.slice(0, MAX_TEXT)}\n… ${t('topics.shortened', { size: bytes(value.length) })}` : value;
   return h('tr.opened', { data: { at: `${at} open` } }, h('td', { colspan: 4 },
     h('p.small.muted.numbers', null, t('topics.where', { partition: record.partition, offset: record.offset, key: plain(record.key, 200) })),
     h('pre', null, text),

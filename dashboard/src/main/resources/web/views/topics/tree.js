@@ -15,11 +15,11 @@ const EVERYTHING = ['data.raw', 'data.latest', 'ngsi.notifications'];
  */
 export function arrange(topics, domains, missions) {
   const names = new Set(topics.map((each) => each.name));
-  const taken = new Set();
-  const take = (list) => list.filter((name) => (names.has(name) || name === ALWAYS) && taken.add(name));
-  const tree = { all: take(EVERYTHING), results: take(RESULTS), domains: domainsOf(names, domains, missions, taken), replays: [], service: [], other: [], absent: [ALWAYS].filter((name) => !names.has(name)) };
+  const claimed = new Set();
+  const claim = (list) => list.filter((name) => (names.has(name) || name === ALWAYS) && claimed.add(name));
+  const tree = { all: claim(EVERYTHING), results: claim(RESULTS), domains: domainsOf(names, domains, missions, claimed), replays: [], service: [], other: [], absent: [ALWAYS].filter((name) => !names.has(name)) };
   for (const name of names) {
-    if (taken.has(name)) {
+    if (claimed.has(name)) {
       continue;
     }
     const place = /^data\..+\.replay\.[0-9a-f]{8}/.test(name) ? tree.replays : name.startsWith('service.') ? tree.service : tree.other;
@@ -28,27 +28,27 @@ export function arrange(topics, domains, missions) {
   return tree;
 }
 
-function domainsOf(names, domains, missions, taken) {
-  const known = new Map();
+function domainsOf(names, domains, missions, claimed) {
+  const byName = new Map();
   const of = (domain) => {
-    if (!known.has(domain)) {
-      known.set(domain, { domain, topic: null, missions: [] });
+    if (!byName.has(domain)) {
+      byName.set(domain, { domain, topic: null, missions: [] });
     }
-    return known.get(domain);
+    return byName.get(domain);
   };
   [...domains, CANARY].forEach(of);
-  const wanted = new Map([...missions].map((each) => [`data.${each.domain}.realtime.${each.mission}`, each]));
+  const missing = new Map([...missions].map((each) => [`data.${each.domain}.realtime.${each.mission}`, each]));
   for (const name of names) {
     const [, domain, mission] = /^data\.([^.]+)\.realtime(?:\.([^.]+))?$/.exec(name) ?? [];
     if (domain) {
-      taken.add(name);
+      claimed.add(name);
       mission ? of(domain).missions.push({ mission, topic: name }) : (of(domain).topic = name);
-      wanted.delete(name);
+      missing.delete(name);
     }
   }
   // a mission that nothing was reported of yet has no topic
-  wanted.forEach((each) => of(each.domain).missions.push({ mission: each.mission, topic: null }));
-  const ordered = [...known.values()].sort((a, b) => (a.domain === CANARY) - (b.domain === CANARY) || (a.domain < b.domain ? -1 : 1));
+  missing.forEach((each) => of(each.domain).missions.push({ mission: each.mission, topic: null }));
+  const ordered = [...byName.values()].sort((a, b) => (a.domain === CANARY) - (b.domain === CANARY) || (a.domain < b.domain ? -1 : 1));
   ordered.forEach((each) => each.missions.sort((a, b) => (a.mission < b.mission ? -1 : 1)));
   return ordered;
 }

@@ -84,7 +84,7 @@ class ControlPlaneProxyTest {
         }
     }
 
-    private CompletableFuture<Integer> ask(String method, String body) {
+    private CompletableFuture<Integer> request(String method, String body) {
         URI uri = URI.create("http://127.0.0.1:" + connector.getLocalPort() + "/api/domains");
         HttpRequest.BodyPublisher content =
                 body.isEmpty() ? HttpRequest.BodyPublishers.noBody() : HttpRequest.BodyPublishers.ofString(body);
@@ -97,7 +97,7 @@ class ControlPlaneProxyTest {
     void sendsAReadOnceMoreWhenItsConnectionIsClosedUnderIt() {
         for (int round = 0; round < 3; round++) {
             List<CompletableFuture<Integer>> together =
-                    Stream.generate(() -> ask("GET", "")).limit(8).toList();
+                    Stream.generate(() -> request("GET", "")).limit(8).toList();
             assertThat(together).allMatch(answer -> answer.join() == 200);
         }
         assertThat(processed).hasSize(24);
@@ -105,10 +105,10 @@ class ControlPlaneProxyTest {
 
     @Test
     void sendsEachCommandOnceOnAConnectionOfItsOwn() {
-        assertThat(ask("GET", "").join()).isEqualTo(200);
-        assertThat(ask("POST", "{}").join()).isEqualTo(200);
-        assertThat(ask("POST", "").join()).isEqualTo(200);
-        assertThat(ask("DELETE", "").join()).isEqualTo(200);
+        assertThat(request("GET", "").join()).isEqualTo(200);
+        assertThat(request("POST", "{}").join()).isEqualTo(200);
+        assertThat(request("POST", "").join()).isEqualTo(200);
+        assertThat(request("DELETE", "").join()).isEqualTo(200);
         assertThat(processed)
                 .containsExactly("GET /api/domains", "POST /api/domains", "POST /api/domains", "DELETE /api/domains");
     }
@@ -119,10 +119,10 @@ class ControlPlaneProxyTest {
     }
 
     @Test
-    void saysThatTheControlPlaneIsAway() throws Exception {
+    void reportsThatTheControlPlaneIsUnavailable() throws Exception {
         upstream.close();
 
-        assertThat(ask("GET", "").join()).isEqualTo(502);
-        assertThat(ask("POST", "{}").join()).isEqualTo(502);
+        assertThat(request("GET", "").join()).isEqualTo(502);
+        assertThat(request("POST", "{}").join()).isEqualTo(502);
     }
 }

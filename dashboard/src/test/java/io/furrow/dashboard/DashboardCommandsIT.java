@@ -46,7 +46,7 @@ class DashboardCommandsIT extends DashboardFixture {
     }
 
     @Test
-    void refusesAViewerWhoCommandsAndHandsNothingOn() throws Exception {
+    void rejectsAViewerWhoCommandsAndHandsNothingOn() throws Exception {
         List<String> managers =
                 List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER, Topics.ALARM_MANAGER);
         long before = managers.stream().mapToLong(DashboardFixture::ends).sum();

@@ -24,7 +24,7 @@ import static org.awaitility.Awaitility.await;
 /** Who may not read, open or ask, and what they are told. */
 class DashboardRefusalsIT extends DashboardFixture {
     @Test
-    void refusesWhatMayNotBeReadAndWhoeverMayNotRead() throws Exception {
+    void rejectsWhatMayNotBeReadAndWhoeverMayNotRead() throws Exception {
         restart(settings().withRules(new TopicRules(List.of("data.*"), List.of())));
 
         assertThat(error("/api/register/" + TOPIC, null)).isEqualTo("401 unauthorized");
@@ -128,7 +128,7 @@ class DashboardRefusalsIT extends DashboardFixture {
 
     @Tag("full")
     @Test
-    void saysThatTheControlPlaneIsAway() throws Exception {
+    void reportsThatTheControlPlaneIsUnavailable() throws Exception {
         restart(DashboardSettings.of(0, client(), URI.create("http://127.0.0.1:1")));
 
         assertThat(error("/api/missions", VERA)).isEqualTo("502 control-plane-away");
@@ -138,12 +138,12 @@ class DashboardRefusalsIT extends DashboardFixture {
     /** By what it knows already: nobody waits to find it out. */
     @Tag("full")
     @Test
-    void refusesAtOnceWhileKafkaIsAway() throws Exception {
+    void rejectsAtOnceWhileKafkaIsUnavailable() throws Exception {
         try (ServerSocket silent = new ServerSocket(0, 50, InetAddress.getLoopbackAddress())) {
             Properties nowhere = new Properties();
             nowhere.setProperty("bootstrap.servers", "127.0.0.1:" + silent.getLocalPort());
             restart(DashboardSettings.of(0, nowhere, api.uri()));
-            await().until(() -> dashboard.streams().isKafkaAway());
+            await().until(() -> dashboard.streams().isKafkaUnavailable());
 
             long begun = System.nanoTime();
             for (int i = 0; i < 5; i++) { // each of which would wait for 5 s

@@ -78,7 +78,7 @@ class DashboardStatusIT extends DashboardFixture {
 
     @Tag("full")
     @Test
-    void tellsLagAndTheDeadLettersThatAreStillThere() throws Exception {
+    void reportsLagAndTheDeadLettersThatAreStillThere() throws Exception {
         String topic = "counted";
         String dead = "counted.dead";
         try (Admin admin = Admin.create(client())) {
@@ -120,7 +120,7 @@ class DashboardStatusIT extends DashboardFixture {
 
     @Tag("full")
     @Test
-    void saysHowItIsAndWhatItDid() throws Exception {
+    void reportsHowItIsAndWhatItDid() throws Exception {
         await().until(() -> get("/ready", null).statusCode() == 200);
         assertThat(json(get("/health", null)).path("status").asText()).isEqualTo("up");
         assertThat(json(get("/ready", null)).at("/parts/kafka/state").asText()).isEqualTo("up");
@@ -167,7 +167,7 @@ class DashboardStatusIT extends DashboardFixture {
     /** More requests than the server has threads wait for a control plane that is silent. */
     @Tag("full")
     @Test
-    void saysHowItIsAndGivesThePageOutWhileTheControlPlaneIsSilent() throws Exception {
+    void reportsHowItIsAndGivesThePageOutWhileTheControlPlaneIsSilent() throws Exception {
         try (ServerSocket silent = new ServerSocket(0, 500, InetAddress.getLoopbackAddress())) {
             restart(DashboardSettings.of(0, client(), URI.create("http://127.0.0.1:" + silent.getLocalPort())));
             await().until(() -> {

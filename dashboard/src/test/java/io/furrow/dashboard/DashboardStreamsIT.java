@@ -57,7 +57,7 @@ class DashboardStreamsIT extends DashboardFixture {
 
     @Tag("full")
     @Test
-    void deliversValuesAsTheyAreUnlessMoreIsAskedFor() throws Exception {
+    void deliversValuesAsTheyAreUnlessMoreIsRequested() throws Exception {
         SocketClient client = open(TOPIC);
         send(TOPIC, "a", "{\"id\": \"a\" }");
 
@@ -96,7 +96,7 @@ class DashboardStreamsIT extends DashboardFixture {
     }
 
     @Test
-    void knowsOfAReplayWhatItsNewestEpochSaid() throws Exception {
+    void findsOfAReplayWhatItsNewestEpochReported() throws Exception {
         String topic = REPLAY;
         replayed(topic, "a", "{\"n\":1}", 0, "event");
         replayed(topic, "b", "{\"n\":2}", 0, "event");
@@ -114,7 +114,7 @@ class DashboardStreamsIT extends DashboardFixture {
     }
 
     @Test
-    void knowsTheLastHourOfATopicThatIsNotCompactedHoweverMuchIsBeforeIt() throws Exception {
+    void findsTheLastHourOfATopicThatIsNotCompactedHoweverMuchIsBeforeIt() throws Exception {
         String topic = "data.history";
         kafka.createTopics(topics(topic));
         long now = System.currentTimeMillis();

@@ -27,8 +27,8 @@ import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.dashboard.auth.AddressRange;
-import io.furrow.dashboard.auth.Role;
 import io.furrow.dashboard.auth.TrustedProxy;
+import io.furrow.dashboard.auth.UserRole;
 import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.ngsi.NgsiJson;
@@ -110,7 +110,7 @@ class TrustedProxyIT {
                         List.of(AddressRange.parse(proxy)),
                         USER,
                         GROUPS,
-                        Map.of("farmers", Role.VIEWER, "drivers", Role.OPERATOR, "owners", Role.ADMIN),
+                        Map.of("farmers", UserRole.VIEWER, "drivers", UserRole.OPERATOR, "owners", UserRole.ADMIN),
                         token)));
     }
 
@@ -215,7 +215,7 @@ class TrustedProxyIT {
     }
 
     @Test
-    void refusesWhoIsNotNamedOnceOrHasNoRole() throws Exception {
+    void rejectsWhoIsNotNamedOnceOrHasNoRole() throws Exception {
         start(HERE, DASHBOARD);
 
         assertThat(error(get("/api/me", USER, "vera"))).isEqualTo("403 no-role");

@@ -42,8 +42,8 @@ final class AnswerLog implements AutoCloseable {
     }
 
     private void follow() {
-        try (KafkaConsumer<String, byte[]> consumer = Committed.consumer(bootstrapServers)) {
-            Committed.assign(consumer, MANAGERS);
+        try (KafkaConsumer<String, byte[]> consumer = CommittedState.consumer(bootstrapServers)) {
+            CommittedState.assign(consumer, MANAGERS);
             while (!closed) {
                 consumer.poll(POLL).forEach(this::take);
             }

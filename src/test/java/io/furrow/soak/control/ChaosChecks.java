@@ -123,7 +123,7 @@ final class ChaosChecks {
 
     private Map<String, DesiredDevice> desired(List<String> faults) {
         Map<String, DesiredDevice> running = new HashMap<>();
-        Committed.table(farm.kafka().bootstrapServers(), Topics.DEVICES).forEach((key, value) -> {
+        CommittedState.table(farm.kafka().bootstrapServers(), Topics.DEVICES).forEach((key, value) -> {
             try {
                 DesiredDevice device = DesiredDevice.read(value);
                 if (device.running()) {
@@ -159,10 +159,10 @@ final class ChaosChecks {
     /** Requests that have not exactly one answer. */
     List<String> answers(Requester requester, AnswerLog log) {
         List<String> faults = new ArrayList<>();
-        requester.sent().forEach((id, words) -> {
+        requester.sent().forEach((id, text) -> {
             List<CommandResult> answers = log.to(id);
             if (answers.size() != 1) {
-                faults.add("request %s, %s, has %d answers: %s".formatted(id, words, answers.size(), answers));
+                faults.add("request %s, %s, has %d answers: %s".formatted(id, text, answers.size(), answers));
             }
         });
         return faults;
@@ -175,8 +175,8 @@ final class ChaosChecks {
         Map<String, JsonNode> listed = new HashMap<>();
         URI all = farm.controls().get(0).api().resolve("/api/alarms?limit=10000");
         Http.get(all).body().forEach(alarm -> listed.put(alarm.path("alarm").asText(), alarm));
-        for (byte[] value :
-                Committed.table(farm.kafka().bootstrapServers(), Topics.ALARMS).values()) {
+        for (byte[] value : CommittedState.table(farm.kafka().bootstrapServers(), Topics.ALARMS)
+                .values()) {
             JsonNode alarm = NgsiJson.read(value);
             bySubject
                     .computeIfAbsent(alarm.path("subject").asText(), any -> new ArrayList<>())

@@ -26,7 +26,7 @@ final class ChaosFarm implements AutoCloseable {
 
     private final Deque<AutoCloseable> parts = new ArrayDeque<>();
     private final KafkaProcess kafka;
-    private final Mosquitto mosquitto;
+    private final MosquittoProcess mosquitto;
     private final FiwareStandIn fiware;
     private final FaultProxy contextBroker;
     private final FaultProxy iotAgent;
@@ -53,15 +53,15 @@ final class ChaosFarm implements AutoCloseable {
     private ChaosFarm(Path folder) throws Exception {
         kafka = part(new KafkaProcess(folder));
         kafka.start();
-        mosquitto = part(new Mosquitto(folder.resolve("mosquitto")));
+        mosquitto = part(new MosquittoProcess(folder.resolve("mosquitto")));
         mosquitto.start();
         fiware = part(FiwareStandIn.start(
-                new FiwareSettings(0, 0, mosquitto.uri(), Mosquitto.AGENT, Mosquitto.AGENT_PASSWORD)));
+                new FiwareSettings(0, 0, mosquitto.uri(), MosquittoProcess.AGENT, MosquittoProcess.AGENT_PASSWORD)));
         contextBroker = part(new FaultProxy(fiware.contextBroker()));
         iotAgent = part(new FaultProxy(fiware.iotAgent()));
         receiver = part(new AlarmReceiver());
         webhook = part(new FaultProxy(receiver.uri()));
-        secret = FarmSecret.read(ControlOptions.secret(folder));
+        secret = FarmSecret.read(ControlPlaneOptions.secret(folder));
     }
 
     private <T extends AutoCloseable> T part(T part) {
@@ -70,9 +70,9 @@ final class ChaosFarm implements AutoCloseable {
     }
 
     private void startControls(Path folder) throws IOException {
-        List<String> options = ControlOptions.provisioning(folder, contextBroker.uri(), iotAgent.uri());
-        options.addAll(ControlOptions.accounts(mosquitto));
-        options.addAll(ControlOptions.webhook(webhook.uri()));
+        List<String> options = ControlPlaneOptions.provisioning(folder, contextBroker.uri(), iotAgent.uri());
+        options.addAll(ControlPlaneOptions.accounts(mosquitto));
+        options.addAll(ControlPlaneOptions.webhook(webhook.uri()));
         options.addAll(List.of("--standby-replicas", "1"));
         for (String name : List.of("control-a", "control-b")) {
             ControlProcess control = part(new ControlProcess(
@@ -97,7 +97,7 @@ final class ChaosFarm implements AutoCloseable {
         return kafka;
     }
 
-    Mosquitto mosquitto() {
+    MosquittoProcess mosquitto() {
         return mosquitto;
     }
 

@@ -10,7 +10,7 @@ import java.util.stream.Collectors;
 final class ChaosFaults {
     private final ChaosFarm farm;
     private final List<Supervisor> supervisors;
-    private final List<Fault> faults = new ArrayList<>();
+    private final List<RecurringFault> faults = new ArrayList<>();
 
     /** @param brief once each and short, rather than again and again */
     ChaosFaults(ChaosFarm farm, List<Supervisor> supervisors, boolean brief, Random random) {
@@ -30,37 +30,41 @@ final class ChaosFaults {
     }
 
     /** @param seconds mean pauses and outages, of the brief form and of the other */
-    private static Fault.Pace pace(boolean brief, int pause, int outage, int longPause, int longOutage, int times) {
-        return new Fault.Pace(
+    private static RecurringFault.Pace pace(
+            boolean brief, int pause, int outage, int longPause, int longOutage, int times) {
+        return new RecurringFault.Pace(
                 Duration.ofSeconds(brief ? pause : longPause), Duration.ofSeconds(brief ? outage : longOutage), times);
     }
 
-    private void add(String name, Fault.Pace pace, Fault.Action action, Random random) {
-        faults.add(new Fault(name, pace, action, new Random(random.nextLong())));
+    private void add(String name, RecurringFault.Pace pace, RecurringFault.Action action, Random random) {
+        faults.add(new RecurringFault(name, pace, action, new Random(random.nextLong())));
     }
 
     void start() {
-        faults.forEach(Fault::start);
+        faults.forEach(RecurringFault::start);
     }
 
     /** Returns when everything works again. */
     void stop() throws InterruptedException {
-        for (Fault fault : faults) {
+        for (RecurringFault fault : faults) {
             fault.stop();
         }
     }
 
     /** What is away now. */
-    String away() {
-        String away = faults.stream().filter(Fault::isActive).map(Fault::name).collect(Collectors.joining(", "));
-        return away.isEmpty() ? "nothing" : away;
+    String unavailable() {
+        String unavailable = faults.stream()
+                .filter(RecurringFault::isActive)
+                .map(RecurringFault::name)
+                .collect(Collectors.joining(", "));
+        return unavailable.isEmpty() ? "nothing" : unavailable;
     }
 
     /** Whether Kafka or a control plane is away, without which not all serve. */
     boolean stopsServing() {
         return faults.stream()
                 .filter(fault -> fault.name().equals("kafka") || fault.name().startsWith("control-"))
-                .anyMatch(Fault::isActive);
+                .anyMatch(RecurringFault::isActive);
     }
 
     /** How often each failed. */
@@ -68,8 +72,8 @@ final class ChaosFaults {
         return faults.stream().map(fault -> fault.name() + " " + fault.count()).collect(Collectors.joining(", "));
     }
 
-    private static Fault.Action control(Supervisor supervisor) {
-        return new Fault.Action() {
+    private static RecurringFault.Action control(Supervisor supervisor) {
+        return new RecurringFault.Action() {
             @Override
             public void begin(Random random) throws Exception {
                 supervisor.kill();
@@ -82,8 +86,8 @@ final class ChaosFaults {
         };
     }
 
-    private Fault.Action kafka() {
-        return new Fault.Action() {
+    private RecurringFault.Action kafka() {
+        return new RecurringFault.Action() {
             @Override
             public void begin(Random random) throws Exception {
                 supervisors.forEach(Supervisor::kafkaIsAway);
@@ -98,8 +102,8 @@ final class ChaosFaults {
         };
     }
 
-    private Fault.Action mosquitto() {
-        return new Fault.Action() {
+    private RecurringFault.Action mosquitto() {
+        return new RecurringFault.Action() {
             @Override
             public void begin(Random random) throws Exception {
                 farm.mosquitto().kill();
@@ -112,8 +116,8 @@ final class ChaosFaults {
         };
     }
 
-    private Fault.Action refusals() {
-        return new Fault.Action() {
+    private RecurringFault.Action refusals() {
+        return new RecurringFault.Action() {
             @Override
             public void begin(Random random) {
                 farm.receiver().refuse(true);
@@ -126,8 +130,8 @@ final class ChaosFaults {
         };
     }
 
-    private static Fault.Action proxy(FaultProxy proxy) {
-        return new Fault.Action() {
+    private static RecurringFault.Action proxy(FaultProxy proxy) {
+        return new RecurringFault.Action() {
             @Override
             public void begin(Random random) throws Exception {
                 proxy.become(random.nextBoolean() ? FaultProxy.Mode.HANG : FaultProxy.Mode.REFUSE);

@@ -82,7 +82,7 @@ public final class ControlChaos {
     /** What differs at the end, in words; empty where nothing does. */
     static List<String> run(Settings settings) throws Exception {
         try (ChaosFarm farm = ChaosFarm.start(settings.folder())) {
-            say("seed %d, %d s".formatted(settings.seed(), settings.duration().toSeconds()));
+            print("seed %d, %d s".formatted(settings.seed(), settings.duration().toSeconds()));
             ControlChaos chaos = new ControlChaos(settings, farm);
             try {
                 return chaos.run();
@@ -98,7 +98,7 @@ public final class ControlChaos {
                 .toList();
         ChaosFaults outages = new ChaosFaults(farm, supervisors, settings.brief(), random);
         for (String domain : List.of("d0", "d1")) {
-            requester.ask(
+            requester.request(
                     new ControlRequest(
                             "domain-" + domain,
                             Topics.DOMAIN_MANAGER,
@@ -115,11 +115,12 @@ public final class ControlChaos {
         outages.start();
         watch(outages);
         outages.stop();
-        say("everything is back after %s; %d requests are answered".formatted(outages.counts(), requester.answered()));
+        print("everything is back after %s; %d requests are answered"
+                .formatted(outages.counts(), requester.answered()));
         requesting = false;
         settle();
         supervisors.forEach(Supervisor::close);
-        say(
+        print(
                 "%d requests, %d times repeated; %d encounters, %d alarms taken; %d missions failed; %d starts without Kafka; longest recovery %.1f s"
                         .formatted(
                                 requester.sent().size(),
@@ -130,7 +131,7 @@ public final class ControlChaos {
                                 supervisors.stream()
                                         .mapToInt(Supervisor::restarts)
                                         .sum(),
-                                recovery.longestSeconds()));
+                                recovery.maxSeconds()));
         return List.copyOf(faults);
     }
 
@@ -186,9 +187,9 @@ public final class ControlChaos {
         long end = System.nanoTime() + settings.duration().toNanos();
         while (System.nanoTime() < end) {
             Thread.sleep(Math.max(1, Math.min(PROGRESS.toMillis(), (end - System.nanoTime()) / 1_000_000)));
-            say("away: %s; requests %d, answered %d, repeated %d; encounters %d, alarms taken %d; faults %d"
+            print("away: %s; requests %d, answered %d, repeated %d; encounters %d, alarms taken %d; faults %d"
                     .formatted(
-                            outages.away(),
+                            outages.unavailable(),
                             requester.sent().size(),
                             requester.answered(),
                             requester.repeated(),
@@ -210,9 +211,10 @@ public final class ControlChaos {
                 }
             }
         }
-        say("all requests are answered %.1f s after everything was back".formatted((System.nanoTime() - began) / 1e9));
+        print("all requests are answered %.1f s after everything was back"
+                .formatted((System.nanoTime() - began) / 1e9));
         Until.within(SETTLE_TIMEOUT, () -> differences(true).isEmpty());
-        say("settled %.1f s after everything was back".formatted((System.nanoTime() - began) / 1e9));
+        print("settled %.1f s after everything was back".formatted((System.nanoTime() - began) / 1e9));
         reporting = false;
         faults.addAll(differences(false));
     }
@@ -246,14 +248,14 @@ public final class ControlChaos {
                             .asText()
                             .equals("failed");
             if (failed) {
-                say("mission %s failed and is started again".formatted(mission.mission()));
+                print("mission %s failed and is started again".formatted(mission.mission()));
                 mission.start(false);
             }
         }
     }
 
-    private static void say(String words) {
-        System.out.println(words);
+    private static void print(String text) {
+        System.out.println(text);
     }
 
     private void close() {

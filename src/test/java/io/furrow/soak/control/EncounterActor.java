@@ -70,7 +70,7 @@ final class EncounterActor {
                 if (command.equals("mute")) {
                     members.put("for", "PT5S");
                 }
-                requester.ask(
+                requester.request(
                         new ControlRequest("alarm-" + requests++, Topics.ALARM_MANAGER, command, members), random);
                 return;
             }

@@ -84,7 +84,7 @@ final class ExtremeRequests {
     private String mission(ObjectNode members) {
         int which = random.nextInt(21);
         if (which == 20) {
-            members.put("device", longest("urn:ngsi-ld:Thermometer:", MAX_ID_LENGTH));
+            members.put("device", max("urn:ngsi-ld:Thermometer:", MAX_ID_LENGTH));
             return "rotate-credentials";
         } else if (which < 2) {
             members.put("template", name("template"));
@@ -143,7 +143,7 @@ final class ExtremeRequests {
             members.put("kind", AlarmKind.values()[random.nextInt(AlarmKind.values().length)].code());
             sometimes(() -> members.put("subject", text()));
         } else {
-            members.put("alarm", random.nextBoolean() ? "collision-1" : longest("alarm"));
+            members.put("alarm", random.nextBoolean() ? "collision-1" : max("alarm"));
         }
         if (command.equals("mute")) {
             members.put("for", pick("PT1S", "PT87840H", "PT0.001S"));
@@ -187,7 +187,7 @@ final class ExtremeRequests {
     private ObjectNode group(ArrayNode devices, int count) {
         ObjectNode group = devices.addObject().put("type", pick("Thermometer", "Camera", "T".repeat(MAX_NAME_LENGTH)));
         if (count == 1 && random.nextBoolean()) {
-            return group.put("id", longest("urn:ngsi-ld:Thermometer:" + number + "-" + devices.size(), MAX_ID_LENGTH));
+            return group.put("id", max("urn:ngsi-ld:Thermometer:" + number + "-" + devices.size(), MAX_ID_LENGTH));
         }
         sometimes(() -> group.put("period", pick("PT0.001S", "PT1S", "PT87840H")));
         return group.put("count", count);
@@ -221,7 +221,7 @@ final class ExtremeRequests {
     private ArrayNode ids(String prefix, int count) {
         ArrayNode ids = JsonNodeFactory.instance.arrayNode();
         for (int i = 0; i < count; i++) {
-            ids.add(longest(prefix + ":" + number + ":" + i, MAX_ID_LENGTH));
+            ids.add(max(prefix + ":" + number + ":" + i, MAX_ID_LENGTH));
         }
         return ids;
     }
@@ -229,14 +229,14 @@ final class ExtremeRequests {
     /** One of few; every other is as long as a name may be. */
     private String name(String kind) {
         int which = random.nextInt(NAMES);
-        return which % 2 == 0 ? kind + which : longest(kind + which, MAX_NAME_LENGTH);
+        return which % 2 == 0 ? kind + which : max(kind + which, MAX_NAME_LENGTH);
     }
 
-    private static String longest(String start) {
-        return longest(start, MAX_NAME_LENGTH);
+    private static String max(String start) {
+        return max(start, MAX_NAME_LENGTH);
     }
 
-    private static String longest(String start, int length) {
+    private static String max(String start, int length) {
         return start + "_".repeat(length - start.length());
     }
 

@@ -59,7 +59,7 @@ class ExtremeRequestsIT {
                 directory,
                 "control",
                 new ControlProcess.Settings(
-                        kafka.bootstrapServers(), "512m", ControlOptions.provisioning(directory, fiware))));
+                        kafka.bootstrapServers(), "512m", ControlPlaneOptions.provisioning(directory, fiware))));
         control.start();
         await().atMost(TIMEOUT).until(() -> !control.isAlive() || control.isReady());
         assertThat(control.isAlive()).as("it started").isTrue();
@@ -226,10 +226,10 @@ class ExtremeRequestsIT {
     /** Records that are larger than any that the control plane may write; requests and dead letters have limits of their own. */
     private List<String> tooLarge() {
         List<String> tooLarge = new ArrayList<>();
-        List<String> topics = Committed.topics(kafka.bootstrapServers()).stream()
+        List<String> topics = CommittedState.topics(kafka.bootstrapServers()).stream()
                 .filter(topic -> !topic.startsWith("__") && !topic.endsWith(".dead"))
                 .toList();
-        Committed.read(kafka.bootstrapServers(), topics, record -> {
+        CommittedState.read(kafka.bootstrapServers(), topics, record -> {
             int size = Math.max(0, record.serializedKeySize()) + Math.max(0, record.serializedValueSize());
             boolean request = AnswerLog.MANAGERS.contains(record.topic());
             if (size > Limits.RECORD_BYTES && !request) {

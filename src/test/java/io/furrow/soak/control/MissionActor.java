@@ -102,7 +102,7 @@ final class MissionActor {
 
     private void create() throws InterruptedException {
         int count = 1 + random.nextInt(3);
-        if (isGranted(ask("create", members(true).set("devices", list(count))), Set.of())) {
+        if (isGranted(request("create", members(true).set("devices", list(count))), Set.of())) {
             exists = true;
             devices = count;
         }
@@ -115,7 +115,7 @@ final class MissionActor {
         if (withList) {
             members.set("devices", list(count));
         }
-        if (isGranted(ask("start", members), Set.of("mission-running"))) {
+        if (isGranted(request("start", members), Set.of("mission-running"))) {
             devices = withList ? count : devices;
             exists = true;
             running = true;
@@ -123,7 +123,7 @@ final class MissionActor {
     }
 
     private void stop() throws InterruptedException {
-        CommandResult answer = ask("stop", members(false));
+        CommandResult answer = request("stop", members(false));
         if (isGranted(answer, Set.of("mission-not-running"))) {
             running = false;
         } else if (answer.json().path("reason").asText().contains("failed")) {
@@ -133,7 +133,7 @@ final class MissionActor {
     }
 
     private void delete() throws InterruptedException {
-        if (isGranted(ask("delete", members(false)), Set.of("mission-running"))) {
+        if (isGranted(request("delete", members(false)), Set.of("mission-running"))) {
             exists = false;
             running = false;
             devices = 0;
@@ -141,7 +141,7 @@ final class MissionActor {
     }
 
     private void addDevices() throws InterruptedException {
-        if (isGranted(ask("add-devices", members(false).set("devices", list(1))), Set.of("mission-running"))) {
+        if (isGranted(request("add-devices", members(false).set("devices", list(1))), Set.of("mission-running"))) {
             devices++;
         }
     }
@@ -149,7 +149,7 @@ final class MissionActor {
     private void rotate() throws InterruptedException {
         String device = devices().iterator().next();
         ObjectNode members = JsonNodeFactory.instance.objectNode().put("device", device);
-        CommandResult answer = ask("rotate-credentials", members);
+        CommandResult answer = request("rotate-credentials", members);
         if (isGranted(answer, Set.of())) {
             generations.put(device, answer.json().path("generation").asInt());
         }
@@ -180,9 +180,9 @@ final class MissionActor {
         return list;
     }
 
-    private CommandResult ask(String command, JsonNode members) throws InterruptedException {
+    private CommandResult request(String command, JsonNode members) throws InterruptedException {
         String id = "%s-%d".formatted(mission, number++);
         ControlRequest request = new ControlRequest(id, Topics.MISSION_MANAGER, command, (ObjectNode) members);
-        return requester.ask(request, random);
+        return requester.request(request, random);
     }
 }

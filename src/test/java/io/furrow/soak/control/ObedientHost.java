@@ -29,8 +29,8 @@ final class ObedientHost implements AutoCloseable {
     }
 
     private void follow() {
-        try (KafkaConsumer<String, byte[]> consumer = Committed.consumer(bootstrapServers)) {
-            Committed.assign(consumer, List.of(Topics.DEVICES));
+        try (KafkaConsumer<String, byte[]> consumer = CommittedState.consumer(bootstrapServers)) {
+            CommittedState.assign(consumer, List.of(Topics.DEVICES));
             while (!closed) {
                 consumer.poll(POLL).forEach(this::report);
             }

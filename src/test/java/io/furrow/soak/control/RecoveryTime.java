@@ -12,7 +12,7 @@ final class RecoveryTime {
     private final List<ControlProcess> controls;
     private long back;
     private boolean recovering;
-    private volatile long longest;
+    private volatile long max;
 
     /** @param outage whether Kafka or a control plane is away */
     RecoveryTime(BooleanSupplier outage, List<ControlProcess> controls) {
@@ -30,7 +30,7 @@ final class RecoveryTime {
         back = back == 0 ? System.nanoTime() : back;
         if (recovering && controls.stream().allMatch(RecoveryTime::serves)) {
             recovering = false;
-            longest = Math.max(longest, System.nanoTime() - back);
+            max = Math.max(max, System.nanoTime() - back);
         }
     }
 
@@ -38,7 +38,7 @@ final class RecoveryTime {
         return SERVING.contains(control.readiness().path("status").asText());
     }
 
-    double longestSeconds() {
-        return longest / 1e9;
+    double maxSeconds() {
+        return max / 1e9;
     }
 }

@@ -51,7 +51,7 @@ final class Requester {
     }
 
     /** Blocks until it is answered, over however many outages. */
-    CommandResult ask(ControlRequest request, Random random) throws InterruptedException {
+    CommandResult request(ControlRequest request, Random random) throws InterruptedException {
         sent.put(request.id(), request.command() + " " + request.members());
         boolean overKafka = random.nextBoolean();
         for (CommandResult answer = null; ; repeated.increment()) {

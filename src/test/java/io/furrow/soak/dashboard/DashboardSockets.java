@@ -126,13 +126,13 @@ public final class DashboardSockets implements AutoCloseable {
         read(Duration.ofSeconds(Math.min(20, settings.duration().toSeconds())));
         long bytes = settled();
         long threads = dashboard.threads();
-        say("before: %.1f MB live, %d threads".formatted(bytes / 1e6, threads));
+        print("before: %.1f MB live, %d threads".formatted(bytes / 1e6, threads));
         read(settings.duration());
         after("after the slow ones", bytes, threads);
         for (int round = 1; round <= ROUNDS; round++) { // what is kept of each would add up
             long begun = System.nanoTime();
             drop(settings.drops() / ROUNDS);
-            say("%d sockets were opened and dropped in %d s"
+            print("%d sockets were opened and dropped in %d s"
                     .formatted(settings.drops() / ROUNDS, (System.nanoTime() - begun) / 1_000_000_000));
             after("after round %d of dropped ones".formatted(round), bytes, threads);
         }
@@ -186,8 +186,8 @@ public final class DashboardSockets implements AutoCloseable {
             LockSupport.parkNanos(STEP_NANOS);
             every.forEach(SoakSocket::readALittle);
             latest.forEach(SoakSocket::readALittle);
-            int gone = settings.sockets() - (int) dashboard.metric(OPEN);
-            for (int i = 0; i < gone; i++) { // another takes the place of the one that was closed
+            int removed = settings.sockets() - (int) dashboard.metric(OPEN);
+            for (int i = 0; i < removed; i++) { // another takes the place of the one that was closed
                 every.remove(0).drop();
                 every.addAll(open(1, false, "all"));
             }
@@ -197,9 +197,9 @@ public final class DashboardSockets implements AutoCloseable {
         long[] ages = new long[SoakSocket.LATEST + 1];
         quick.forEach(socket -> socket.addTo(ages));
         long p99 = quantile(ages, 0.99);
-        say("%d sockets that read, %d records each: p50 %d ms, p95 %d ms, p99 %d ms, max %d ms"
+        print("%d sockets that read, %d records each: p50 %d ms, p95 %d ms, p99 %d ms, max %d ms"
                 .formatted(quick.size(), expected, quantile(ages, 0.5), quantile(ages, 0.95), p99, quantile(ages, 1)));
-        say("%d slow ones: %.0f were closed, %.0f records merged; %.1f MB live"
+        print("%d slow ones: %.0f were closed, %.0f records merged; %.1f MB live"
                 .formatted(
                         settings.slow(),
                         dashboard.metric(TOO_SLOW) - closedBefore,
@@ -276,7 +276,7 @@ public final class DashboardSockets implements AutoCloseable {
     private void after(String when, long bytesBefore, long threadsBefore) throws Exception {
         long bytes = settled();
         boolean fewThreads = Until.within(TIMEOUT, () -> threads() <= threadsBefore + 4);
-        say("%s: %.1f MB live, %d threads, %d of the pools"
+        print("%s: %.1f MB live, %d threads, %d of the pools"
                 .formatted(when, bytes / 1e6, threads(), dashboard.pooledThreads()));
         check(bytes <= bytesBefore * GROWTH, "%s %d bytes are live, before it were %d", when, bytes, bytesBefore);
         check(dashboard.pooledThreads() <= POOL, "%s the pools have %d threads", when, dashboard.pooledThreads());
@@ -301,7 +301,7 @@ public final class DashboardSockets implements AutoCloseable {
         }
     }
 
-    private static void say(String line) {
+    private static void print(String line) {
         System.out.println(line);
     }
 

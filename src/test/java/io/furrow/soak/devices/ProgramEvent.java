@@ -11,7 +11,7 @@ import com.fasterxml.jackson.databind.JsonNode;
  */
 public record ProgramEvent(long at, String device, String kind, JsonNode json) {
     static ProgramEvent read(String line) {
-        JsonNode json = Json.read(line);
+        JsonNode json = JsonReader.read(line);
         return new ProgramEvent(
                 json.path("at").asLong(),
                 json.path("device").asText(),

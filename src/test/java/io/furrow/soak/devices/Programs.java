@@ -40,8 +40,8 @@ final class Programs implements AutoCloseable {
         return folder.resolve(mission + ".csv");
     }
 
-    void start(Roster.Mission mission) throws IOException {
-        List<Roster.Device> devices = mission.devices();
+    void start(ProgramPlan.Mission mission) throws IOException {
+        List<ProgramPlan.Device> devices = mission.devices();
         for (int first = 0; first < devices.size(); first += DEVICES_OF_A_PROCESS) {
             String name = mission.name() + "-" + first;
             Path behavior = folder.resolve(name + ".json");

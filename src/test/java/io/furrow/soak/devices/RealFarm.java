@@ -11,25 +11,25 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.soak.control.Http;
-import io.furrow.soak.control.Mosquitto;
+import io.furrow.soak.control.MosquittoProcess;
 
 /** A farm of processes: Mosquitto, the stand-ins of context broker and IoT Agent, and {@code ./furrow up}, which is told of both. */
 final class RealFarm implements AutoCloseable {
     static final String WINDOW = "10s";
 
     private final Path log;
-    private final Mosquitto mosquitto;
+    private final MosquittoProcess mosquitto;
     private final StandInProcess standIn;
     private final UpProcess up;
     private final AtomicBoolean closed = new AtomicBoolean();
 
-    RealFarm(Path home, Path folder, Roster roster) throws IOException, InterruptedException {
+    RealFarm(Path home, Path folder, ProgramPlan plan) throws IOException, InterruptedException {
         Path broker = folder.resolve("mosquitto").toAbsolutePath();
         log = broker.resolve("broker.log");
-        mosquitto = new Mosquitto(broker, "log_dest file %s%nlog_type all".formatted(log));
+        mosquitto = new MosquittoProcess(broker, "log_dest file %s%nlog_type all".formatted(log));
         standIn = new StandInProcess(folder, mosquitto.uri());
         Path fields = Files.writeString(
-                folder.resolve("fields.geojson"), roster.fields().toString());
+                folder.resolve("fields.geojson"), plan.fields().toString());
         up = new UpProcess(
                 home,
                 folder.resolve("up"),
@@ -73,7 +73,7 @@ final class RealFarm implements AutoCloseable {
         }
     }
 
-    Mosquitto mosquitto() {
+    MosquittoProcess mosquitto() {
         return mosquitto;
     }
 

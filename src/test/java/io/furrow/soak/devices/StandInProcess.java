@@ -11,7 +11,7 @@ import io.furrow.embedded.FreePort;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
 import io.furrow.soak.control.JavaProcess;
-import io.furrow.soak.control.Mosquitto;
+import io.furrow.soak.control.MosquittoProcess;
 import io.furrow.soak.control.Until;
 
 /** The stand-ins of context broker and IoT Agent in a process of their own, which keeps entities and devices in a file as those do in MongoDB. */
@@ -43,8 +43,8 @@ public final class StandInProcess implements AutoCloseable {
                         Integer.parseInt(args[0]),
                         Integer.parseInt(args[1]),
                         URI.create(args[2]),
-                        Mosquitto.AGENT,
-                        Mosquitto.AGENT_PASSWORD)
+                        MosquittoProcess.AGENT,
+                        MosquittoProcess.AGENT_PASSWORD)
                 .withState(Path.of(args[3])));
         Files.createFile(Path.of(args[4]));
         Thread.currentThread().join();

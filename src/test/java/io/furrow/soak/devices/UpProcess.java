@@ -115,9 +115,9 @@ public final class UpProcess implements AutoCloseable {
     }
 
     /** Runs a command of {@code ./furrow} to its end. @return what it printed */
-    public String run(String... words) throws IOException, InterruptedException {
+    public String run(String... arguments) throws IOException, InterruptedException {
         List<String> all = new ArrayList<>(furrow);
-        all.addAll(List.of(words));
+        all.addAll(List.of(arguments));
         all.addAll(List.of("--api", api("").toString()));
         Path output = Files.createTempFile(folder, "command", ".out");
         Process ran = new ProcessBuilder(all)

@@ -153,11 +153,11 @@ final class FarmRun implements AutoCloseable {
     }
 
     /** What there is when all has come out and the job has ended. */
-    Outcome outcome() throws Exception {
+    IngestOutcome outcome() throws Exception {
         writing.get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
         load.awaitOutput(TIMEOUT);
         stopJob(true);
-        return Outcome.of(kafka.bootstrapServers(), mongo.uri(), images());
+        return IngestOutcome.of(kafka.bootstrapServers(), mongo.uri(), images());
     }
 
     private Path images() {

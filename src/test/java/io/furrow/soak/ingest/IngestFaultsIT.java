@@ -24,7 +24,7 @@ class IngestFaultsIT {
     @TempDir
     static Path directory;
 
-    private static Outcome faultless;
+    private static IngestOutcome faultless;
 
     @BeforeAll
     static void runWithoutFaults() throws Exception {

@@ -47,10 +47,10 @@ public final class LoadWriter {
         writer.makeTopics();
         System.out.println("writing");
         boolean counted = args[2].matches("\\d+");
-        int most = counted ? Integer.parseInt(args[2]) : Integer.MAX_VALUE;
+        int max = counted ? Integer.parseInt(args[2]) : Integer.MAX_VALUE;
         Path enough = Path.of(args[2]);
         int count =
-                writer.write(Integer.parseInt(args[1]), number -> number < most && (counted || !Files.exists(enough)));
+                writer.write(Integer.parseInt(args[1]), number -> number < max && (counted || !Files.exists(enough)));
         System.out.println("wrote " + count + " records");
         long begin = System.nanoTime();
         writer.awaitOutput(TIMEOUT);

@@ -77,7 +77,7 @@ public final class ReplaySteering {
         Map<String, Integer> given = new TreeMap<>();
         try (var producer = new KafkaProducer<>(kafka, new ByteArraySerializer(), new ByteArraySerializer())) {
             for (SteeredReplay replay : replays) {
-                want(replay, producer);
+                desire(replay, producer);
             }
             System.out.println("steering");
             while (!Files.exists(enough)) {
@@ -85,18 +85,18 @@ public final class ReplaySteering {
                         .toNanos());
                 SteeredReplay replay = replays.get(random.nextInt(replays.size()));
                 given.merge(replay.steer(random), 1, Integer::sum);
-                want(replay, producer);
+                desire(replay, producer);
             }
             for (SteeredReplay replay : replays) {
                 replay.stop();
-                want(replay, producer);
+                desire(replay, producer);
             }
         }
         awaitStopped();
         System.out.println("steered: " + given);
     }
 
-    private static void want(SteeredReplay replay, KafkaProducer<byte[], byte[]> producer) throws Exception {
+    private static void desire(SteeredReplay replay, KafkaProducer<byte[], byte[]> producer) throws Exception {
         byte[] key = replay.desired().replay().getBytes(StandardCharsets.UTF_8);
         producer.send(new ProducerRecord<>(Topics.REPLAYS, key, replay.desired().toBytes()))
                 .get();

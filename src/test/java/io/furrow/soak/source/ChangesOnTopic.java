@@ -16,8 +16,8 @@ import io.furrow.model.event.HeaderNames;
 /** Which changes are on {@code data.raw}, committed; grows with each reading. */
 final class ChangesOnTopic implements AutoCloseable {
     private final CommittedRecords records;
-    private final Map<Change, Integer> notified = new HashMap<>();
-    private final Map<Change, String> ids = new HashMap<>();
+    private final Map<NumberedChange, Integer> notified = new HashMap<>();
+    private final Map<NumberedChange, String> ids = new HashMap<>();
     private final Map<Integer, Integer> newest = new HashMap<>();
     private final Map<Integer, Integer> last = new HashMap<>();
     private int repaired;
@@ -33,7 +33,7 @@ final class ChangesOnTopic implements AutoCloseable {
     }
 
     private void count(ConsumerRecord<String, byte[]> record) {
-        Change change = change(record);
+        NumberedChange change = change(record);
         if (text(record, HeaderNames.ORIGIN).equals("repair")) {
             repaired++;
         } else {
@@ -46,9 +46,9 @@ final class ChangesOnTopic implements AutoCloseable {
         last.put(change.entity(), change.number());
     }
 
-    private static Change change(ConsumerRecord<String, byte[]> record) {
+    private static NumberedChange change(ConsumerRecord<String, byte[]> record) {
         try {
-            return Change.read(record.value());
+            return NumberedChange.read(record.value());
         } catch (IOException e) {
             throw new UncheckedIOException("a record that is no entity: " + record, e);
         }
@@ -60,14 +60,14 @@ final class ChangesOnTopic implements AutoCloseable {
     }
 
     /** Records of this change that a notification brought. */
-    int notified(Change change) {
+    int notified(NumberedChange change) {
         return notified.getOrDefault(change, 0);
     }
 
     /** Whether the newest that is known of each of these entities is this. */
-    List<Change> notNewest(List<Change> expected) {
-        List<Change> other = new ArrayList<>();
-        for (Change change : expected) {
+    List<NumberedChange> notNewest(List<NumberedChange> expected) {
+        List<NumberedChange> other = new ArrayList<>();
+        for (NumberedChange change : expected) {
             if (newest.getOrDefault(change.entity(), -1) != change.number()) {
                 other.add(change);
             }

@@ -54,19 +54,19 @@ final class EntityChanges implements AutoCloseable {
             next += nanosPerChange;
             synchronized (Thread.currentThread()) {
                 if (!held) {
-                    post(new Change(entity, newest.get(entity) + 1));
+                    post(new NumberedChange(entity, newest.get(entity) + 1));
                 }
             }
             entity = entity + THREADS < newest.length() ? entity + THREADS : first;
         }
     }
 
-    private void post(Change change) {
+    private void post(NumberedChange change) {
         ObjectNode body =
-                JsonNodeFactory.instance.objectNode().put("id", change.id()).put("type", Change.TYPE);
+                JsonNodeFactory.instance.objectNode().put("id", change.id()).put("type", NumberedChange.TYPE);
         body.putObject("Number").put("type", "Integer").put("value", change.number());
         body.putObject("Filling").put("type", "String").put("value", FILLING);
-        int status = Json.send("POST", entities, body);
+        int status = HttpJson.send("POST", entities, body);
         if (status / 100 != 2) {
             throw new IllegalStateException("the context broker answered " + status + " to " + change);
         }
@@ -90,10 +90,10 @@ final class EntityChanges implements AutoCloseable {
     }
 
     /** The newest state of each entity; {@link #hold} first. */
-    List<Change> newest() {
-        List<Change> all = new ArrayList<>();
+    List<NumberedChange> newest() {
+        List<NumberedChange> all = new ArrayList<>();
         for (int i = 0; i < newest.length(); i++) {
-            all.add(new Change(i, newest.get(i)));
+            all.add(new NumberedChange(i, newest.get(i)));
         }
         return all;
     }

@@ -37,7 +37,7 @@ final class NotificationTap implements AutoCloseable {
             .version(HttpClient.Version.HTTP_1_1)
             .connectTimeout(Duration.ofSeconds(2))
             .build();
-    private final Map<Change, ConcurrentLinkedQueue<Try>> tries = new ConcurrentHashMap<>();
+    private final Map<NumberedChange, ConcurrentLinkedQueue<Try>> tries = new ConcurrentHashMap<>();
     private final AtomicInteger underWay = new AtomicInteger();
     private volatile PlantedFault fault = PlantedFault.NONE;
 
@@ -123,7 +123,7 @@ final class NotificationTap implements AutoCloseable {
 
     private void remember(byte[] body, Try tried) throws IOException {
         for (JsonNode entity : NgsiJson.mapper().readTree(body).path("data")) {
-            tries.computeIfAbsent(Change.of(entity), change -> new ConcurrentLinkedQueue<>())
+            tries.computeIfAbsent(NumberedChange.of(entity), change -> new ConcurrentLinkedQueue<>())
                     .add(tried);
         }
     }
@@ -133,12 +133,12 @@ final class NotificationTap implements AutoCloseable {
     }
 
     /** Every change that was notified. */
-    Set<Change> changes() {
+    Set<NumberedChange> changes() {
         return tries.keySet();
     }
 
     /** What became of its notifications. */
-    List<Try> tries(Change change) {
+    List<Try> tries(NumberedChange change) {
         return List.copyOf(tries.get(change));
     }
 

@@ -34,7 +34,7 @@ final class SourceGroup implements AutoCloseable {
     private final String bootstrapServers;
     private final boolean exactlyOnce;
     private final List<Member> members = new ArrayList<>();
-    private final List<Member> gone = new ArrayList<>();
+    private final List<Member> departed = new ArrayList<>();
 
     SourceGroup(Path folder, String bootstrapServers, boolean exactlyOnce) {
         this.folder = folder;
@@ -65,7 +65,7 @@ final class SourceGroup implements AutoCloseable {
                 folder.resolve(name), bootstrapServers, environment, SourceWorker.settings(exactlyOnce, SETTINGS));
         Member member = new Member(name, own, port, process, new WorkerGauges(process.jmxPort()));
         members.add(member);
-        gone.removeIf(other -> other.disk().equals(own));
+        departed.removeIf(other -> other.disk().equals(own));
         process.start();
         return member;
     }
@@ -74,18 +74,18 @@ final class SourceGroup implements AutoCloseable {
     void restart(Member member) throws IOException {
         member.process().start();
         members.add(member);
-        gone.remove(member);
+        departed.remove(member);
     }
 
     void kill(Member member) throws InterruptedException {
         members.remove(member);
-        gone.add(member);
+        departed.add(member);
         member.process().kill();
     }
 
     void stop(Member member) {
         members.remove(member);
-        gone.add(member);
+        departed.add(member);
         member.process().close();
     }
 
@@ -94,8 +94,8 @@ final class SourceGroup implements AutoCloseable {
     }
 
     /** Those that were killed or stopped, and whose disk no other has. */
-    List<Member> gone() {
-        return List.copyOf(gone);
+    List<Member> departed() {
+        return List.copyOf(departed);
     }
 
     void createSource(URI contextBroker, String publicUrl) {
@@ -105,7 +105,7 @@ final class SourceGroup implements AutoCloseable {
                 .put("journal.dir", "${env:FURROW_JOURNAL}")
                 .put("public.url", publicUrl)
                 .put("context.broker.url", contextBroker.toString())
-                .put("subscription.types", Change.TYPE)
+                .put("subscription.types", NumberedChange.TYPE)
                 .put("subscription.check.interval.ms", "2000");
         members.get(0).process().createConnector(SourceWorker.CONNECTOR, config);
     }
@@ -120,12 +120,12 @@ final class SourceGroup implements AutoCloseable {
 
     private void change(String verb) {
         ObjectNode nothing = JsonNodeFactory.instance.objectNode();
-        Waiting.until(
+        Conditions.until(
                 verb,
                 TIMEOUT,
-                () -> Json.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), nothing) / 100 == 2);
+                () -> HttpJson.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), nothing) / 100 == 2);
         String state = verb.equals("pause") ? "PAUSED" : "RUNNING";
-        Waiting.until(
+        Conditions.until(
                 "all tasks " + state,
                 TIMEOUT,
                 () -> tasks(state).values().stream().mapToInt(Integer::intValue).sum() == TASKS);
@@ -137,7 +137,7 @@ final class SourceGroup implements AutoCloseable {
 
     /** Returns when all tasks run, and each of the workers has one. */
     void awaitTasks() {
-        Waiting.until("all tasks run on " + members, TIMEOUT, () -> {
+        Conditions.until("all tasks run on " + members, TIMEOUT, () -> {
             var shown = shown().values();
             return tasks("RUNNING").values().stream()
                                     .mapToInt(Integer::intValue)
@@ -150,7 +150,7 @@ final class SourceGroup implements AutoCloseable {
 
     private Map<String, Integer> tasks(String state) {
         Map<String, Integer> tasks = new TreeMap<>();
-        JsonNode status = Json.get(connectors("/" + SourceWorker.CONNECTOR + "/status"));
+        JsonNode status = HttpJson.get(connectors("/" + SourceWorker.CONNECTOR + "/status"));
         for (JsonNode task : status.path("tasks")) {
             if (task.path("state").asText().equals(state)) {
                 tasks.merge(task.path("worker_id").asText(), 1, Integer::sum);
@@ -162,13 +162,13 @@ final class SourceGroup implements AutoCloseable {
     /** What each worker shows now. */
     Map<String, WorkerGauges.Shown> shown() {
         Map<String, WorkerGauges.Shown> shown = new TreeMap<>();
-        members().forEach(member -> shown.put(member.name(), member.gauges().look()));
+        members().forEach(member -> shown.put(member.name(), member.gauges().read()));
         return shown;
     }
 
     /** Journals that Connect knows offsets of. */
     int journalsInOffsets() {
-        return Json.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets"))
+        return HttpJson.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets"))
                 .path("offsets")
                 .size();
     }

@@ -73,7 +73,7 @@ public final class SourceKill {
     }
 
     private static Outcome compare(String bootstrapServers, BitSet acknowledged) {
-        try (Delivered delivered = new Delivered(bootstrapServers)) {
+        try (DeliveredNotifications delivered = new DeliveredNotifications(bootstrapServers)) {
             delivered.read();
             return new Outcome(
                     acknowledged.cardinality(),

@@ -13,7 +13,7 @@ public final class SourceOutage {
     private static final Duration WARM_UP = Duration.ofSeconds(15);
     private static final Duration POLL_INTERVAL = Duration.ofSeconds(10);
     /** The worker has a heap of 384 MiB; threads, classes, code and network buffers come beside it. */
-    private static final long RESIDENT_MIB_AT_MOST = 700;
+    private static final long MAX_RESIDENT_MIB = 700;
 
     private SourceOutage() {}
 
@@ -44,8 +44,8 @@ public final class SourceOutage {
             System.out.printf(
                     "sent during the outage %d; drained %.1f s after Kafka was back%n", sentDuring, drained / 1e9);
             long peak = worker.peakResidentMib();
-            System.out.printf("resident at most %d MiB; allowed are %d%n", peak, RESIDENT_MIB_AT_MOST);
-            good &= drained < outage.toNanos() && peak <= RESIDENT_MIB_AT_MOST;
+            System.out.printf("resident at most %d MiB; allowed are %d%n", peak, MAX_RESIDENT_MIB);
+            good &= drained < outage.toNanos() && peak <= MAX_RESIDENT_MIB;
         } finally {
             kafka.close();
         }
@@ -72,7 +72,7 @@ public final class SourceOutage {
 
     /** Until no more is pending than a second brings, under the same load. */
     private static long catchUp(SourceWorker worker, long since, int perSecond) throws Exception {
-        Waiting.until("what was kept is in Kafka", Duration.ofSeconds(300), () -> {
+        Conditions.until("what was kept is in Kafka", Duration.ofSeconds(300), () -> {
             long pending = worker.health().path("pending").asLong(Long.MAX_VALUE);
             return pending < perSecond;
         });
@@ -82,7 +82,7 @@ public final class SourceOutage {
     }
 
     private static boolean compare(String bootstrapServers, BitSet acknowledged, int sent) {
-        try (Delivered delivered = new Delivered(bootstrapServers)) {
+        try (DeliveredNotifications delivered = new DeliveredNotifications(bootstrapServers)) {
             delivered.read();
             int missing = delivered.missingOf(acknowledged);
             int unanswered = sent - acknowledged.cardinality();

@@ -80,12 +80,12 @@ final class SourceWorker implements AutoCloseable {
     }
 
     void awaitListening() {
-        Waiting.until("the source listens", TIMEOUT, () -> health().has("received"));
+        Conditions.until("the source listens", TIMEOUT, () -> health().has("received"));
     }
 
     /** Returns when nothing that was taken waits for Kafka any more. */
     void awaitDrained() {
-        Waiting.until(
+        Conditions.until(
                 "the journal is drained",
                 TIMEOUT,
                 () -> health().path("pending").asLong(-1) == 0);
@@ -93,7 +93,7 @@ final class SourceWorker implements AutoCloseable {
 
     /** What the source says of itself; empty while it does not answer. */
     JsonNode health() {
-        return Json.get(URI.create("http://127.0.0.1:" + port + "/health"));
+        return HttpJson.get(URI.create("http://127.0.0.1:" + port + "/health"));
     }
 
     int port() {

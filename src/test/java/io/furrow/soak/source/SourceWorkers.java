@@ -17,7 +17,7 @@ public final class SourceWorkers {
      * @param notNewest entities whose newest state in Kafka is not that of the context broker
      * @param unshown records on a disk that were not shown, or were shown and not there
      * @param left the most that {@code left-records} showed
-     * @param away records that were on the disks of removed workers
+     * @param unavailable records that were on the disks of removed workers
      * @param repaired records that were read from the context broker
      */
     public record Outcome(
@@ -28,7 +28,7 @@ public final class SourceWorkers {
             int notNewest,
             long unshown,
             long left,
-            int away,
+            int unavailable,
             int repaired) {}
 
     private SourceWorkers() {}
@@ -77,7 +77,7 @@ public final class SourceWorkers {
         add(wrong, outcome.otherIds() > 0, "records of one change have different ids");
         add(wrong, outcome.notNewest() > 0, "the newest state of an entity is not in Kafka");
         add(wrong, outcome.unshown() != 0, "what is shown is not what is on the disks");
-        add(wrong, outcome.away() == 0, "nothing was on the disk of a removed worker");
+        add(wrong, outcome.unavailable() == 0, "nothing was on the disk of a removed worker");
         return wrong;
     }
 

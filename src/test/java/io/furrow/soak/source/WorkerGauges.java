@@ -35,7 +35,7 @@ final class WorkerGauges {
         }
     }
 
-    Shown look() {
+    Shown read() {
         String url = "service:jmx:rmi:///jndi/rmi://127.0.0.1:" + jmxPort + "/jmxrmi";
         try (JMXConnector connector = JMXConnectorFactory.connect(new JMXServiceURL(url))) {
             MBeanServerConnection beans = connector.getMBeanServerConnection();

@@ -88,10 +88,10 @@ final class WorkerProcess implements AutoCloseable {
 
     /** Creates or changes a connector as soon as the worker takes it. */
     void createConnector(String name, JsonNode config) {
-        Waiting.until(
+        Conditions.until(
                 "the worker takes the connector",
                 TIMEOUT,
-                () -> Json.send("PUT", connectors("/" + name + "/config"), config) / 100 == 2);
+                () -> HttpJson.send("PUT", connectors("/" + name + "/config"), config) / 100 == 2);
     }
 
     /** Resident memory in MiB, from Linux' proc; 0 elsewhere. */

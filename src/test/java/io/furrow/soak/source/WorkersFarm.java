@@ -23,7 +23,7 @@ final class WorkersFarm implements AutoCloseable {
 
     private static final Duration LOAD = Duration.ofSeconds(2);
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
-    private static final Duration REPAIRED_WITHIN = Duration.ofSeconds(60);
+    private static final Duration REPAIR_TIMEOUT = Duration.ofSeconds(60);
 
     private final EmbeddedKafka kafka;
     private final FiwareStandIn contextBroker;
@@ -57,10 +57,10 @@ final class WorkersFarm implements AutoCloseable {
         group.createSource(contextBroker.contextBroker(), tap.publicUrl());
         group.awaitTasks();
         URI subscriptions = URI.create(contextBroker.contextBroker() + "/v2/subscriptions");
-        Waiting.until(
+        Conditions.until(
                 "each task has its subscription",
                 TIMEOUT,
-                () -> Json.get(subscriptions).size() == SourceGroup.TASKS);
+                () -> HttpJson.get(subscriptions).size() == SourceGroup.TASKS);
     }
 
     NotificationTap tap() {
@@ -96,7 +96,7 @@ final class WorkersFarm implements AutoCloseable {
     /** Nothing changes any more, and every notification has its answer or none. */
     void awaitAnswers() {
         changes.hold();
-        Waiting.until(
+        Conditions.until(
                 "every notification is answered",
                 TIMEOUT,
                 () -> contextBroker.counters().notificationsQueued() == 0 && tap.isIdle());
@@ -105,20 +105,20 @@ final class WorkersFarm implements AutoCloseable {
     /** Nothing changes any more, and the workers have nothing left to do. */
     void quiet() {
         awaitAnswers();
-        Waiting.until("every journal is drained", TIMEOUT, () -> {
+        Conditions.until("every journal is drained", TIMEOUT, () -> {
             var shown = group.shown().values();
             return shown.stream().mapToInt(Shown::tasks).sum() == SourceGroup.TASKS
                     && shown.stream().allMatch(one -> one.onDisk() == 0 && one.adopted() == 0 && one.orphaned() == 0);
         });
-        List<Change> newest = changes.newest();
-        Waiting.within(REPAIRED_WITHIN, () -> {
+        List<NumberedChange> newest = changes.newest();
+        Conditions.within(REPAIR_TIMEOUT, () -> {
             topic.read();
             return topic.notNewest(newest).isEmpty();
         });
     }
 
     /** Changes that a listener acknowledged and that no notification brought to Kafka. */
-    List<Change> missing() {
+    List<NumberedChange> missing() {
         return tap.changes().stream()
                 .filter(change -> topic.notified(change) == 0)
                 .filter(change -> tap.tries(change).stream().anyMatch(Try::isAcknowledged))
@@ -126,7 +126,7 @@ final class WorkersFarm implements AutoCloseable {
     }
 
     /** Whether a listener of this worker acknowledged it. */
-    boolean isAt(Member member, Change change) {
+    boolean isAt(Member member, NumberedChange change) {
         return tap.tries(change).stream().anyMatch(tried -> tried.isAcknowledged() && member.has(tried.port()));
     }
 

@@ -13,7 +13,7 @@ import io.furrow.soak.source.WorkerGauges.Shown;
 /** What happens to the workers of a source in a round, and what is compared then. */
 final class WorkersRun implements AutoCloseable {
     /** A task beside others looks for journals after 5 s, and every 10 s from then on. */
-    private static final Duration ADOPTED_WITHIN = Duration.ofSeconds(60);
+    private static final Duration ADOPTION_TIMEOUT = Duration.ofSeconds(60);
 
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
 
@@ -23,7 +23,7 @@ final class WorkersRun implements AutoCloseable {
     private final PlantedFault fault;
     private long left;
     private long unshown;
-    private int away;
+    private int unavailable;
     private Member second;
 
     private WorkersRun(WorkersFarm farm, boolean exactlyOnce, PlantedFault fault) {
@@ -68,7 +68,7 @@ final class WorkersRun implements AutoCloseable {
         farm.quiet();
         group.stop(fourth);
         group.awaitTasks();
-        away(fourth, LeftInLog.records(fourth.process().log()));
+        unavailable(fourth, UndeliveredRecords.records(fourth.process().log()));
         load("the other one was emptied and stopped");
     }
 
@@ -87,7 +87,7 @@ final class WorkersRun implements AutoCloseable {
      * @param shown records that it told of last
      * @param missing changes that it acknowledged and that are not in Kafka; records of the repair come on top
      */
-    private record Away(Member worker, long shown, List<Change> missing) {}
+    private record Away(Member worker, long shown, List<NumberedChange> missing) {}
 
     /** A task moves while its journal holds what is not in Kafka: a worker that has it no more must show that. */
     private Away joinAndStop(String name) throws IOException {
@@ -95,14 +95,14 @@ final class WorkersRun implements AutoCloseable {
         load("paused");
         long held = held(List.of());
         Member third = group.join(name, "disk-3");
-        Waiting.until("a worker shows what the task that moved away left", TIMEOUT, () -> {
+        Conditions.until("a worker shows what the task that moved away left", TIMEOUT, () -> {
             long shown = group.shown().values().stream()
                     .mapToLong(Shown::leftRecords)
                     .sum();
             left = Math.max(left, shown);
             return shown > 0;
         });
-        compareShown("a third worker joined", held);
+        compareReported("a third worker joined", held);
         farm.changes().goOn();
         group.resume();
         group.awaitTasks();
@@ -111,7 +111,7 @@ final class WorkersRun implements AutoCloseable {
         group.awaitTasks();
         load("the third worker stopped in order");
         farm.quiet();
-        return away(third, LeftInLog.records(third.process().log()));
+        return unavailable(third, UndeliveredRecords.records(third.process().log()));
     }
 
     private void killAndRestart() throws IOException, InterruptedException {
@@ -127,17 +127,17 @@ final class WorkersRun implements AutoCloseable {
     private Away remove() throws IOException, InterruptedException {
         group.pause();
         load("paused, so that journals fill");
-        compareShown("before a worker is removed", held(group.gone()));
-        long shown = second.gauges().look().onDisk();
+        compareReported("before a worker is removed", held(group.departed()));
+        long shown = second.gauges().read().onDisk();
         group.kill(second);
         farm.changes().goOn();
         group.resume();
         group.awaitTasks();
         load("the second worker removed");
         farm.quiet();
-        Away removed = away(second, shown);
+        Away removed = unavailable(second, shown);
         if (fault == PlantedFault.TAKE_JOURNAL) {
-            LeftInLog.deleteJournals(second.disk());
+            UndeliveredRecords.deleteJournals(second.disk());
         }
         return removed;
     }
@@ -151,18 +151,18 @@ final class WorkersRun implements AutoCloseable {
     }
 
     /** Acknowledged changes that are on the disks of the workers that run, and not in Kafka; nothing changes any more. */
-    private long held(List<Member> gone) {
+    private long held(List<Member> departed) {
         farm.awaitAnswers();
         farm.topic().read();
         return farm.missing().stream()
-                .filter(change -> gone.stream().noneMatch(member -> farm.isAt(member, change)))
+                .filter(change -> departed.stream().noneMatch(member -> farm.isAt(member, change)))
                 .count();
     }
 
     /** Several looks are no single moment: they count once two in a row agree. Records of the repair are shown as well. */
-    private void compareShown(String when, long held) {
+    private void compareReported(String when, long held) {
         long[] before = {-1};
-        Waiting.until("the workers show the same twice", TIMEOUT, () -> {
+        Conditions.until("the workers show the same twice", TIMEOUT, () -> {
             long shown =
                     group.shown().values().stream().mapToLong(Shown::onDisk).sum();
             boolean same = shown == before[0];
@@ -174,21 +174,22 @@ final class WorkersRun implements AutoCloseable {
     }
 
     /** What is missing while the others are drained must be on the disk that is away, as was shown. */
-    private Away away(Member gone, long shown) {
-        List<Change> missing = farm.missing().stream()
-                .filter(change -> farm.isAt(gone, change))
+    private Away unavailable(Member departed, long shown) {
+        List<NumberedChange> missing = farm.missing().stream()
+                .filter(change -> farm.isAt(departed, change))
                 .toList();
-        away += missing.size();
+        unavailable += missing.size();
         unshown += Math.max(0, missing.size() - shown);
-        System.out.printf("  away with %s: %d notified records; %d in all were shown%n", gone, missing.size(), shown);
-        return new Away(gone, shown, missing);
+        System.out.printf(
+                "  away with %s: %d notified records; %d in all were shown%n", departed, missing.size(), shown);
+        return new Away(departed, shown, missing);
     }
 
     /** The disk is here again: the worker takes as many records from it as were shown, and all come to Kafka. */
     private void comeBack(Member worker, Away removed) {
-        Waiting.within(ADOPTED_WITHIN, () -> worker.gauges().look().recovered() >= removed.shown());
+        Conditions.within(ADOPTION_TIMEOUT, () -> worker.gauges().read().recovered() >= removed.shown());
         farm.quiet();
-        long recovered = worker.gauges().look().recovered();
+        long recovered = worker.gauges().read().recovered();
         long came = removed.missing().stream()
                 .filter(change -> farm.topic().notified(change) > 0)
                 .count();
@@ -204,7 +205,7 @@ final class WorkersRun implements AutoCloseable {
         farm.quiet();
         int doubled = 0;
         int acknowledged = 0;
-        for (Change change : farm.tap().changes()) {
+        for (NumberedChange change : farm.tap().changes()) {
             List<Try> tries = farm.tap().tries(change);
             doubled += Math.max(0, farm.topic().notified(change) - tries.size());
             acknowledged += tries.stream().anyMatch(Try::isAcknowledged) ? 1 : 0;
@@ -220,7 +221,7 @@ final class WorkersRun implements AutoCloseable {
                 farm.topic().notNewest(farm.changes().newest()).size(),
                 unshown,
                 left,
-                away,
+                unavailable,
                 farm.topic().repaired());
     }
 

@@ -50,15 +50,15 @@ final class Accounts {
     }
 
     /** Of what was acknowledged in this time; what retention removes has been read before. */
-    List<Check> of(Span span, List<DayMission> missions) throws UnreadableException {
+    List<YearCheck> of(Span span, List<DayMission> missions) throws UnreadableException {
         try (ReportLog log = new ReportLog(farm.up().kafka())) {
             List<Report> acknowledged = farm.tap().acknowledged().entrySet().stream()
                     .filter(each -> each.getValue() >= span.from() && each.getValue() < span.until())
                     .map(Map.Entry::getKey)
                     .toList();
             log.readOn(Topics.RAW, read, raw);
-            List<Check> checks = new ArrayList<>();
-            checks.add(new Check(
+            List<YearCheck> checks = new ArrayList<>();
+            checks.add(new YearCheck(
                     "acknowledged reports on data.raw, " + span.when(),
                     "%d reports, %d of them repeated"
                             .formatted(
@@ -75,7 +75,7 @@ final class Accounts {
         }
     }
 
-    private List<Check> onMissions(ReportLog log, Span span, List<DayMission> missions, List<Report> acknowledged)
+    private List<YearCheck> onMissions(ReportLog log, Span span, List<DayMission> missions, List<Report> acknowledged)
             throws UnreadableException {
         List<String> onTopics = new ArrayList<>();
         List<String> inMongo = new ArrayList<>();
@@ -105,12 +105,13 @@ final class Accounts {
             }
         }
         return List.of(
-                new Check(
+                new YearCheck(
                         "reports on their missions' topics, " + span.when(),
                         "%d reports of %d missions, each %s; %d of the last second before a power cut are missing"
                                 .formatted(expected, missions.size(), span.once() ? "once" : "there", unsynced),
                         onTopics),
-                new Check("reports in MongoDB, " + span.when(), "%d reports, each once".formatted(expected), inMongo));
+                new YearCheck(
+                        "reports in MongoDB, " + span.when(), "%d reports, each once".formatted(expected), inMongo));
     }
 
     private static String topic(DayMission mission) {

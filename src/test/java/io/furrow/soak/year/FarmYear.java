@@ -17,7 +17,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.topic.Topics;
-import io.furrow.soak.devices.Verdicts;
+import io.furrow.soak.devices.CheckResults;
 import io.furrow.soak.year.Accounts.DayMission;
 import io.furrow.soak.year.Accounts.Span;
 import io.furrow.suite.page.OpeningTime;
@@ -28,13 +28,13 @@ public final class FarmYear implements AutoCloseable {
 
     private static final int DAYS_OF_A_WEEK = 7;
     private static final int WEEKS_OF_A_MONTH = 4;
-    private static final int KEPT_DAYS = 7;
+    private static final int RETENTION_DAYS = 7;
     private static final int DAY_OF_REPLAY = 3;
     /** Until the jobs know a mission's devices. */
     private static final Duration KNOWN = Duration.ofSeconds(2);
 
     private static final Duration SETTLED = Duration.ofSeconds(30);
-    private static final Duration BETWEEN_LOOKS = Duration.ofSeconds(1);
+    private static final Duration POLL_INTERVAL = Duration.ofSeconds(1);
     private static final double MAX_GROWTH = 1.2;
     private static final double MAX_START_GROWTH = 1.5;
     private static final long MAX_OPENING_MILLIS = 3_000;
@@ -42,16 +42,16 @@ public final class FarmYear implements AutoCloseable {
 
     private final int weeks;
     private final Duration day;
-    private final Verdicts verdicts = new Verdicts();
+    private final CheckResults verdicts = new CheckResults();
     private final YearFarm farm;
-    private final Fleet fleet;
+    private final YearFleet fleet;
     private final Plots plots;
     private final Accounts accounts;
-    private final Results results;
+    private final YearResults results;
     private final SilentDevices silent;
-    private final Replays replays;
+    private final YearReplays replays;
     private final PowerCut power;
-    private final Deque<String> kept = new ArrayDeque<>();
+    private final Deque<String> stored = new ArrayDeque<>();
     private final Map<Integer, Map<String, Double>> footprints = new TreeMap<>();
     private List<DayMission> ofTheWeek = new ArrayList<>();
     private long from = System.currentTimeMillis();
@@ -62,12 +62,12 @@ public final class FarmYear implements AutoCloseable {
         this.weeks = weeks;
         this.day = day;
         farm = new YearFarm(furrow, folder);
-        fleet = new Fleet(farm.standIn().contextBroker());
+        fleet = new YearFleet(farm.standIn().contextBroker());
         plots = new Plots(farm);
         accounts = new Accounts(farm);
-        results = new Results(farm, fleet, plots, accounts);
+        results = new YearResults(farm, fleet, plots, accounts);
         silent = new SilentDevices(farm, fleet);
-        replays = new Replays(farm);
+        replays = new YearReplays(farm);
         power = new PowerCut(farm.data().resolve("kafka"), folder.resolve("cut"), new Random(SEED));
     }
 
@@ -98,9 +98,10 @@ public final class FarmYear implements AutoCloseable {
     }
 
     void run() throws Exception {
-        say("Mosquitto, the stand-ins of Orion and IoT Agent, and ./furrow up start");
+        print("Mosquitto, the stand-ins of Orion and IoT Agent, and ./furrow up start");
         start(farm::start);
-        farm.ask("POST", "/api/domains", JsonNodeFactory.instance.objectNode().put("domain", DOMAIN));
+        farm.request(
+                "POST", "/api/domains", JsonNodeFactory.instance.objectNode().put("domain", DOMAIN));
         plots.start();
         fleet.start();
         for (int week = 1; week <= weeks; week++) {
@@ -113,7 +114,7 @@ public final class FarmYear implements AutoCloseable {
             }
             endOfWeek(week);
             farm.retain(Duration.ofNanos(System.nanoTime() - began));
-            say("week %d took %.1f s".formatted(week, (System.nanoTime() - began) / 1e9));
+            print("week %d took %.1f s".formatted(week, (System.nanoTime() - began) / 1e9));
         }
         fleet.close();
         compare();
@@ -129,7 +130,7 @@ public final class FarmYear implements AutoCloseable {
         }
         Thread.sleep(day.toMillis() / 2);
         if (number == DAYS_OF_A_WEEK - 1) {
-            add(silent.told("week " + week, week));
+            add(silent.checkSilent("week " + week, week));
             add(replays.playedAndDeleted("week " + week));
             openPage(week);
         }
@@ -142,19 +143,19 @@ public final class FarmYear implements AutoCloseable {
 
     private List<String> begin(int week, int day) throws InterruptedException {
         List<String> missions = new ArrayList<>();
-        for (int mission = 0; mission < Fleet.MISSIONS; mission++) {
+        for (int mission = 0; mission < YearFleet.MISSIONS; mission++) {
             String name = name(week, day, mission);
             ObjectNode plan = JsonNodeFactory.instance.objectNode().put("domain", DOMAIN);
             ArrayNode devices = plan.putArray("devices");
-            Fleet.devices(mission).forEach(devices::add);
-            farm.ask("POST", "/api/missions/" + name + "/start", plan);
+            YearFleet.devices(mission).forEach(devices::add);
+            farm.request("POST", "/api/missions/" + name + "/start", plan);
             missions.add(name);
         }
         Thread.sleep(KNOWN.toMillis());
-        for (int mission = 0; mission < Fleet.MISSIONS; mission++) {
+        for (int mission = 0; mission < YearFleet.MISSIONS; mission++) {
             ofTheWeek.add(new DayMission(
                     missions.get(mission),
-                    new HashSet<>(Fleet.devices(mission)),
+                    new HashSet<>(YearFleet.devices(mission)),
                     System.currentTimeMillis(),
                     Long.MAX_VALUE));
             fleet.begin(mission);
@@ -164,18 +165,18 @@ public final class FarmYear implements AutoCloseable {
 
     /** @param until what was reported before belongs to them */
     private void end(List<String> missions, long until) {
-        for (int mission = 0; mission < Fleet.MISSIONS; mission++) {
+        for (int mission = 0; mission < YearFleet.MISSIONS; mission++) {
             fleet.end(mission);
         }
         ofTheWeek.replaceAll(each -> each.ended() == Long.MAX_VALUE
                 ? new DayMission(each.name(), each.devices(), each.begun(), until)
                 : each);
         for (String name : missions) {
-            farm.ask("POST", "/api/missions/" + name + "/stop", null);
-            kept.add(name);
+            farm.request("POST", "/api/missions/" + name + "/stop", null);
+            stored.add(name);
         }
-        while (kept.size() > KEPT_DAYS * Fleet.MISSIONS) {
-            farm.forget(kept.remove());
+        while (stored.size() > RETENTION_DAYS * YearFleet.MISSIONS) {
+            farm.forget(stored.remove());
         }
     }
 
@@ -199,25 +200,25 @@ public final class FarmYear implements AutoCloseable {
         }
         start(farm.up()::start);
         String when = "week %d (%s)".formatted(week, end);
-        add(silent.told("after the end of " + when, week));
+        add(silent.checkSilent("after the end of " + when, week));
         silent.end(week);
         Thread.sleep(day.toMillis() / 2);
         long until = System.currentTimeMillis();
         end(missions, until);
         settle(new Span(when, from, until, end.equals("restart")));
-        add(silent.gone(when, week));
+        add(silent.checkRemoved(when, week));
         silent.forget(week);
         from = until;
         footprints.put(week, Footprint.of(farm, startSeconds));
-        say("week %d: %s".formatted(week, footprints.get(week)));
+        print("week %d: %s".formatted(week, footprints.get(week)));
     }
 
     /** Awaits what is under way. */
     private void settle(Span span) throws Exception {
         long end = System.nanoTime() + SETTLED.toNanos();
-        List<Check> checks = checks(span);
-        while (!checks.stream().allMatch(Check::holds) && System.nanoTime() < end) {
-            Thread.sleep(BETWEEN_LOOKS.toMillis());
+        List<YearCheck> checks = checks(span);
+        while (!checks.stream().allMatch(YearCheck::holds) && System.nanoTime() < end) {
+            Thread.sleep(POLL_INTERVAL.toMillis());
             checks = checks(span);
         }
         checks.forEach(this::add);
@@ -225,15 +226,15 @@ public final class FarmYear implements AutoCloseable {
         ofTheWeek = new ArrayList<>();
     }
 
-    private List<Check> checks(Span span) throws Exception {
-        List<Check> checks = new ArrayList<>(accounts.of(span, ofTheWeek));
+    private List<YearCheck> checks(Span span) throws Exception {
+        List<YearCheck> checks = new ArrayList<>(accounts.of(span, ofTheWeek));
         checks.add(results.encounters(span));
         checks.add(results.averages(span));
         checks.add(plots.shown(span.when()));
         return checks;
     }
 
-    private void add(Check check) {
+    private void add(YearCheck check) {
         verdicts.add(check.what(), check.figures(), check.differences());
     }
 
@@ -242,7 +243,7 @@ public final class FarmYear implements AutoCloseable {
         if (week != WEEKS_OF_A_MONTH && week != weeks) {
             return;
         }
-        List<String> devices = Fleet.devices();
+        List<String> devices = YearFleet.devices();
         long millis = OpeningTime.millis(farm.up().dashboard(), devices);
         verdicts.add(
                 "the page opens, week " + week,
@@ -277,16 +278,16 @@ public final class FarmYear implements AutoCloseable {
         }
         Map<String, Double> before = footprints.get(WEEKS_OF_A_MONTH);
         footprints.get(weeks).forEach((what, now) -> {
-            double most = before.get(what) * (what.equals("start s") ? MAX_START_GROWTH : MAX_GROWTH);
+            double max = before.get(what) * (what.equals("start s") ? MAX_START_GROWTH : MAX_GROWTH);
             verdicts.add(
                     what + " at the end",
                     String.format(Locale.ROOT, "%.1f, after the fourth week %.1f", now, before.get(what)),
-                    now <= most ? List.of() : List.of(String.format(Locale.ROOT, "more than %.1f", most)));
+                    now <= max ? List.of() : List.of(String.format(Locale.ROOT, "more than %.1f", max)));
         });
     }
 
-    private static void say(String words) {
-        System.out.println(words);
+    private static void print(String text) {
+        System.out.println(text);
     }
 
     @Override

@@ -32,14 +32,14 @@ final class Plots {
 
     Plots(YearFarm farm) {
         this.farm = farm;
-        for (int mission = 1; mission < Fleet.MISSIONS; mission++) {
+        for (int mission = 1; mission < YearFleet.MISSIONS; mission++) {
             where.put(mission, new ConcurrentSkipListMap<>());
         }
     }
 
     /** Before the first week. */
     void start() {
-        put(HOME, "Home", Fleet.latitude(1));
+        put(HOME, "Home", YearFleet.latitude(1));
         where.get(1).put(0L, HOME);
     }
 
@@ -48,7 +48,7 @@ final class Plots {
         long time = System.currentTimeMillis();
         switch (day) {
             case 1 -> {
-                put(season, season, Fleet.latitude(2));
+                put(season, season, YearFleet.latitude(2));
                 where.get(2).put(time, season);
             }
             case MOVES -> {
@@ -56,7 +56,7 @@ final class Plots {
                 where.get(1).put(time, "");
             }
             case ENDS -> {
-                farm.ask(
+                farm.request(
                         "PATCH",
                         "/api/fields/" + season,
                         JsonNodeFactory.instance
@@ -66,7 +66,7 @@ final class Plots {
                 where.get(2).put(time, "");
             }
             case RETURNS -> {
-                put(HOME, "Home " + week, Fleet.latitude(1));
+                put(HOME, "Home " + week, YearFleet.latitude(1));
                 where.get(1).put(time, HOME);
             }
             default -> {}
@@ -83,9 +83,11 @@ final class Plots {
                 .putArray("coordinates")
                 .addArray();
         for (int[] corner : new int[][] {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}) {
-            ring.addArray().add(Fleet.LONGITUDE - 0.001 + corner[0] * 0.006).add(latitude - 0.001 + corner[1] * 0.002);
+            ring.addArray()
+                    .add(YearFleet.LONGITUDE - 0.001 + corner[0] * 0.006)
+                    .add(latitude - 0.001 + corner[1] * 0.002);
         }
-        farm.ask("POST", "/api/fields", all);
+        farm.request("POST", "/api/fields", all);
         now.put(id, shown(name, latitude - 0.001));
     }
 
@@ -96,12 +98,12 @@ final class Plots {
     /** In which field a thermometer stood when it reported; null for none. */
     String fieldOf(ProgramEvent event) {
         Map.Entry<Long, String> field =
-                where.get(Fleet.missionOf(event.device())).floorEntry(event.time());
+                where.get(YearFleet.missionOf(event.device())).floorEntry(event.time());
         return field == null || field.getValue().isEmpty() ? null : field.getValue();
     }
 
     /** The REST API has the fields of now. */
-    Check shown(String when) {
+    YearCheck shown(String when) {
         Map<String, String> found = new TreeMap<>();
         for (JsonNode each :
                 farm.up().get("/api/fields?domain=" + FarmYear.DOMAIN).path("features")) {
@@ -109,8 +111,8 @@ final class Plots {
             found.put(
                     each.path("id").asText(), shown(each.at("/properties/name").asText(), south));
         }
-        return new Check(
-                "fields, " + when, String.join(", ", List.copyOf(found.values())), Check.differences(now, found));
+        return new YearCheck(
+                "fields, " + when, String.join(", ", List.copyOf(found.values())), YearCheck.differences(now, found));
     }
 
     private static double south(JsonNode ring) {

@@ -23,9 +23,9 @@ final class SilentDevices {
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
 
     private final YearFarm farm;
-    private final Fleet fleet;
+    private final YearFleet fleet;
 
-    SilentDevices(YearFarm farm, Fleet fleet) {
+    SilentDevices(YearFarm farm, YearFleet fleet) {
         this.farm = farm;
         this.fleet = fleet;
     }
@@ -40,7 +40,7 @@ final class SilentDevices {
         for (String id : new String[] {FALLS_SILENT, NEVER_REPORTS}) {
             devices.addObject().put("id", id).put("type", "Thermometer").put("period", "PT1S");
         }
-        farm.ask("POST", "/api/missions/" + mission(week) + "/start", plan);
+        farm.request("POST", "/api/missions/" + mission(week) + "/start", plan);
     }
 
     /** When its mission is known. */
@@ -49,7 +49,7 @@ final class SilentDevices {
     }
 
     void end(int week) {
-        farm.ask("POST", "/api/missions/" + mission(week) + "/stop", null);
+        farm.request("POST", "/api/missions/" + mission(week) + "/stop", null);
     }
 
     void forget(int week) {
@@ -57,17 +57,18 @@ final class SilentDevices {
     }
 
     /** Both alarms are there, and they are of this mission. */
-    Check told(String when, int week) {
+    YearCheck checkSilent(String when, int week) {
         Until.within(TIMEOUT, () -> open(week).equals(ALARMS));
-        return new Check(
+        return new YearCheck(
                 "alarms of silent devices, " + when,
                 String.join(", ", open(week).keySet()),
-                Check.differences(ALARMS, open(week)));
+                YearCheck.differences(ALARMS, open(week)));
     }
 
-    Check gone(String when, int week) {
+    YearCheck checkRemoved(String when, int week) {
         Until.within(TIMEOUT, () -> open(week).isEmpty());
-        return new Check("no alarm once their mission has ended, " + when, "", Check.differences(Map.of(), open(week)));
+        return new YearCheck(
+                "no alarm once their mission has ended, " + when, "", YearCheck.differences(Map.of(), open(week)));
     }
 
     /** By kind, the devices of which there is an alarm. */

@@ -25,7 +25,7 @@ import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 import io.furrow.soak.control.Http;
-import io.furrow.soak.control.Mosquitto;
+import io.furrow.soak.control.MosquittoProcess;
 import io.furrow.soak.control.Until;
 import io.furrow.soak.devices.StandInProcess;
 import io.furrow.soak.devices.UpProcess;
@@ -38,7 +38,7 @@ final class YearFarm implements AutoCloseable {
     private static final double RETENTION_WEEKS = 1.75;
 
     private final Path data;
-    private final Mosquitto mosquitto;
+    private final MosquittoProcess mosquitto;
     private final StandInProcess standIn;
     private final UpProcess up;
     private final Tap tap;
@@ -47,7 +47,7 @@ final class YearFarm implements AutoCloseable {
 
     /** @param furrow the words that start it, before {@code up} */
     YearFarm(List<String> furrow, Path folder) throws IOException, InterruptedException {
-        mosquitto = new Mosquitto(folder.resolve("mosquitto").toAbsolutePath());
+        mosquitto = new MosquittoProcess(folder.resolve("mosquitto").toAbsolutePath());
         standIn = new StandInProcess(folder, mosquitto.uri());
         up = new UpProcess(
                 furrow,
@@ -58,7 +58,7 @@ final class YearFarm implements AutoCloseable {
                         "--start-timeout",
                         "5s",
                         "--window",
-                        Results.WINDOW.toSeconds() + "s"));
+                        YearResults.WINDOW.toSeconds() + "s"));
         data = folder.resolve("up").resolve("data");
         tap = new Tap(up.port("notify"));
         up.with("--public-url", tap.publicUrl());
@@ -87,7 +87,7 @@ final class YearFarm implements AutoCloseable {
     }
 
     /** Asks until it is granted: what it asks for is allowed, but perhaps not yet. @return the answer */
-    JsonNode ask(String method, String path, ObjectNode body) {
+    JsonNode request(String method, String path, ObjectNode body) {
         byte[] bytes = body == null ? null : NgsiJson.write(body);
         AtomicReference<Http.Answer> answer = new AtomicReference<>();
         Until.isTrue(method + " " + path, TIMEOUT, () -> {
@@ -99,7 +99,7 @@ final class YearFarm implements AutoCloseable {
 
     /** Deletes a mission, and does what the control plane does a day later and a retention of missions would do. */
     void forget(String mission) {
-        ask("DELETE", "/api/missions/" + mission, null);
+        request("DELETE", "/api/missions/" + mission, null);
         try (MongoClient client = MongoClients.create(mongo())) {
             deleteTopics(Topics.realtime(FarmYear.DOMAIN, mission));
             client.getDatabase(MongoAccess.DATABASE)
@@ -114,8 +114,9 @@ final class YearFarm implements AutoCloseable {
 
     void deleteTopics(String... topics) throws InterruptedException, ExecutionException {
         try (Admin admin = admin()) {
-            Set<String> known = admin.listTopics().names().get();
-            admin.deleteTopics(List.of(topics).stream().filter(known::contains).toList())
+            Set<String> existing = admin.listTopics().names().get();
+            admin.deleteTopics(
+                            List.of(topics).stream().filter(existing::contains).toList())
                     .all()
                     .get();
         }

@@ -48,7 +48,7 @@ class YearIT {
                                 "-cp",
                                 System.getProperty("java.class.path"),
                                 "io.furrow.launcher.Furrow"))
-                .flatMap(words -> words)
+                .flatMap(arguments -> arguments)
                 .toList();
     }
 }

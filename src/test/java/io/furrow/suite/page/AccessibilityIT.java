@@ -22,14 +22,14 @@ class AccessibilityIT {
 
     private static final List<String> VIEWS = List.of("map", "missions", "replays", "analyses", "topics", "platform");
 
-    static Stream<Look> looks() {
-        return Stream.of(Look.DESK, Look.PHONE_LIGHT);
+    static Stream<WindowStyle> looks() {
+        return Stream.of(WindowStyle.DESKTOP, WindowStyle.PHONE_LIGHT);
     }
 
     @ParameterizedTest
     @MethodSource("looks")
-    void hasNoSeriousFinding(Look look, PageSuite suite) {
-        FarmPage farm = suite.open("", look);
+    void hasNoSeriousFinding(WindowStyle style, PageSuite suite) {
+        FarmPage farm = suite.open("", style);
         farm.untilStore("store.entities.size >= 17 && store.alarms.size > 0");
         for (String view : VIEWS) {
             farm.open("#/" + view);
@@ -43,13 +43,13 @@ class AccessibilityIT {
             List<String> findings = new AxeBuilder(farm.page())
                     .withTags(RULES).analyze().getViolations().stream()
                             .filter(rule -> SERIOUS.contains(rule.getImpact()))
-                            .map(AccessibilityIT::words)
+                            .map(AccessibilityIT::arguments)
                             .toList();
             org.assertj.core.api.Assertions.assertThat(findings).as(view).isEmpty();
         }
     }
 
-    private static String words(Rule rule) {
+    private static String arguments(Rule rule) {
         return rule.getImpact() + " " + rule.getId() + ": "
                 + rule.getNodes().stream()
                         .map(node -> node.getHtml() + " " + node.getFailureSummary())

@@ -54,12 +54,12 @@ class AlarmsIT {
 
     @Tag("full")
     @Test
-    void saysWhyAnAlarmCannotBeClosed(PageSuite suite) {
+    void reportsWhyAnAlarmCannotBeClosed(PageSuite suite) {
         FarmPage farm = suite.open("").expectingError("status of 4\\d\\d.*/close");
-        String known =
+        String existing =
                 "[...store.alarms.values()].find((each) => each.kind.includes('suspect') && each.state !== 'closed')?.alarm";
-        farm.untilStore(known + " !== undefined");
-        Locator row = rowOf(farm, (String) farm.store(known));
+        farm.untilStore(existing + " !== undefined");
+        Locator row = rowOf(farm, (String) farm.store(existing));
 
         close(row);
 
@@ -71,16 +71,16 @@ class AlarmsIT {
     @Test
     void closesAnAlarm(PageSuite suite) {
         FarmPage farm = suite.open("");
-        farm.untilStore("store.alarmsKnown");
-        AtomicInteger asked = new AtomicInteger();
+        farm.untilStore("store.alarmsLoaded");
+        AtomicInteger requested = new AtomicInteger();
         farm.page().route("**/api/alarms/over-1/close", route -> {
-            asked.incrementAndGet();
+            requested.incrementAndGet();
             route.fulfill(new Route.FulfillOptions().setStatus(202));
         });
         take(farm, "open");
         Locator row = rowOf(farm, "over-1");
         close(row);
-        farm.page().waitForCondition(() -> asked.get() == 1);
+        farm.page().waitForCondition(() -> requested.get() == 1);
 
         take(farm, "closed");
         assertThat(row).hasCount(0);
@@ -90,7 +90,7 @@ class AlarmsIT {
         farm.page().evaluate("""
                         async (state) => {
                           const { store } = await import('/core/store.js');
-                          store.takeAlarm({ key: 'over-1', value: { alarm: 'over-1', kind: 'silent-device', severity: 'minor', text: 'the pump is silent',
+                          store.applyAlarm({ key: 'over-1', value: { alarm: 'over-1', kind: 'silent-device', severity: 'minor', text: 'the pump is silent',
                             subject: 'pump', raised: Date.now(), count: 1, state } });
                         }""", state);
     }
@@ -107,9 +107,9 @@ class AlarmsIT {
 
     @Tag("full")
     @Test
-    void tellsANewAlarmToScreenReadersAndCountsIt(PageSuite suite) throws Exception {
+    void reportsANewAlarmToScreenReadersAndCountsIt(PageSuite suite) throws Exception {
         FarmPage farm = suite.open("");
-        farm.untilStore("store.primed && store.alarmsKnown");
+        farm.untilStore("store.primed && store.alarmsLoaded");
         int robot = meet(suite);
 
         assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);
@@ -120,7 +120,7 @@ class AlarmsIT {
 
     @Tag("full")
     @Test
-    void findsAlarmsByWhatTheySay(PageSuite suite) {
+    void findsAlarmsByWhatTheyReport(PageSuite suite) {
         FarmPage farm = suite.open("");
         Locator open = farm.find("furrow-alarms > .alarm-list > li.alarm");
         farm.untilStore("[...store.alarms.values()].some((each) => each.state === 'open')");
@@ -137,7 +137,7 @@ class AlarmsIT {
     @Tag("full")
     @Test
     void notifiesOfANewAlarmWhileThePageIsHidden(PageSuite suite) throws Exception {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
         farm.page().context().grantPermissions(List.of("notifications"));
         farm.page().addInitScript("""
                 window.notified = [];
@@ -153,7 +153,7 @@ class AlarmsIT {
             socket.onClose(closed -> sockets.decrementAndGet());
         });
         farm.open("");
-        farm.untilStore("store.primed && store.alarmsKnown");
+        farm.untilStore("store.primed && store.alarmsLoaded");
         int robot = meet(suite);
 
         assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);

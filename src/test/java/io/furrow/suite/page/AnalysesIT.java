@@ -105,7 +105,7 @@ class AnalysesIT {
 
     @Test
     void hasAllOfItOnAPhone(PageSuite suite) {
-        FarmPage farm = suite.open("#/analyses", Look.PHONE);
+        FarmPage farm = suite.open("#/analyses", WindowStyle.PHONE);
         Locator moment = farm.find(".analysis.encounters tbody tr").first().getByText("To the moment");
         assertThat(moment).isVisible();
         assertThat(farm.find(".gantt-name").first()).isVisible();
@@ -113,7 +113,7 @@ class AnalysesIT {
         moment.scrollIntoViewIfNeeded();
         BoundingBox button = moment.boundingBox();
         org.assertj.core.api.Assertions.assertThat(button.x).isPositive();
-        org.assertj.core.api.Assertions.assertThat(button.x + button.width).isLessThan(Look.PHONE.width());
+        org.assertj.core.api.Assertions.assertThat(button.x + button.width).isLessThan(WindowStyle.PHONE.width());
         for (String part : List.of(".encounter-frame", ".gantt-name", ".chart-legend")) {
             org.assertj.core.api.Assertions.assertThat(farm.find(part)
                             .evaluateAll("(all) => all.filter((each) => each.scrollWidth > each.clientWidth).length"))

@@ -39,7 +39,7 @@ class CardsIT {
 
     @Tag("full")
     @Test
-    void saysHowADeviceIsConnected(PageSuite suite) {
+    void reportsHowADeviceIsConnected(PageSuite suite) {
         FarmPage farm = suite.open("");
         farm.page()
                 .route("**/api/devices/*Thermometer*", route -> route.fulfill(new Route.FulfillOptions().setBody("""
@@ -71,16 +71,16 @@ class CardsIT {
     @Test
     void showsWhatWasReportedBeforeThePageWasOpenedAndIsNotMergedYet(PageSuite suite) {
         FarmPage farm = suite.open("");
-        farm.untilStore("store.pastKnown");
+        farm.untilStore("store.pastLoaded");
         farm.store("""
-                store.takePast([21.5, 22.5].map((value, index) => ({
+                store.applyPast([21.5, 22.5].map((value, index) => ({
                   topic: 'data.raw', kind: 'prime', key: 'urn:ngsi-ld:Thermometer:new', time: Date.now() - 1000 + index, headers: {},
                   value: { id: 'urn:ngsi-ld:Thermometer:new', type: 'Thermometer', Temperature: { type: 'Float', value } },
                 })))""");
 
         assertThat(farm.card("urn:ngsi-ld:Thermometer:new")).containsText("22.5 °C");
         farm.store("""
-                store.takePast([{ id: 'gone', type: 'Thermometer' }, null].map((value, index) => (
+                store.applyPast([{ id: 'gone', type: 'Thermometer' }, null].map((value, index) => (
                   { topic: 'data.raw', kind: 'prime', key: 'gone', time: Date.now() + index, headers: {}, value })))""");
         assertThat(farm.card("gone")).hasCount(0);
     }
@@ -93,7 +93,7 @@ class CardsIT {
         Object taken = farm.store("""
                 (() => {
                   const id = 'urn:ngsi-ld:Robot:late';
-                  const report = (time, values) => store.takeEntity({ key: id, kind: 'event', time, headers: {},
+                  const report = (time, values) => store.applyEntity({ key: id, kind: 'event', time, headers: {},
                     value: { id, type: 'Robot', ...Object.fromEntries(Object.entries(values).map(([name, value]) => [name, { value }])) } });
                   report(2000, { speed: 2, Latitude: 40.31, Longitude: -3.48, cmd_status: 'PENDING' });
                   report(1000, { speed: 1, Latitude: 40.39, Longitude: -3.48, battery: 0.5, cmd_status: 'OK', constructor: 5 });
@@ -101,7 +101,7 @@ class CardsIT {
                   report(2000, { state: 'Stopped' });
                   report(2000, { state: 'Running' });
                   const { attributes, position, word } = store.entities.get(id);
-                  store.takeEntity({ key: id, value: null });
+                  store.applyEntity({ key: id, value: null });
                   return [...['speed', 'battery', 'cmd_status', 'constructor'].map((name) => attributes[name].value), position.join(), word].join(' ');
                 })()""");
 
@@ -134,7 +134,7 @@ class CardsIT {
     }
 
     @Test
-    void sendsACommandAndSaysWhatBecameOfIt(PageSuite suite) {
+    void sendsACommandAndReportsWhatBecameOfIt(PageSuite suite) {
         FarmPage farm = suite.open("");
         Locator card = farm.card(ROBOT);
         card.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
@@ -149,7 +149,7 @@ class CardsIT {
     /** Nobody keeps it: the context broker has no such entity. */
     @Tag("full")
     @Test
-    void saysWhyACommandWasNotSent(PageSuite suite) throws Exception {
+    void reportsWhyACommandWasNotSent(PageSuite suite) throws Exception {
         String lost = "urn:ngsi-ld:Robot:lost";
         suite.produce("data.raw", lost, robot(lost, "Running", Instant.now()));
         FarmPage farm = suite.open("").expectingError("status of 404.*commands");
@@ -162,7 +162,7 @@ class CardsIT {
 
     @Tag("full")
     @Test
-    void saysThatADeviceIsSilent(PageSuite suite) throws Exception {
+    void reportsThatADeviceIsSilent(PageSuite suite) throws Exception {
         String silent = "urn:ngsi-ld:Robot:silent";
         Instant before = Instant.now().minusSeconds(300);
         suite.produce("data.raw", silent, robot(silent, "Running", before), before);

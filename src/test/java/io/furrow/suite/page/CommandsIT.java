@@ -68,7 +68,7 @@ class CommandsIT {
     }
 
     @Test
-    void saysThatACommandFailedAndWhy(PageSuite suite) throws Exception {
+    void reportsThatACommandFailedAndWhy(PageSuite suite) throws Exception {
         report(suite, answer("ERROR", "the brake is stuck"));
 
         assertThat(outcome).containsText("✗ Stop failed");
@@ -86,7 +86,7 @@ class CommandsIT {
     }
 
     @Test
-    void saysThatNoAnswerCame(PageSuite suite) throws Exception {
+    void reportsThatNoAnswerCame(PageSuite suite) throws Exception {
         report(suite, answer("PENDING", ""));
         outcome.evaluate("(element) => { element.closest('li').card.sent.at -= 31_000; }");
 

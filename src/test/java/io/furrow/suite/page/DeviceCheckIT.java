@@ -28,7 +28,7 @@ class DeviceCheckIT {
                 .map(([id, position]) => [id, { position, time: ['silent', 'off'].includes(id) ? 1 : 999999000, attributes: { battery: { value: 90 } } }])) }""";
 
     @Test
-    void saysWhatIsMissingOfEachDevice(PageSuite suite) {
+    void reportsWhatIsMissingOfEachDevice(PageSuite suite) {
         FarmPage farm = suite.open("");
 
         assertThat(check(farm, "['fit', 'silent', 'low', 'used', 'free', 'hole', 'far', 'never-heard-of']"))
@@ -44,7 +44,7 @@ class DeviceCheckIT {
     }
 
     @Test
-    void knowsDevicesThatTheHostSwitchesOnAndThoseYetToBeMade(PageSuite suite) {
+    void findsDevicesThatTheHostSwitchesOnAndThoseYetToBeMade(PageSuite suite) {
         FarmPage farm = suite.open("");
 
         assertThat(check(farm, """

@@ -16,7 +16,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 @Tag("full")
 class EmptyFarmIT {
     @Test
-    void saysOfEachPlaceThatThereIsNothingYetAndWhatMakesSome(PageSuite suite) {
+    void reportsForEachPlaceThatThereIsNothingYetAndWhatMakesSome(PageSuite suite) {
         FarmPage farm = window(suite);
         farm.page().routeWebSocket("**/socket/**", socket -> socket.send("{\"primed\":true}"));
         farm.page().route("**/api/**", EmptyFarmIT::answerWithNothing);
@@ -51,7 +51,7 @@ class EmptyFarmIT {
     }
 
     @Test
-    void showsThatItReadsUntilItKnows(PageSuite suite) {
+    void showsThatItReadsUntilItHasRead(PageSuite suite) {
         FarmPage farm = window(suite);
         farm.page().routeWebSocket("**/socket/**", socket -> {});
         farm.page().route("**/api/**", route -> {
@@ -75,7 +75,7 @@ class EmptyFarmIT {
     }
 
     private static FarmPage window(PageSuite suite) {
-        return suite.window(suite.running().suite().dashboard(), Look.DESK);
+        return suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
     }
 
     private static void tab(FarmPage farm, String name) {

@@ -10,7 +10,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 @Tag("full")
 class FrameIT {
     @Test
-    void opensOnTheMapAndSaysThatWhatIsShownIsLive(PageSuite suite) {
+    void opensOnTheMapAndReportsThatWhatIsShownIsLive(PageSuite suite) {
         FarmPage farm = suite.open("");
 
         assertThat(farm.page()).hasTitle("Furrow");
@@ -20,7 +20,7 @@ class FrameIT {
 
     /** A test of the page fails by errors of the window: they have to be heard. */
     @Test
-    void hearsWhatThePolicyForbidsAndWhatNobodyCaught(PageSuite suite) {
+    void reportsWhatThePolicyForbidsAndWhatNobodyCaught(PageSuite suite) {
         FarmPage farm = suite.open("").expectingError(".");
         farm.page()
                 .evaluate(

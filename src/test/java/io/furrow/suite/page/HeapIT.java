@@ -18,7 +18,7 @@ class HeapIT {
         FarmPage farm = suite.open("");
         // what is read once is no growth: the past of the devices, lists, alarms, and the first results of analytics
         farm.untilStore(
-                "store.primed && store.pastKnown && store.alarmsKnown && store.recordings.size > 0 && store.averages.size > 0"
+                "store.primed && store.pastLoaded && store.alarmsLoaded && store.recordings.size > 0 && store.averages.size > 0"
                         + " && store.images.size > 0 && store.encounters.size > 0");
         report(farm, 0, 60);
         assertThat(farm.store("store.entities.size >= " + DEVICES)).isEqualTo(true);
@@ -40,7 +40,7 @@ class HeapIT {
                       const angle = (second + number) / 20;
                       const float = (value) => ({ type: 'Float', value });
                       const id = `urn:ngsi-ld:Tractor:${number}`;
-                      store.takeEntity({
+                      store.applyEntity({
                         key: id, time: window.reportsBegan + 1000 * second, headers: {},
                         value: {
                           id, type: 'Tractor', speed: float(1 + Math.sin(angle)), heading: float((angle * 57.3) % 360), battery: float(0.8),

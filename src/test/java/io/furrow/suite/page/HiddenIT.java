@@ -17,13 +17,13 @@ class HiddenIT {
 
     @Test
     void letsGoOfEverythingAndComesBack(PageSuite suite) {
-        FarmPage hidden = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        FarmPage hidden = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
         AtomicInteger sockets = new AtomicInteger();
-        List<String> asked = new CopyOnWriteArrayList<>();
-        hidden.page().onRequest(request -> asked.add(request.url()));
+        List<String> requests = new CopyOnWriteArrayList<>();
+        hidden.page().onRequest(request -> requests.add(request.url()));
         hidden.page().onWebSocket(socket -> {
             sockets.incrementAndGet();
-            socket.onFrameReceived(frame -> asked.add(frame.text()));
+            socket.onFrameReceived(frame -> requests.add(frame.text()));
             socket.onClose(closed -> sockets.decrementAndGet());
         });
         hidden.open("");
@@ -36,10 +36,10 @@ class HiddenIT {
         hidden.page().waitForCondition(() -> sockets.get() == 0, FarmPage.TIMEOUT);
         later(seen, 1_000); // what was under way ends
         hidden.page().evaluate("1"); // delivers the events that waited
-        asked.clear();
+        requests.clear();
         later(seen, 5_000);
         hidden.page().evaluate("1");
-        assertThat(asked).isEmpty();
+        assertThat(requests).isEmpty();
 
         hidden.show();
         later(hidden, 0);

@@ -66,7 +66,7 @@ class HostileEntitiesIT {
     }
 
     @Test
-    void saysThatAValueIsTooLarge(PageSuite suite) throws Exception {
+    void reportsThatAValueIsTooLarge(PageSuite suite) throws Exception {
         String id = "urn:ngsi-ld:Thermometer:long";
         ObjectNode entity = entity(id, "Thermometer");
         attribute(entity, "Note", NgsiJson.mapper().valueToTree("x".repeat(5_000_000)));

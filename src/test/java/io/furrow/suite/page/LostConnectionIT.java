@@ -27,10 +27,10 @@ class LostConnectionIT {
     private static final String COLLISIONS = "store.topics.get('data.collision')";
 
     @Test
-    void keepsWhatItShowedSaysSoAndGoesOn(PageSuite suite) throws Exception {
+    void retainsWhatItShowedAndGoesOn(PageSuite suite) throws Exception {
         Dashboard dashboard = suite.ownDashboard(0);
         int port = dashboard.uri().getPort();
-        FarmPage farm = suite.open(dashboard.uri(), "", Look.DESK)
+        FarmPage farm = suite.open(dashboard.uri(), "", WindowStyle.DESKTOP)
                 .expectingError("ERR_CONNECTION|WebSocket connection|Failed to load resource|Failed to fetch");
         farm.untilStore("store.entities.size >= 17");
 
@@ -52,7 +52,7 @@ class LostConnectionIT {
     @Test
     void countsWhatItMissed(PageSuite suite) {
         FarmPage other = suite.open("");
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK)
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP)
                 .expectingError("ERR_FAILED|Failed to load resource");
         farm.page().addInitScript("""
                 window.sockets = [];
@@ -68,8 +68,8 @@ class LostConnectionIT {
         farm.page().route("**/api/register/**", Route::abort);
         farm.page().evaluate("sockets.forEach((socket) => socket.close())");
         assertThat(farm.find(".notice")).containsText("trying again");
-        int known = (int) other.store(COLLISIONS + ".count");
-        other.untilStore(COLLISIONS + ".count > " + (known + 2));
+        int previous = (int) other.store(COLLISIONS + ".count");
+        other.untilStore(COLLISIONS + ".count > " + (previous + 2));
         farm.page().unroute("**/api/register/**");
 
         farm.untilStore(COLLISIONS + ".gap > 2");
@@ -78,14 +78,14 @@ class LostConnectionIT {
     /** What was known before a stream has no deletions, and of entities it is behind their reports. */
     @Test
     void letsGoOfWhatWasDeletedMeanwhile(PageSuite suite) {
-        Map<String, List<String>> known = new HashMap<>();
-        known.put("data.raw", entities("stays", "gone"));
-        known.put("service.fields", fields("stays", "gone"));
-        known.put("service.alarms", alarms("stays", "gone"));
-        known.put("service.replays", replays("stays", "gone"));
-        known.put("service.replays.status", replays("stays", "gone"));
+        Map<String, List<String>> previous = new HashMap<>();
+        previous.put("data.raw", entities("stays", "gone"));
+        previous.put("service.fields", fields("stays", "gone"));
+        previous.put("service.alarms", alarms("stays", "gone"));
+        previous.put("service.replays", replays("stays", "gone"));
+        previous.put("service.replays.status", replays("stays", "gone"));
         List<WebSocketRoute> open = new ArrayList<>();
-        FarmPage farm = onStandIns(suite, known, open);
+        FarmPage farm = onStandIns(suite, previous, open);
         farm.page().route("**/api/history/**", EmptyFarmIT::answerWithNothing);
         farm.open("");
         String shown =
@@ -94,11 +94,11 @@ class LostConnectionIT {
         send(open, "data.raw", List.of(record("event", "new", 2_000, "{\"id\":\"new\",\"type\":\"Robot\"}")));
         farm.untilStore("store.entities.has('new')");
 
-        known.put("data.raw", entities("stays"));
-        known.put("service.fields", fields("stays"));
-        known.put("service.alarms", alarms("stays"));
-        known.put("service.replays", replays("stays"));
-        known.put("service.replays.status", replays("stays"));
+        previous.put("data.raw", entities("stays"));
+        previous.put("service.fields", fields("stays"));
+        previous.put("service.alarms", alarms("stays"));
+        previous.put("service.replays", replays("stays"));
+        previous.put("service.replays.status", replays("stays"));
         List.copyOf(open).forEach(WebSocketRoute::close);
 
         farm.untilStore(
@@ -183,8 +183,8 @@ class LostConnectionIT {
     }
 
     /** A window whose streams and answers are a stand-in's: each stream begins with what is known of its topic by then. */
-    private static FarmPage onStandIns(PageSuite suite, Map<String, List<String>> known, List<WebSocketRoute> open) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+    private static FarmPage onStandIns(PageSuite suite, Map<String, List<String>> previous, List<WebSocketRoute> open) {
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
         farm.page().route("**/api/**", EmptyFarmIT::answerWithNothing);
         farm.page()
                 .route(
@@ -195,7 +195,7 @@ class LostConnectionIT {
                                         + topicOf(route.request().url()) + "\"}")));
         farm.page().routeWebSocket("**/socket/**", socket -> {
             open.add(socket);
-            send(List.of(socket), topicOf(socket.url()), known.getOrDefault(topicOf(socket.url()), List.of()));
+            send(List.of(socket), topicOf(socket.url()), previous.getOrDefault(topicOf(socket.url()), List.of()));
             socket.send("{\"primed\":true}");
         });
         return farm;

@@ -100,7 +100,7 @@ class MapIT {
 
     @Tag("full")
     @Test
-    void gathersManyRobotsAndOpensWhatNoZoomTellsApart(PageSuite suite) {
+    void gathersManyRobotsAndOpensWhatNoZoomDistinguishes(PageSuite suite) {
         FarmPage farm = suite.open("");
         farm.untilStore("store.primed && store.entities.size >= 17");
         report(farm, 200, 40.312998, -3.483058);
@@ -130,7 +130,7 @@ class MapIT {
         farm.untilStore("store.primed && store.entities.size >= 17");
         farm.page()
                 .evaluate(
-                        "async () => { const { store } = await import('/core/store.js'); store.fields.clear(); store.tell('fields'); }");
+                        "async () => { const { store } = await import('/core/store.js'); store.fields.clear(); store.notify('fields'); }");
         report(farm, 1, -33.9, 18.4);
         farm.page().evaluate("document.querySelector('furrow-map').fit(0)");
 
@@ -190,7 +190,7 @@ class MapIT {
                             Device1_latitude: 40.3125, Device1_longitude: -3.4822, Device2_latitude: 40.3125, Device2_longitude: -3.4822 };
                           const value = { type: 'Analytics:Collision' };
                           Object.entries(all).forEach(([name, each]) => (value[name] = { value: each }));
-                          store.takeEncounter({ time: Date.now(), value });
+                          store.applyEncounter({ time: Date.now(), value });
                         }""", phase);
     }
 
@@ -206,7 +206,7 @@ class MapIT {
         assertThat(row).containsText("no alarms");
 
         int with = farm.mapPixels(BORDER_OF_ZONES);
-        farm.store("void (store.fields.delete(" + zone + ".id), store.tell('fields'))");
+        farm.store("void (store.fields.delete(" + zone + ".id), store.notify('fields'))");
         farm.page().waitForCondition(() -> farm.mapPixels(BORDER_OF_ZONES) < with - 20);
     }
 
@@ -223,12 +223,12 @@ class MapIT {
                   const all = { field: 'later', averageTemperature: 12.5, devices: 4, suspects: ['urn:ngsi-ld:Tractor:0'], quality: 'robust' };
                   const value = { type: 'Analytics:FieldTemperature' };
                   Object.entries(all).forEach(([name, each]) => (value[name] = { value: each }));
-                  store.takeTemperature({ time: Date.now(), value });
-                  store.takeField({ key: 'later@2026-01-01T00:00:00.000Z', value: { properties: { name: 'Later field' },
+                  store.applyTemperature({ time: Date.now(), value });
+                  store.applyField({ key: 'later@2026-01-01T00:00:00.000Z', value: { properties: { name: 'Later field' },
                     geometry: { type: 'Polygon', coordinates: [[[-3.49, 40.31], [-3.48, 40.31], [-3.48, 40.32], [-3.49, 40.31]]] } } });
                 }""");
 
-        farm.untilStore("store.entities.get('urn:ngsi-ld:Tractor:0').state === 'look'");
+        farm.untilStore("store.entities.get('urn:ngsi-ld:Tractor:0').state === 'attention'");
         assertThat(farm.card("urn:ngsi-ld:Tractor:0")).containsText("suspect");
         farm.button("The map as a table").click();
         assertThat(farm.find(".map-table table[aria-label=Fields] tbody tr")
@@ -247,7 +247,7 @@ class MapIT {
                           const { store } = await import('/core/store.js');
                           for (let number = 0; number < count; number++) {
                             const id = `urn:ngsi-ld:Tractor:${number}`;
-                            store.takeEntity({ key: id, kind: 'event', time: Date.now(), headers: {},
+                            store.applyEntity({ key: id, kind: 'event', time: Date.now(), headers: {},
                               value: { id, type: 'Tractor', Latitude: { value: latitude }, Longitude: { value: longitude } } });
                           }
                         }""", java.util.List.of(count, latitude, longitude));
@@ -291,8 +291,8 @@ class MapIT {
     /** On the map of a phone too, where only some fields have room for it inside their outline. */
     @Tag("full")
     @Test
-    void saysTheAverageOfEachFieldAndCoversNoSymbolWithIt(PageSuite suite) {
-        FarmPage farm = suite.open("", Look.PHONE);
+    void reportsTheAverageOfEachFieldAndCoversNoSymbolWithIt(PageSuite suite) {
+        FarmPage farm = suite.open("", WindowStyle.PHONE);
         farm.untilStore("store.primed && store.entities.size >= 17"
                 + " && ['field-1', 'field-2', 'field-3'].every((id) => store.averages.has(id))");
         farm.page().waitForCondition(() -> labels(farm, "each.line.includes('°C') && isFree") == 3);
@@ -305,7 +305,7 @@ class MapIT {
                           devices.fieldLabels.drawn.filter(({ line }) => line.includes('°C')).forEach(({ box: [left, top] }, number) => {
                             const [longitude, latitude] = ol.proj.toLonLat(map.getCoordinateFromPixel([left + 20, top + 9]));
                             const id = `urn:ngsi-ld:Robot:on-${number}`;
-                            store.takeEntity({ key: id, kind: 'event', time: Date.now(), headers: {},
+                            store.applyEntity({ key: id, kind: 'event', time: Date.now(), headers: {},
                               value: { id, type: 'Robot', Latitude: { value: latitude }, Longitude: { value: longitude } } });
                           });
                         }""");

@@ -50,7 +50,7 @@ class MapTilesIT {
     @Test
     void drawsThemBelowTheFieldsAndNamesTheirSource(PageSuite suite) throws Exception {
         try (Dashboard dashboard = dashboard(suite, file())) {
-            FarmPage farm = suite.open(dashboard.uri(), "", Look.DESK)
+            FarmPage farm = suite.open(dashboard.uri(), "", WindowStyle.DESKTOP)
                     .expectingError("404.*/api/images/"); // has no folder of them
 
             farm.untilStore("store.fields.size === 4");
@@ -85,7 +85,7 @@ class MapTilesIT {
     @Test
     void findsEachTileByItsPlaceAndNoneWhereThereIsNone(PageSuite suite) throws Exception {
         try (Dashboard dashboard = dashboard(suite, file())) {
-            FarmPage farm = suite.open(dashboard.uri(), "", Look.DESK)
+            FarmPage farm = suite.open(dashboard.uri(), "", WindowStyle.DESKTOP)
                     .expectingError("404.*/api/images/"); // has no folder of them
 
             assertThat(tile(farm, 0, 0, 0)).isEqualTo(TileArchive.picture(NOWHERE).length);

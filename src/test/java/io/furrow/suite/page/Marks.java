@@ -35,15 +35,15 @@ final class Marks {
               };
               window.marks = { canvas: [], card: [] };
               let [last, shown] = ['', ''];
-              const look = () => {
+              const measure = () => {
                 const now = Date.now();
                 const at = places.findIndex(lit);
                 if (at !== last) { last = at; window.marks.canvas.push([at, now]); }
                 const text = document.querySelector(`li.card[data-id="${id}"] .card-facts`)?.textContent ?? '';
                 if (text !== shown) { shown = text; window.marks.card.push([Number(/(\\d+) °C/.exec(text)?.[1]), now]); }
-                requestAnimationFrame(() => setTimeout(look));
+                requestAnimationFrame(() => setTimeout(measure));
               };
-              look();
+              measure();
             }""";
 
     private Marks() {}
@@ -56,7 +56,7 @@ final class Marks {
     }
 
     static Delays measure(PageSuite suite, int events, long millisBetween) throws Exception {
-        FarmPage farm = suite.open("", Look.DESK);
+        FarmPage farm = suite.open("", WindowStyle.DESKTOP);
         farm.untilStore("store.primed && store.entities.size >= 17");
         farm.page().getByPlaceholder("Find a device, field or alarm").fill("thermometer mark");
         Properties properties = suite.running().suite().kafka().clientProperties();

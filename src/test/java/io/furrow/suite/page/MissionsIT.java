@@ -84,7 +84,7 @@ class MissionsIT {
     @Tag("full")
     @Test
     void showsAMissionThoughNoneRuns(PageSuite suite) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
         farm.page().route("**/api/missions", route -> {
             APIResponse answer = route.fetch();
             String stopped = answer.text().replace("\"running\":true", "\"running\":false");
@@ -131,7 +131,7 @@ class MissionsIT {
     /** The fields that there are already: other tests count them. */
     @Tag("full")
     @Test
-    void importsTheFieldsOfAFileAndSaysWhatIsWrongWithOne(PageSuite suite) throws Exception {
+    void importsTheFieldsOfAFileAndReportsWhatIsWrongWithOne(PageSuite suite) throws Exception {
         FarmPage farm = suite.open("#/missions?tab=domains");
         farm.button("Import fields").click();
         Locator dialog = farm.find("dialog[open]");

@@ -25,7 +25,7 @@ public final class OpeningTime {
                         dashboard,
                         chromium.browser()
                                 .newContext(new Browser.NewContextOptions()
-                                        .setViewportSize(Look.DESK.width(), Look.DESK.height())))) {
+                                        .setViewportSize(WindowStyle.DESKTOP.width(), WindowStyle.DESKTOP.height())))) {
             long began = System.nanoTime();
             farm.open("");
             farm.page()

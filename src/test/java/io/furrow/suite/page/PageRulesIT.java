@@ -28,7 +28,7 @@ class PageRulesIT {
             const { store } = await import('/core/store.js');
             const { parse } = await import('/core/json.js');
             let time = 1e12;
-            const take = (id, type, tenant, attributes) => store.takeEntity({
+            const take = (id, type, tenant, attributes) => store.applyEntity({
               key: id, kind: 'event', time: time += 1000, headers: { 'fiware-service': tenant, 'fiware-servicepath': '/' },
               value: attributes && { id, type, ...attributes } });
             """;
@@ -127,7 +127,7 @@ class PageRulesIT {
 
     /** Neither tenant nor type is part of the id. */
     @Test
-    void tellsEntitiesOfOneIdApart() {
+    void distinguishesEntitiesOfOneId() {
         assertThat(run(TAKE + """
                 const at = (longitude) => ({ Latitude: { value: 10 }, Longitude: { value: longitude } });
                 for (let i = 0; i < 4; i++) {
@@ -139,7 +139,7 @@ class PageRulesIT {
                 const told = () => [...store.entities.values()].filter(({ identity }) => identity.id.startsWith('pb-'))
                   .map(({ name, position, trail }) => `${name} at ${position[0]}, ${trail.length} places`);
                 const both = told();
-                store.takeEncounter({ time, headers: { 'fiware-service': 'pbother' }, value: { type: 'Analytics:Collision',
+                store.applyEncounter({ time, headers: { 'fiware-service': 'pbother' }, value: { type: 'Analytics:Collision',
                   Device1_ID: { value: 'pb-14' }, Device2_ID: { value: 'x' }, phase: { value: 'started' } } });
                 const [encounter] = store.encounters.values();
                 const close = store.entities.get(encounter.a).name;
@@ -160,13 +160,13 @@ class PageRulesIT {
         assertThat(run(TAKE + """
                 const { fullKey } = await import('/core/identities.js');
                 const headers = (tenant) => ({ 'fiware-service': tenant });
-                const picture = (tenant, type, sha256) => store.takeImage({ time, headers: headers(tenant), value: { entity: 'pb-15', type, sha256 } });
+                const picture = (tenant, type, sha256) => store.applyImage({ time, headers: headers(tenant), value: { entity: 'pb-15', type, sha256 } });
                 const shown = () => [...store.entities.values()].filter(({ identity }) => identity.id === 'pb-15')
                   .map((entity) => `${entity.name}: ${store.imageOf(entity)?.sha256 ?? 'none'}${entity.suspect ? ', suspect' : ''}`);
                 take('pb-15', 'Camera', 'one', {});
                 picture('other', 'Camera', 'b');
                 picture('one', 'Station', 'c');
-                store.takeTemperature({ time, headers: headers('one'), value: { type: 'Analytics:FieldTemperature', field: { value: 'f' },
+                store.applyTemperature({ time, headers: headers('one'), value: { type: 'Analytics:FieldTemperature', field: { value: 'f' },
                   suspects: { value: ['pb-15'] }, suspectTypes: { value: ['Station'] } } });
                 const first = shown();
                 picture('one', 'Camera', 'a');
@@ -192,7 +192,7 @@ class PageRulesIT {
                 take('pb-16', 'Robot', 'pbfarm', {});
                 const shown = (service) => {
                   store.select(null);
-                  store.takeAlarm({ key: service, value: { alarm: service, kind: 'suspect-sensor', severity: 'warning', state: 'open', text: 'odd',
+                  store.applyAlarm({ key: service, value: { alarm: service, kind: 'suspect-sensor', severity: 'warning', state: 'open', text: 'odd',
                     raised: 1, subject: 'pb-16', identity: `${service}|/||pb-16`, devices: [{ id: 'pb-16', service }] } });
                   alarms.draw();
                   alarms.rows.get(service).element.querySelector('.alarm-text').click();
@@ -214,7 +214,7 @@ class PageRulesIT {
                   return String(store.fields.has('pb-field'));
                 };
                 store.now = () => begin - 1000;
-                store.takeField({ key: 'pb-field@2026-03-01T08:00:00.000Z', value: { properties: {}, geometry: { type: 'Polygon', coordinates: [] } } });
+                store.applyField({ key: 'pb-field@2026-03-01T08:00:00.000Z', value: { properties: {}, geometry: { type: 'Polygon', coordinates: [] } } });
                 const shown = [String(store.fields.has('pb-field')), at(begin - 1), at(begin)];
                 delete store.now;
                 return shown;""")).containsExactly("false", "false", "true");

@@ -52,15 +52,15 @@ public final class PageSoak {
     }
 
     /** The bare page, the map, and the map with cards beside it by turns, each of them first in its turn. */
-    private static boolean frames(int devices, int turns, int seconds) {
+    private static boolean frames(int devices, int rounds, int seconds) {
         List<String> pages = new ArrayList<>(List.of(FrameTimes.BARE, FrameTimes.MAP, FrameTimes.CARDS));
         Map<String, List<Double>> millis = new TreeMap<>();
         try (FrameTimes times = new FrameTimes(devices)) {
-            for (int turn = 0; turn < turns; turn++) {
+            for (int round = 0; round < rounds; round++) {
                 for (String page : pages) {
                     double time = times.measure(page, seconds);
                     millis.computeIfAbsent(page, key -> new ArrayList<>()).add(time);
-                    say("a frame of %s: %.1f ms", page, time);
+                    print("a frame of %s: %.1f ms", page, time);
                 }
                 Collections.rotate(pages, 1);
             }
@@ -68,9 +68,9 @@ public final class PageSoak {
         double bare = median(millis.get(FrameTimes.BARE));
         double map = median(millis.get(FrameTimes.MAP));
         double cards = median(millis.get(FrameTimes.CARDS));
-        say(
+        print(
                 "main thread for a frame of %d devices, median of %d turns: bare page %.1f ms, map %.1f ms, %.2f times, with cards %.1f ms, %.2f times",
-                devices, turns, bare, map, map / bare, cards, cards / bare);
+                devices, rounds, bare, map, map / bare, cards, cards / bare);
         return Math.max(map, cards) <= TIMES_BARE * bare;
     }
 
@@ -85,7 +85,7 @@ public final class PageSoak {
         for (boolean canvas : new boolean[] {true, false}) {
             List<Long> of = canvas ? delays.canvas() : delays.card();
             long high = Marks.Delays.percentile(of, 0.95);
-            say(
+            print(
                     "from Kafka to the %s: %d of %d events, median %d ms, p95 %d ms, most %d ms",
                     canvas ? "pixel of the map" : "number on the card",
                     of.size(),
@@ -152,14 +152,14 @@ public final class PageSoak {
         for (int minute = 1; minute <= minutes; minute++) {
             farm.page().waitForTimeout(60_000);
             used.add(farm.heap());
-            say(
+            print(
                     "minute %d: heap of the page after collection %.1f MiB, %s devices",
                     minute, used.get(minute - 1), farm.store("store.entities.size"));
         }
         ends.set(true);
         fleet.join();
         double growth = used.get(minutes - 1) / used.get(0);
-        say("last minute by first: %.3f", growth);
+        print("last minute by first: %.3f", growth);
         return growth <= FarmPage.HEAP_GROWTH;
     }
 
@@ -168,19 +168,19 @@ public final class PageSoak {
         FarmPage farm = suite.open("");
         farm.untilStore("store.primed");
         List<Double> more = new ArrayList<>();
-        for (int turn = 0; turn < HIDDEN_TURNS; turn++) {
-            double without = turn % 2 == 0 ? shareWithout(farm, seconds) : 0;
+        for (int round = 0; round < HIDDEN_TURNS; round++) {
+            double without = round % 2 == 0 ? shareWithout(farm, seconds) : 0;
             farm.open("");
             farm.untilStore("store.primed");
             farm.hide();
             farm.page().waitForTimeout(LETS_GO_MILLIS);
             double with = share(farm, seconds);
-            without = turn % 2 == 0 ? without : shareWithout(farm, seconds);
+            without = round % 2 == 0 ? without : shareWithout(farm, seconds);
             more.add(with - without);
-            say("suite with a hidden page %.1f %%, without %.1f %% of a core", 100 * with, 100 * without);
+            print("suite with a hidden page %.1f %%, without %.1f %% of a core", 100 * with, 100 * without);
         }
         double median = median(more);
-        say("a hidden page costs the suite %.1f %% of a core (median of %d turns)", 100 * median, more.size());
+        print("a hidden page costs the suite %.1f %% of a core (median of %d turns)", 100 * median, more.size());
         return median <= SHARE_OF_A_CORE;
     }
 
@@ -198,7 +198,7 @@ public final class PageSoak {
         return (machine.getProcessCpuTime() - before) / (double) (System.nanoTime() - start);
     }
 
-    static void say(String words, Object... values) {
+    static void print(String words, Object... values) {
         System.out.println(words.formatted(values));
     }
 }

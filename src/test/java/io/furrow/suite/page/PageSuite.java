@@ -102,25 +102,25 @@ final class PageSuite implements AutoCloseable {
 
     /** A new window with nothing remembered. */
     FarmPage open(String place) {
-        return open(place, Look.DESK);
+        return open(place, WindowStyle.DESKTOP);
     }
 
-    FarmPage open(String place, Look look) {
-        return open(running.suite().dashboard(), place, look);
+    FarmPage open(String place, WindowStyle style) {
+        return open(running.suite().dashboard(), place, style);
     }
 
-    FarmPage open(URI dashboard, String place, Look look) {
-        return window(dashboard, look).open(place);
+    FarmPage open(URI dashboard, String place, WindowStyle style) {
+        return window(dashboard, style).open(place);
     }
 
     /** With nothing in it yet. */
-    FarmPage window(URI dashboard, Look look) {
+    FarmPage window(URI dashboard, WindowStyle style) {
         FarmPage page = new FarmPage(
                 dashboard,
                 chromium.browser()
                         .newContext(new Browser.NewContextOptions()
-                                .setViewportSize(look.width(), look.height())
-                                .setColorScheme(look.scheme())
+                                .setViewportSize(style.width(), style.height())
+                                .setColorScheme(style.scheme())
                                 .setReducedMotion(ReducedMotion.REDUCE)
                                 .setLocale("en-GB")
                                 .setTimezoneId("Europe/Madrid")));

@@ -12,5 +12,5 @@ import org.junit.jupiter.api.extension.ExtendWith;
 @Target(ElementType.TYPE)
 @Retention(RetentionPolicy.RUNTIME)
 @Tag("page")
-@ExtendWith(OnThePage.class)
+@ExtendWith(PageExtension.class)
 @interface PageTest {}

@@ -15,19 +15,19 @@ final class Pictures {
 
     static boolean take(PageSuite suite, Path folder) {
         replay(suite, folder); // waits until something is recorded, so that the others have some minutes to show
-        live(suite, folder, "live-dark", Look.DESK);
-        live(suite, folder, "live-tablet", Look.TABLET);
-        live(suite, folder, "live-phone", Look.PHONE);
+        live(suite, folder, "live-dark", WindowStyle.DESKTOP);
+        live(suite, folder, "live-tablet", WindowStyle.TABLET);
+        live(suite, folder, "live-phone", WindowStyle.PHONE);
         for (String view : new String[] {"missions", "replays", "analyses", "topics", "platform"}) {
-            view(suite, folder, view, Look.DESK, "-dark");
+            view(suite, folder, view, WindowStyle.DESKTOP, "-dark");
         }
-        view(suite, folder, "analyses", Look.DESK_LIGHT, "-light");
-        view(suite, folder, "missions", Look.PHONE_LIGHT, "-phone");
+        view(suite, folder, "analyses", WindowStyle.DESKTOP_LIGHT, "-light");
+        view(suite, folder, "missions", WindowStyle.PHONE_LIGHT, "-phone");
         return true;
     }
 
-    private static void live(PageSuite suite, Path folder, String name, Look look) {
-        FarmPage farm = suite.open("", look);
+    private static void live(PageSuite suite, Path folder, String name, WindowStyle style) {
+        FarmPage farm = suite.open("", style);
         farm.untilStore(
                 "store.averages.has('field-1') && store.entities.get('urn:ngsi-ld:Robot:1')?.trail.length > 40");
         assertThat(farm.card("urn:ngsi-ld:Robot:1")).isVisible();
@@ -37,7 +37,7 @@ final class Pictures {
     }
 
     private static void replay(PageSuite suite, Path folder) {
-        FarmPage farm = suite.open("#/replays", Look.DESK_LIGHT);
+        FarmPage farm = suite.open("#/replays", WindowStyle.DESKTOP_LIGHT);
         for (int millis = 30_000; millis <= 90_000; millis += 30_000) { // what is listed grows every half minute
             farm.untilStore(
                     "store.recordings.get('weeding')?.last - store.recordings.get('weeding')?.first > " + millis);
@@ -51,8 +51,8 @@ final class Pictures {
         save(farm, folder, "replay-light");
     }
 
-    private static void view(PageSuite suite, Path folder, String view, Look look, String suffix) {
-        FarmPage farm = suite.open("#/" + view, look);
+    private static void view(PageSuite suite, Path folder, String view, WindowStyle style, String suffix) {
+        FarmPage farm = suite.open("#/" + view, style);
         farm.untilStore("store.entities.size >= 17");
         if (view.equals("topics")) {
             farm.find("[id='topic-data.farm.realtime.weeding']").check();
@@ -70,7 +70,7 @@ final class Pictures {
     private static void save(FarmPage farm, Path folder, String name) {
         farm.page().mouse().move(2, 2);
         farm.screenshot(folder.resolve(name + ".png"));
-        PageSoak.say("%s", folder.resolve(name + ".png"));
+        PageSoak.print("%s", folder.resolve(name + ".png"));
         farm.close();
     }
 }

@@ -111,7 +111,7 @@ class ReplaysIT {
     /** The hour at the end of summer time comes twice: the last event is written 02:40, or even before the first one. */
     @Test
     void plansAWholeMissionAcrossTheEndOfSummerTime(PageSuite suite) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
         farm.page()
                 .route(
                         "**/api/recordings",
@@ -157,14 +157,14 @@ class ReplaysIT {
                 (() => {
                   const of = { replay: 'r1', mission: 'weeding', topic: 'data.weeding.replay.00000001' };
                   const timeline = document.querySelector('furrow-timeline');
-                  store.feeds.takeReplay({ key: 'r1', value: of });
-                  store.feeds.takeStatus({ key: 'r1', time: 1, value: { state: 'running' } });
+                  store.feeds.applyReplay({ key: 'r1', value: of });
+                  store.feeds.applyStatus({ key: 'r1', time: 1, value: { state: 'running' } });
                   store.enterReplay(of);
                   const states = [timeline.state];
-                  store.feeds.takeReplay({ key: 'r1', value: null });
-                  store.feeds.takeStatus({ key: 'r1', time: 2, value: { state: 'stopped' } });
+                  store.feeds.applyReplay({ key: 'r1', value: null });
+                  store.feeds.applyStatus({ key: 'r1', time: 2, value: { state: 'stopped' } });
                   states.push(timeline.state);
-                  store.feeds.takeStatus({ key: 'r1', value: null });
+                  store.feeds.applyStatus({ key: 'r1', value: null });
                   states.push(timeline.state);
                   store.leaveReplay();
                   return states.join();

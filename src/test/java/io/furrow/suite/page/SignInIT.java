@@ -27,8 +27,8 @@ import io.furrow.control.rest.RestSettings;
 import io.furrow.dashboard.Dashboard;
 import io.furrow.dashboard.DashboardSettings;
 import io.furrow.dashboard.auth.AddressRange;
-import io.furrow.dashboard.auth.Role;
 import io.furrow.dashboard.auth.TrustedProxy;
+import io.furrow.dashboard.auth.UserRole;
 import io.furrow.dashboard.page.PageSettings;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
@@ -75,10 +75,10 @@ class SignInIT {
     }
 
     @Test
-    void asksForATokenAgainWhenItIsTakenBackAndGoesOnAtTheSamePlace(PageSuite suite) throws Exception {
+    void requestsATokenAgainWhenItIsTakenBackAndGoesOnAtTheSamePlace(PageSuite suite) throws Exception {
         try (Dashboard dashboard = Dashboard.start(settings())) {
-            FarmPage farm =
-                    suite.window(dashboard.uri(), Look.DESK).expectingError("status of 401|status of 404.*images");
+            FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESKTOP)
+                    .expectingError("status of 401|status of 404.*images");
             farm.page().navigate(dashboard.uri().resolve("/#/missions").toString());
             signIn(farm, VERA);
             assertThat(farm.find("furrow-missions h1")).isVisible();
@@ -109,12 +109,12 @@ class SignInIT {
                 List.of(AddressRange.parse("127.0.0.1")),
                 "X-Forwarded-User",
                 "X-Forwarded-Groups",
-                Map.of("drivers", Role.OPERATOR),
+                Map.of("drivers", UserRole.OPERATOR),
                 DASHBOARD);
         PageSettings pages = PageSettings.DEFAULT.withSignIn("/oauth2/start?rd={page}", "/oauth2/sign_out?rd={page}");
         try (Dashboard dashboard = Dashboard.start(settings().withProxy(proxy).withPage(pages))) {
-            FarmPage farm =
-                    suite.window(dashboard.uri(), Look.DESK).expectingError("status of 401|status of 404.*images");
+            FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESKTOP)
+                    .expectingError("status of 401|status of 404.*images");
             farm.page().route("**/*", this::asTheProxy);
             farm.open("").go("Missions");
             assertThat(farm.find("furrow-missions h1")).isVisible();
@@ -136,8 +136,8 @@ class SignInIT {
     void doesNotGoRoundAndRoundWhereTheProxyTakesTheUserAndTheDashboardDoesNot(PageSuite suite) throws Exception {
         PageSettings pages = PageSettings.DEFAULT.withSignIn("/oauth2/start?rd={page}", null);
         try (Dashboard dashboard = Dashboard.start(settings().withPage(pages))) {
-            FarmPage farm =
-                    suite.window(dashboard.uri(), Look.DESK).expectingError("status of 401|status of 404.*images");
+            FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESKTOP)
+                    .expectingError("status of 401|status of 404.*images");
             farm.page().route("**/*", this::asTheProxy);
             farm.page().navigate(dashboard.uri().resolve("/").toString());
 

@@ -84,7 +84,7 @@ class TimelineIT {
     }
 
     @Test
-    void knowsWhatCameInTheNewestBucketBeforeThePageWasOpened(PageSuite suite) {
+    void findsWhatCameInTheNewestBucketBeforeThePageWasOpened(PageSuite suite) {
         FarmPage farm = suite.open("");
 
         Object newest = farm.page().evaluate("""
@@ -94,7 +94,7 @@ class TimelineIT {
                   const density = new LiveDensity(() => {});
                   await wait(density.width + 3000 - Date.now() % density.width); // some records are in it
                   const start = Math.floor(Date.now() / density.width) * density.width;
-                  await density.ask(start);
+                  await density.request(start);
                   return density.counts.get(start);
                 }""");
 

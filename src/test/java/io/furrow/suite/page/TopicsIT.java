@@ -33,7 +33,7 @@ class TopicsIT {
     @Tag("full")
     @Test
     void listsCollisionsAndTheCanaryBeforeThereAreAny(PageSuite suite) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
         farm.page()
                 .route(
                         "**/api/topics",
@@ -76,8 +76,8 @@ class TopicsIT {
 
     @Tag("full")
     @Test
-    void saysOnASmallScreenThatNotAllIsShown(PageSuite suite) {
-        FarmPage farm = suite.open("#/topics", Look.PHONE);
+    void reportsOnASmallScreenThatNotAllIsShown(PageSuite suite) {
+        FarmPage farm = suite.open("#/topics", WindowStyle.PHONE);
         assertThat(farm.find(".crumbs")).isHidden();
         farm.button("Show only scouting on the map").click();
 

@@ -45,7 +45,7 @@ class ViewerIT {
                 .withTokens(Files.writeString(folder.resolve("tokens"), "vera %s viewer%n".formatted(TOKEN)));
         try (Dashboard dashboard =
                 Dashboard.start(DashboardSettings.of(0, client, URI.create("http://127.0.0.1:" + port)))) {
-            FarmPage farm = suite.window(dashboard.uri(), Look.DESK)
+            FarmPage farm = suite.window(dashboard.uri(), WindowStyle.DESKTOP)
                     .expectingError("status of (401|403|501|502|503)|status of 404.*images");
             farm.page().navigate(dashboard.uri().resolve("/").toString());
             assertThat(farm.page().getByRole(AriaRole.ALERT)).containsText("The farm cannot be shown yet");

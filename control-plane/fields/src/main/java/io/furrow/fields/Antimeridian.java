@@ -24,9 +24,9 @@ final class Antimeridian {
      * wider than half the earth.
      *
      * @param shell the enclosing ring, used as reference; null if the ring is a shell
-     * @throws RefusedFeatureException if the ring encloses a pole
+     * @throws RejectedFeatureException if the ring encloses a pole
      */
-    static List<Coordinate> unrolled(List<Coordinate> ring, LinearRing shell) throws RefusedFeatureException {
+    static List<Coordinate> unrolled(List<Coordinate> ring, LinearRing shell) throws RejectedFeatureException {
         double last = shell == null
                 ? Math.IEEEremainder(ring.get(0).x, ROUND)
                 : shell.getEnvelopeInternal().centre().x;
@@ -39,7 +39,7 @@ final class Antimeridian {
         }
         double first = unrolled.get(0).x;
         if (Math.abs(last + Math.IEEEremainder(first - last, ROUND) - first) > 1) {
-            throw new RefusedFeatureException("goes round a pole, where longitude and latitude define no interior");
+            throw new RejectedFeatureException("goes round a pole, where longitude and latitude define no interior");
         }
         return unrolled;
     }
@@ -51,11 +51,11 @@ final class Antimeridian {
             return area;
         }
         List<Polygon> parts = new ArrayList<>();
-        for (int turn = -2; turn <= 2; turn++) {
-            Envelope side = new Envelope(turn * ROUND - 180, turn * ROUND + 180, -90, 90);
+        for (int shift = -2; shift <= 2; shift++) {
+            Envelope side = new Envelope(shift * ROUND - 180, shift * ROUND + 180, -90, 90);
             if (side.intersects(reach)) {
                 Geometry inside = area.intersection(area.getFactory().toGeometry(side));
-                add(AffineTransformation.translationInstance(-turn * ROUND, 0).transform(inside), parts);
+                add(AffineTransformation.translationInstance(-shift * ROUND, 0).transform(inside), parts);
             }
         }
         return parts.size() == 1 ? parts.get(0) : area.getFactory().createMultiPolygon(parts.toArray(Polygon[]::new));

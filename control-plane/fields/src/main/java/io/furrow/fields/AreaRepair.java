@@ -36,24 +36,24 @@ final class AreaRepair {
         this.georeference = georeference;
     }
 
-    static MendedArea repair(Outline outline, Georeference georeference) throws RefusedFeatureException {
-        return new AreaRepair(georeference).mended(outline);
+    static RepairedArea repair(Outline outline, Georeference georeference) throws RejectedFeatureException {
+        return new AreaRepair(georeference).repaired(outline);
     }
 
     static String closed(int rings) {
         return "closed " + Counts.of(rings, "ring");
     }
 
-    private MendedArea mended(Outline outline) throws RefusedFeatureException {
+    private RepairedArea repaired(Outline outline) throws RejectedFeatureException {
         List<Polygon> polygons = new ArrayList<>();
         for (List<List<Coordinate>> polygon : outline.polygons()) {
-            Polygon mended = polygon(polygon);
-            if (mended != null) {
-                polygons.add(mended);
+            Polygon repaired = polygon(polygon);
+            if (repaired != null) {
+                polygons.add(repaired);
             }
         }
         if (polygons.isEmpty()) {
-            throw new RefusedFeatureException(
+            throw new RejectedFeatureException(
                     outline.polygons().isEmpty() ? "has no geometry" : "has no ring that encloses an area");
         }
         Geometry area =
@@ -62,7 +62,7 @@ final class AreaRepair {
         Geometry valid = cut(fixed(area));
         List<String> all = new ArrayList<>(outline.notes());
         all.addAll(notes);
-        return new MendedArea(valid, all, edgeError);
+        return new RepairedArea(valid, all, edgeError);
     }
 
     private void noteCounts() {
@@ -80,7 +80,7 @@ final class AreaRepair {
     }
 
     /** Returns null if the shell encloses no area. */
-    private Polygon polygon(List<List<Coordinate>> rings) throws RefusedFeatureException {
+    private Polygon polygon(List<List<Coordinate>> rings) throws RejectedFeatureException {
         LinearRing shell = null;
         List<LinearRing> holes = new ArrayList<>();
         for (int index = 0; index < rings.size(); index++) {
@@ -123,7 +123,7 @@ final class AreaRepair {
         return clean;
     }
 
-    private List<Coordinate> reprojected(List<Coordinate> ring) throws RefusedFeatureException {
+    private List<Coordinate> reprojected(List<Coordinate> ring) throws RejectedFeatureException {
         List<Coordinate> positions = new ArrayList<>(ring.size());
         for (Coordinate corner : ring) {
             positions.add(georeference.toWgs84(corner));
@@ -144,21 +144,21 @@ final class AreaRepair {
         return METERS_PER_DEGREE * Math.hypot(longitude * Math.cos(Math.toRadians(middle.y)), latitude);
     }
 
-    private Geometry fixed(Geometry area) throws RefusedFeatureException {
+    private Geometry fixed(Geometry area) throws RejectedFeatureException {
         TopologyValidationError error = new IsValidOp(area).getValidationError();
         if (error == null) {
             return area;
         }
         Geometry fixed = GeometryFixer.fix(area);
         if (fixed.isEmpty()) {
-            throw new RefusedFeatureException("encloses no area (" + what(error) + ")");
+            throw new RejectedFeatureException("encloses no area (" + what(error) + ")");
         }
         notes.add("repaired: " + what(error));
         return fixed;
     }
 
     private static String what(TopologyValidationError error) {
-        return error.getMessage() + " at " + Words.place(error.getCoordinate().x, error.getCoordinate().y);
+        return error.getMessage() + " at " + Phrases.place(error.getCoordinate().x, error.getCoordinate().y);
     }
 
     private Geometry cut(Geometry area) {

@@ -34,12 +34,12 @@ final class FeatureNaming {
             throws UnusableFileException {
         Set<String> attributes = new TreeSet<>();
         features.forEach(feature -> feature.properties().fieldNames().forEachRemaining(attributes::add));
-        known(file, "--id-property", options.idProperty(), attributes);
-        known(file, "--name-property", options.nameProperty(), attributes);
+        require(file, "--id-property", options.idProperty(), attributes);
+        require(file, "--name-property", options.nameProperty(), attributes);
         return new FeatureNaming(options, attributes);
     }
 
-    private static void known(Path file, String option, String name, Set<String> attributes)
+    private static void require(Path file, String option, String name, Set<String> attributes)
             throws UnusableFileException {
         if (name != null && attributes.stream().noneMatch(name::equalsIgnoreCase)) {
             throw new UnusableFileException("%s %s: no feature of %s has this attribute; there are %s"
@@ -55,22 +55,22 @@ final class FeatureNaming {
         return text(value(feature, options.idProperty() == null ? ID : options.idProperty()));
     }
 
-    /** @throws RefusedFeatureException if there is no id, or one that the context broker would reject */
-    String id(SourceFeature feature) throws RefusedFeatureException {
+    /** @throws RejectedFeatureException if there is no id, or one that the context broker would reject */
+    String id(SourceFeature feature) throws RejectedFeatureException {
         String id = called(feature);
         if (id.isEmpty()) {
-            throw new RefusedFeatureException(
+            throw new RejectedFeatureException(
                     "has no id; specify its attribute with --id-property, one of " + attributes);
         }
         if (!FieldVersion.isId(id)) {
-            throw new RefusedFeatureException(
+            throw new RejectedFeatureException(
                     "has the id '%s', which is not a valid entity id; use at most 200 of A-Z a-z 0-9 _ - : ."
-                            .formatted(Words.shortened(id)));
+                            .formatted(Phrases.shortened(id)));
         }
         return id;
     }
 
-    FieldVersion version(SourceFeature feature, ObjectNode geometry) throws RefusedFeatureException {
+    FieldVersion version(SourceFeature feature, ObjectNode geometry) throws RejectedFeatureException {
         ObjectNode properties = JsonNodeFactory.instance.objectNode();
         put(properties, NAME, text(value(feature, options.nameProperty() == null ? NAME : options.nameProperty())));
         put(properties, DOMAIN, options.domain() == null ? text(value(feature, DOMAIN)) : options.domain());

@@ -41,11 +41,11 @@ public final class FieldFiles {
                 String id = naming.id(feature);
                 Integer earlier = taken.putIfAbsent(id, feature.number());
                 if (earlier != null) {
-                    throw new RefusedFeatureException(
+                    throw new RejectedFeatureException(
                             "has the id of feature " + earlier + "; give each field a unique id");
                 }
                 fields.add(field(feature, georeference, naming));
-            } catch (RefusedFeatureException e) {
+            } catch (RejectedFeatureException e) {
                 refused.add(new RefusedFeature(feature.number(), naming.called(feature), e.getMessage()));
             }
         }
@@ -53,17 +53,17 @@ public final class FieldFiles {
     }
 
     private static ImportedField field(SourceFeature feature, Georeference georeference, FeatureNaming naming)
-            throws RefusedFeatureException {
+            throws RejectedFeatureException {
         if (feature.fault() != null) {
-            throw new RefusedFeatureException(feature.fault());
+            throw new RejectedFeatureException(feature.fault());
         }
-        MendedArea mended = AreaRepair.repair(feature.outline(), georeference);
+        RepairedArea repaired = AreaRepair.repair(feature.outline(), georeference);
         return new ImportedField(
                 feature.number(),
-                naming.version(feature, GeoJsonArea.of(mended.area())),
-                EllipsoidArea.hectares(mended.area()),
-                mended.notes(),
-                mended.edgeErrorMeters());
+                naming.version(feature, GeoJsonArea.of(repaired.area())),
+                EllipsoidArea.hectares(repaired.area()),
+                repaired.notes(),
+                repaired.edgeErrorMeters());
     }
 
     private static FieldLayer layer(Path file, ImportOptions options) throws UnusableFileException {

@@ -36,10 +36,10 @@ final class GeoJsonArea {
 
     private static ArrayNode ring(LineString ring, boolean counterClockwise) {
         CoordinateSequence corners = ring.getCoordinateSequence();
-        boolean turn = Orientation.isCCWArea(ring.getCoordinates()) != counterClockwise;
+        boolean reversed = Orientation.isCCWArea(ring.getCoordinates()) != counterClockwise;
         ArrayNode positions = JsonNodeFactory.instance.arrayNode(corners.size());
         for (int index = 0; index < corners.size(); index++) {
-            int corner = turn ? corners.size() - 1 - index : index;
+            int corner = reversed ? corners.size() - 1 - index : index;
             positions.addArray().add(corners.getX(corner)).add(corners.getY(corner));
         }
         return positions;

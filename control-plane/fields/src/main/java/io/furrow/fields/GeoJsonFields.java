@@ -87,12 +87,12 @@ final class GeoJsonFields {
                 : JsonNodeFactory.instance.objectNode();
         try {
             return new SourceFeature(number, named, properties, outline(feature.path("geometry")), null);
-        } catch (RefusedFeatureException e) {
+        } catch (RejectedFeatureException e) {
             return new SourceFeature(number, named, properties, null, e.getMessage());
         }
     }
 
-    private static Outline outline(JsonNode geometry) throws RefusedFeatureException {
+    private static Outline outline(JsonNode geometry) throws RejectedFeatureException {
         List<List<List<Coordinate>>> polygons = new ArrayList<>();
         List<String> notes = new ArrayList<>();
         collect(geometry, polygons, notes);
@@ -104,7 +104,7 @@ final class GeoJsonFields {
     }
 
     private static void collect(JsonNode geometry, List<List<List<Coordinate>>> polygons, List<String> notes)
-            throws RefusedFeatureException {
+            throws RejectedFeatureException {
         JsonNode coordinates = geometry.path("coordinates");
         switch (geometry.path("type").asText()) {
             case "Polygon" -> polygons.add(polygon(coordinates));
@@ -122,14 +122,14 @@ final class GeoJsonFields {
                     }
                 }
             }
-            case "" -> throw new RefusedFeatureException("has no geometry");
+            case "" -> throw new RejectedFeatureException("has no geometry");
             default ->
-                throw new RefusedFeatureException(
+                throw new RejectedFeatureException(
                         "is a " + geometry.path("type").asText() + "; a field is a Polygon or MultiPolygon");
         }
     }
 
-    private static List<List<Coordinate>> polygon(JsonNode rings) throws RefusedFeatureException {
+    private static List<List<Coordinate>> polygon(JsonNode rings) throws RejectedFeatureException {
         List<List<Coordinate>> polygon = new ArrayList<>();
         for (JsonNode ring : rings) {
             List<Coordinate> corners = new ArrayList<>();
@@ -137,7 +137,7 @@ final class GeoJsonFields {
                 if (!corner.isArray()
                         || !corner.path(0).isNumber()
                         || !corner.path(1).isNumber()) {
-                    throw new RefusedFeatureException("has a corner that is not [x, y]: " + Words.shortened(corner));
+                    throw new RejectedFeatureException("has a corner that is not [x, y]: " + Phrases.shortened(corner));
                 }
                 double z = corner.path(2).isNumber() ? corner.path(2).doubleValue() : Double.NaN;
                 corners.add(new Coordinate(

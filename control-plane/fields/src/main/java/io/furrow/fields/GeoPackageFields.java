@@ -115,7 +115,7 @@ final class GeoPackageFields {
         try {
             return new SourceFeature(
                     number, id, properties, GeoPackageGeometry.outline(row.getBytes(layer.geometry())), null);
-        } catch (RefusedFeatureException e) {
+        } catch (RejectedFeatureException e) {
             return new SourceFeature(number, id, properties, null, e.getMessage());
         }
     }

@@ -23,23 +23,23 @@ final class GeoPackageGeometry {
 
     private GeoPackageGeometry() {}
 
-    static Outline outline(byte[] blob) throws RefusedFeatureException {
+    static Outline outline(byte[] blob) throws RejectedFeatureException {
         if (blob == null) {
-            throw new RefusedFeatureException("has no geometry");
+            throw new RejectedFeatureException("has no geometry");
         }
         if (blob.length < FIXED_HEADER || blob[0] != 'G' || blob[1] != 'P') {
-            throw new RefusedFeatureException("has a geometry that is not in GeoPackage format");
+            throw new RejectedFeatureException("has a geometry that is not in GeoPackage format");
         }
         int envelope = (blob[FLAGS] >> 1) & 7;
         if (envelope >= ENVELOPE.length || blob.length < FIXED_HEADER + ENVELOPE[envelope]) {
-            throw new RefusedFeatureException("has a geometry with a broken header");
+            throw new RejectedFeatureException("has a geometry with a broken header");
         }
         byte[] wkb = Arrays.copyOfRange(blob, FIXED_HEADER + ENVELOPE[envelope], blob.length);
         Geometry geometry;
         try {
             geometry = new WKBReader().read(wkb);
         } catch (ParseException | IllegalArgumentException e) {
-            throw new RefusedFeatureException(
+            throw new RejectedFeatureException(
                     "has a geometry that cannot be read (" + e.getMessage() + "); convert curves to lines first");
         }
         List<List<List<Coordinate>>> polygons = new ArrayList<>();
@@ -53,7 +53,7 @@ final class GeoPackageGeometry {
     }
 
     private static void collect(Geometry geometry, List<List<List<Coordinate>>> polygons, List<String> notes)
-            throws RefusedFeatureException {
+            throws RejectedFeatureException {
         if (geometry instanceof Polygon polygon) {
             if (!polygon.isEmpty()) {
                 List<List<Coordinate>> rings = new ArrayList<>();
@@ -72,7 +72,7 @@ final class GeoPackageGeometry {
                 }
             }
         } else if (!geometry.isEmpty()) {
-            throw new RefusedFeatureException(
+            throw new RejectedFeatureException(
                     "is a " + geometry.getGeometryType() + "; a field is a Polygon or MultiPolygon");
         }
     }

@@ -60,7 +60,7 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
         } catch (FactoryException | TransformException | NumberFormatException e) {
             throw new UnusableFileException(
                     "'%s' is not a known coordinate system (%s); specify it with --crs, for instance --crs EPSG:25830"
-                            .formatted(Words.shortened(text), FailureText.of(e)),
+                            .formatted(Phrases.shortened(text), FailureText.of(e)),
                     e);
         }
     }
@@ -84,9 +84,10 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
             GeographicCRS base = projected.getBaseCRS();
             MathTransform toBase =
                     projected.getConversionFromBase().getMathTransform().inverse();
-            Integer known = CRS.getAxisOrder(base) == CRS.AxisOrder.NORTH_EAST ? null : CRS.lookupEpsgCode(base, true);
-            if (known != null) {
-                Georeference fromBase = ofCode(known);
+            Integer identified =
+                    CRS.getAxisOrder(base) == CRS.AxisOrder.NORTH_EAST ? null : CRS.lookupEpsgCode(base, true);
+            if (identified != null) {
+                Georeference fromBase = ofCode(identified);
                 return new Georeference(
                         crs.getName().getCode(),
                         ConcatenatedTransform.create(toBase, fromBase.transform()),
@@ -94,9 +95,9 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
                         fromBase.accuracyMeters());
             }
         } else {
-            Integer known = CRS.lookupEpsgCode(crs, true);
-            if (known != null) {
-                return ofCode(known);
+            Integer identified = CRS.lookupEpsgCode(crs, true);
+            if (identified != null) {
+                return ofCode(identified);
             }
         }
         Georeference strict = toWgs84(crs.getName().getCode(), crs);
@@ -111,8 +112,8 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
                 name, operation.getMathTransform(), false, AbstractCoordinateOperation.getAccuracy(operation));
     }
 
-    /** @throws RefusedFeatureException if the position is outside of the coordinate system */
-    Coordinate toWgs84(Coordinate from) throws RefusedFeatureException {
+    /** @throws RejectedFeatureException if the position is outside of the coordinate system */
+    Coordinate toWgs84(Coordinate from) throws RejectedFeatureException {
         double[] position = northFirst ? new double[] {from.y, from.x} : new double[] {from.x, from.y};
         try {
             transform.transform(position, 0, position, 0, 1);
@@ -125,8 +126,8 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
         return new Coordinate(position[0], position[1]);
     }
 
-    private RefusedFeatureException outside(Coordinate from) {
-        return new RefusedFeatureException(
+    private RejectedFeatureException outside(Coordinate from) {
+        return new RejectedFeatureException(
                 "has the corner %s, %s outside of %s; check the coordinate system and the order of x and y"
                         .formatted(from.x, from.y, name));
     }

@@ -40,7 +40,7 @@ final class ShapefileFields {
     }
 
     private FieldLayer layer() throws UnusableFileException {
-        List<ShapeRecords.Shape> shapes = ShapeRecords.read(shp);
+        List<ShapefileReader.Shape> shapes = ShapefileReader.read(shp);
         List<ObjectNode> rows = rows(shapes.size());
         if (rows.size() != shapes.size()) {
             throw new UnusableFileException("%s has %d shapes and %d rows of attributes; copy .shp and .dbf together"
@@ -52,7 +52,7 @@ final class ShapefileFields {
                 notes.add("feature " + (index + 1) + " is marked as deleted in the attribute table: left out");
                 continue;
             }
-            ShapeRecords.Shape shape = shapes.get(index);
+            ShapefileReader.Shape shape = shapes.get(index);
             features.add(new SourceFeature(index + 1, null, rows.get(index), shape.outline(), shape.fault()));
         }
         Optional<Path> prj = beside(".prj");

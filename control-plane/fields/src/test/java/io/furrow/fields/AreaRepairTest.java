@@ -33,7 +33,7 @@ class AreaRepairTest {
         [[[179,0],[181,0],[181,2],[179,2],[179,0]]]                     | cut at the antimeridian
         [[[179,0],[-179,0],[-179,2],[179,2],[179,0]]]                   | cut at the antimeridian
         """)
-    void mendsAndSaysSo(String coordinates, String note) throws Exception {
+    void repairsAndReportsSo(String coordinates, String note) throws Exception {
         FieldFile read = read("Polygon", coordinates);
 
         assertThat(read.refused()).isEmpty();
@@ -102,7 +102,7 @@ class AreaRepairTest {
     }
 
     @Test
-    void keepsTheGoodAndNamesTheRest() throws Exception {
+    void retainsTheGoodAndNamesTheRest() throws Exception {
         String area = "\"geometry\": {\"type\": \"Polygon\", \"coordinates\": [[[0,0],[2,0],[2,2],[0,0]]]}";
         Path file = Files.writeString(folder.resolve("some.geojson"), """
             {"type": "FeatureCollection", "features": [

@@ -83,7 +83,7 @@ public class FieldFilesTest {
 
     /** By pyproj 3.4.1: Geod(ellps="WGS84").polygon_area_perimeter of the rings. */
     @Test
-    void knowsTheAreaOnTheEllipsoid() throws Exception {
+    void computesTheAreaOnTheEllipsoid() throws Exception {
         FieldFile read = FieldFiles.read(resource("shapefile-25830.shp"), named("code"));
 
         assertThat(read.fields().get(0).hectares()).isCloseTo(4.908080321, within(1e-4));
@@ -112,7 +112,7 @@ public class FieldFilesTest {
     }
 
     @Test
-    void saysThatHeightsAreLeftOut() throws Exception {
+    void reportsThatHeightsAreLeftOut() throws Exception {
         FieldFile read = FieldFiles.read(resource("shapefile-heights.shp"), named("code"));
 
         assertThat(read.fields()).allSatisfy(field -> assertThat(field.notes()).containsExactly("left out heights"));
@@ -214,7 +214,7 @@ public class FieldFilesTest {
     }
 
     @Test
-    void saysWhatToDoWithAFeaturePerLine() throws Exception {
+    void reportsWhatToDoWithAFeaturePerLine() throws Exception {
         Path file = Files.writeString(folder.resolve("x.geojsonl"), "{\"type\":\"Feature\"}\n{\"type\":\"Feature\"}\n");
 
         assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
@@ -224,7 +224,7 @@ public class FieldFilesTest {
     }
 
     @Test
-    void saysWhatToWriteIntoACpgFileThatNamesNoCodePage() throws Exception {
+    void reportsWhatToWriteIntoACpgFileThatNamesNoCodePage() throws Exception {
         Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("coded.shp"));
         Files.copy(resource("shapefile-25830.dbf"), folder.resolve("coded.dbf"));
         Files.writeString(folder.resolve("coded.cpg"), "Klingon");
@@ -256,7 +256,7 @@ public class FieldFilesTest {
         LOCAL_CS["somewhere"]
         nonsense
         """)
-    void refusesACoordinateSystemThatLeadsNowhere(String prj) throws Exception {
+    void rejectsACoordinateSystemThatLeadsNowhere(String prj) throws Exception {
         Path shp = Files.copy(resource("shapefile-25830.shp"), folder.resolve("lost.shp"));
         Files.copy(resource("shapefile-25830.dbf"), folder.resolve("lost.dbf"));
         Files.writeString(folder.resolve("lost.prj"), prj);

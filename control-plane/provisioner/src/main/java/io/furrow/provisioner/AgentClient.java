@@ -27,7 +27,7 @@ import io.furrow.model.ngsi.UnreadableException;
 /**
  * The provisioning interface of an IoT Agent JSON. Each call is one attempt of at most ten seconds. {@link IOException} means that
  * the agent is unavailable: no answer, what a proxy in front of it answers, what it cannot have answered, or, as {@link AgentFaultException}, 5xx;
- * {@link RefusedByAgentException} any other refusal. The scopes name a tenant: the agent has no default one.
+ * {@link RejectedByAgentException} any other refusal. The scopes name a tenant: the agent has no default one.
  */
 final class AgentClient {
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
@@ -65,7 +65,7 @@ final class AgentClient {
     record Group(String apiKey, String resource, String domain, String mission) {}
 
     /** The group that a device needs. */
-    Group groupOf(Registration device) {
+    Group groupOf(AgentRegistration device) {
         return new Group(device.apiKey(), resource, device.domain(), device.mission());
     }
 
@@ -73,34 +73,37 @@ final class AgentClient {
         return group.resource().equals(resource);
     }
 
-    List<Registration> devices(FiwareScope scope) throws IOException, RefusedByAgentException, InterruptedException {
-        return all(scope, DEVICES, "devices").stream().map(Registration::read).toList();
+    List<AgentRegistration> devices(FiwareScope scope)
+            throws IOException, RejectedByAgentException, InterruptedException {
+        return all(scope, DEVICES, "devices").stream()
+                .map(AgentRegistration::read)
+                .toList();
     }
 
     /** Empty if there is no device of this id. */
-    Optional<Registration> device(FiwareScope scope, String id)
-            throws IOException, RefusedByAgentException, InterruptedException {
+    Optional<AgentRegistration> device(FiwareScope scope, String id)
+            throws IOException, RejectedByAgentException, InterruptedException {
         Answer answer = send(scope, "GET", DEVICES + "/" + encoded(id), null);
         if (answer.says("DEVICE_NOT_FOUND")) {
             return Optional.empty();
         }
         answer.check();
-        return Optional.of(Registration.read(answer.json()));
+        return Optional.of(AgentRegistration.read(answer.json()));
     }
 
-    List<Group> groups(FiwareScope scope) throws IOException, RefusedByAgentException, InterruptedException {
+    List<Group> groups(FiwareScope scope) throws IOException, RejectedByAgentException, InterruptedException {
         return all(scope, GROUPS, "services").stream()
                 .map(json -> new Group(
                         json.path("apikey").asText(),
                         json.path("resource").asText(""),
                         null,
-                        Registration.mission(json)))
+                        AgentRegistration.mission(json)))
                 .toList();
     }
 
     /** Page by page, until one brings nothing new: the list of groups comes as a whole whichever page is asked for. */
     private Set<JsonNode> all(FiwareScope scope, String path, String list)
-            throws IOException, RefusedByAgentException, InterruptedException {
+            throws IOException, RejectedByAgentException, InterruptedException {
         Set<JsonNode> all = new LinkedHashSet<>();
         boolean more = true;
         while (more) {
@@ -120,13 +123,13 @@ final class AgentClient {
      *
      * @return false if the agent has a group of this resource and API key, in this scope or in another
      */
-    boolean add(FiwareScope scope, Group group) throws IOException, RefusedByAgentException, InterruptedException {
+    boolean add(FiwareScope scope, Group group) throws IOException, RejectedByAgentException, InterruptedException {
         ObjectNode json = NODES.objectNode()
                 .put("apikey", group.apiKey())
                 .put("resource", group.resource())
                 .put("entity_type", "Thing")
                 .put("autoprovision", false);
-        Registration.fix(json, new Registration.Fixed(group.domain(), group.mission(), null));
+        AgentRegistration.fix(json, new AgentRegistration.StaticAttribute(group.domain(), group.mission(), null));
         Answer answer = send(scope, "POST", GROUPS, list("services", List.of(json)));
         if (answer.status() == CONFLICT) {
             return false;
@@ -136,20 +139,21 @@ final class AgentClient {
     }
 
     /** Makes devices. Where the agent refuses, fails or does not answer, it may have made some, and may be making others still. */
-    void add(FiwareScope scope, List<Registration> devices)
-            throws IOException, RefusedByAgentException, InterruptedException {
-        List<ObjectNode> bodies = devices.stream().map(Registration::toJson).toList();
+    void add(FiwareScope scope, List<AgentRegistration> devices)
+            throws IOException, RejectedByAgentException, InterruptedException {
+        List<ObjectNode> bodies =
+                devices.stream().map(AgentRegistration::toJson).toList();
         send(scope, "POST", DEVICES, list("devices", bodies)).check();
     }
 
     /** Removes a device; one that is gone already is as good. */
     void removeDevice(FiwareScope scope, String device)
-            throws IOException, RefusedByAgentException, InterruptedException {
+            throws IOException, RejectedByAgentException, InterruptedException {
         removed(send(scope, "DELETE", DEVICES + "/" + encoded(device), null));
     }
 
     /** Removes a service group; one that is gone already is as good. */
-    void remove(FiwareScope scope, Group group) throws IOException, RefusedByAgentException, InterruptedException {
+    void remove(FiwareScope scope, Group group) throws IOException, RejectedByAgentException, InterruptedException {
         removed(send(
                 scope,
                 "DELETE",
@@ -157,7 +161,7 @@ final class AgentClient {
                 null));
     }
 
-    private static void removed(Answer answer) throws RefusedByAgentException {
+    private static void removed(Answer answer) throws RejectedByAgentException {
         if (answer.status() != NOT_FOUND) {
             answer.check();
         }
@@ -173,9 +177,9 @@ final class AgentClient {
     }
 
     private record Answer(String request, int status, byte[] body) {
-        void check() throws RefusedByAgentException {
+        void check() throws RejectedByAgentException {
             if (status / 100 != 2) {
-                throw new RefusedByAgentException(toString());
+                throw new RejectedByAgentException(toString());
             }
         }
 

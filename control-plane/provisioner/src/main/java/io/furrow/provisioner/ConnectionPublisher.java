@@ -35,7 +35,7 @@ final class ConnectionPublisher {
     private static final Logger LOG = LoggerFactory.getLogger(ConnectionPublisher.class);
 
     private final ProvisioningSettings settings;
-    private final DesiredDevices desired;
+    private final DesiredDeviceTable desired;
     private final Producer<String, byte[]> producer;
     private final LongSupplier clock;
     private final Long since;
@@ -45,7 +45,7 @@ final class ConnectionPublisher {
     /** @param clock epoch ms */
     ConnectionPublisher(
             ProvisioningSettings settings,
-            DesiredDevices desired,
+            DesiredDeviceTable desired,
             Producer<String, byte[]> producer,
             LongSupplier clock) {
         this.settings = settings;

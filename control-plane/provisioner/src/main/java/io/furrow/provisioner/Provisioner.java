@@ -24,7 +24,7 @@ public final class Provisioner implements AutoCloseable {
     }
 
     private void provision(ProvisioningSettings settings, RestartingWorker self) throws InterruptedException {
-        try (ProvisioningLoop loop = new ProvisioningLoop(settings)) {
+        try (ProvisioningWorker loop = new ProvisioningWorker(settings)) {
             while (!self.isClosing()) {
                 loop.next();
                 self.succeeded();

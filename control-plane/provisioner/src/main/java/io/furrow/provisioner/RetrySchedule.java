@@ -59,10 +59,10 @@ final class RetrySchedule {
     }
 
     /** Whether the step that begins is to take nothing for granted: the first one after a failure or a rest. */
-    boolean looksAgain() {
-        boolean looks = again;
+    boolean isRefreshDue() {
+        boolean refresh = again;
         again = false;
-        return looks;
+        return refresh;
     }
 
     /** Until it is due, but not longer than so. */

@@ -20,7 +20,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.file.AccessToken;
-import io.furrow.provisioner.Provisioning.Outcome;
+import io.furrow.provisioner.ProvisioningReconciler.Outcome;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -28,10 +28,10 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 /** The resource of service groups. */
 class AgentResourceTest {
     private static final Outcome DONE = new Outcome(Map.of(), null, null, true);
-    private static final String API_KEY = Desired.SECRET.apiKey("hoeing");
+    private static final String API_KEY = DesiredDeviceFixture.SECRET.apiKey("hoeing");
 
-    private final DesiredDevices desired = new DesiredDevices(Desired.SCOPE);
-    private final DesiredDevice device = Desired.thermometer("hoeing", 1);
+    private final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
+    private final DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
 
     private FakeAgent agent;
 
@@ -49,7 +49,7 @@ class AgentResourceTest {
     @ParameterizedTest
     @ValueSource(strings = {"", "/iot/json", "/iot/house"})
     void makesAndRemovesGroupsOfTheResourceThatIsSet(String resource) throws Exception {
-        Provisioning provisioning = provisioning(resource);
+        ProvisioningReconciler provisioning = provisioning(resource);
 
         assertThat(provisioning.step()).isEqualTo(DONE);
         JsonNode group = agent.groups.get(FakeAgent.key(resource, API_KEY));
@@ -73,7 +73,7 @@ class AgentResourceTest {
 
     /** The agent keeps one group of a resource and a key in all tenants, and lists those of the scope only. */
     @Test
-    void refusesADeviceWhoseGroupIsInAnotherTenant() throws Exception {
+    void rejectsADeviceWhoseGroupIsInAnotherTenant() throws Exception {
         agent.hidden.put(FakeAgent.key("/iot/json", API_KEY), JsonNodeFactory.instance.objectNode());
 
         Outcome outcome = provisioning("/iot/json").step();
@@ -86,7 +86,7 @@ class AgentResourceTest {
     @Test
     void sendsTheTokenOfTheFileWithEachRequest(@TempDir Path directory) throws Exception {
         AccessToken token =
-                AccessToken.of(Files.writeString(directory.resolve("token"), "s3cret\n"), "X-Farm", said -> {});
+                AccessToken.of(Files.writeString(directory.resolve("token"), "s3cret\n"), "X-Farm", problem -> {});
         AgentSettings settings = AgentSettings.at(agent.uri()).withToken(token);
 
         assertThat(provisioning(settings).step()).isEqualTo(DONE);
@@ -96,7 +96,7 @@ class AgentResourceTest {
     }
 
     @Test
-    void refusesSettingsThatCannotBeRight() {
+    void rejectsSettingsThatCannotBeRight() {
         AgentSettings settings = AgentSettings.at(URI.create("http://127.0.0.1:4041"));
 
         assertThatThrownBy(() -> settings.withResource("iot/json"))
@@ -109,13 +109,14 @@ class AgentResourceTest {
         assertThat(settings.interval()).isLessThanOrEqualTo(Duration.ofSeconds(30));
     }
 
-    private Provisioning provisioning(String resource) {
+    private ProvisioningReconciler provisioning(String resource) {
         return provisioning(AgentSettings.at(agent.uri()).withResource(resource));
     }
 
-    private Provisioning provisioning(AgentSettings settings) {
-        return new Provisioning(
-                new ProvisioningSettings(new Properties(), Desired.SCOPE, Desired.SECRET, settings, List.of()),
+    private ProvisioningReconciler provisioning(AgentSettings settings) {
+        return new ProvisioningReconciler(
+                new ProvisioningSettings(
+                        new Properties(), DesiredDeviceFixture.SCOPE, DesiredDeviceFixture.SECRET, settings, List.of()),
                 desired,
                 System::nanoTime);
     }

@@ -34,20 +34,21 @@ class ConnectionPublisherTest {
     private final MockProducer<String, byte[]> producer =
             new MockProducer<>(true, null, new StringSerializer(), new ByteArraySerializer());
     private final AtomicLong now = new AtomicLong(START);
-    private final DesiredDevices desired = new DesiredDevices(Desired.SCOPE);
-    private final DesiredDevice device = Desired.thermometer("hoeing", 1);
+    private final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
+    private final DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
     private final String key = device.version().key();
-    private final String user = Desired.SECRET.device("hoeing", device.device()).user();
+    private final String user =
+            DesiredDeviceFixture.SECRET.device("hoeing", device.device()).user();
     private final Map<String, LoginReport> logins = new HashMap<>();
     private UnreadablePayload unreadable;
     private final ConnectionPublisher publisher = publisher(new ConnectionSources(
             List.of(() -> logins),
-            (apiKey, id) -> apiKey.equals(Desired.SECRET.apiKey("hoeing")) && id.equals(device.device())
+            (apiKey, id) -> apiKey.equals(DesiredDeviceFixture.SECRET.apiKey("hoeing")) && id.equals(device.device())
                     ? Optional.ofNullable(unreadable)
                     : Optional.empty()));
 
     @BeforeEach
-    void want() {
+    void addDesired() {
         desired.take(key, device);
     }
 
@@ -69,7 +70,9 @@ class ConnectionPublisherTest {
     /** After a rotation, or on another mission, it tries with what it has. */
     @Test
     void countsLoginsWithOldCredentialsForTheDevice() throws Exception {
-        String old = Desired.SECRET.device("weeding", device.device(), 3).user();
+        String old = DesiredDeviceFixture.SECRET
+                .device("weeding", device.device(), 3)
+                .user();
         RefusedLogin refused = new RefusedLogin(7, START + 2, DeviceConnection.UNKNOWN_USER, old);
         logins.put(old, new LoginReport(null, refused, null));
         logins.put(user, new LoginReport(START + 1, null, null));
@@ -84,7 +87,7 @@ class ConnectionPublisherTest {
     @Test
     void takesTheLoginOfTheGatewayThatSpeaksForADevice() throws Exception {
         ForeignTopic foreign = new ForeignTopic(1, START, "/k/e/attrs");
-        logins.put(Desired.SECRET.gateway("hoeing").user(), new LoginReport(START + 1, null, foreign));
+        logins.put(DesiredDeviceFixture.SECRET.gateway("hoeing").user(), new LoginReport(START + 1, null, foreign));
 
         publish(Set.of(key));
 
@@ -102,7 +105,7 @@ class ConnectionPublisherTest {
         publish(null);
         assertThat(producer.history()).hasSize(2);
 
-        desired.take(key, Desired.stopped(device));
+        desired.take(key, DesiredDeviceFixture.stopped(device));
         publish(null);
         publish(null);
         assertThat(producer.history()).hasSize(3);
@@ -129,7 +132,7 @@ class ConnectionPublisherTest {
     }
 
     @Test
-    void saysThatNobodyObservesLogins() throws Exception {
+    void reportsThatNobodyObservesLogins() throws Exception {
         ConnectionPublisher unsure = publisher(ConnectionSources.NONE);
         now.addAndGet(INTERVAL);
         unsure.publish(Set.of(key));
@@ -140,8 +143,8 @@ class ConnectionPublisherTest {
     private ConnectionPublisher publisher(ConnectionSources sources) {
         ProvisioningSettings settings = new ProvisioningSettings(
                 new Properties(),
-                Desired.SCOPE,
-                SecretSource.of(Desired.SECRET),
+                DesiredDeviceFixture.SCOPE,
+                SecretSource.of(DesiredDeviceFixture.SECRET),
                 null,
                 List.of(),
                 true,

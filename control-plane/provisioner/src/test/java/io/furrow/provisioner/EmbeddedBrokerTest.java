@@ -21,7 +21,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.embedded.EmbeddedMqtt;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.provisioner.account.MqttAccount;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -31,10 +31,10 @@ import static org.awaitility.Awaitility.await;
 /** The MQTT broker of the one-command start with accounts that come and go. */
 @Tag("full")
 class EmbeddedBrokerTest {
-    private static final LiveAccounts ACCOUNTS = new LiveAccounts();
-    private static final String KEY = "/" + Desired.SECRET.apiKey("hoeing");
+    private static final InMemoryAccounts ACCOUNTS = new InMemoryAccounts();
+    private static final String KEY = "/" + DesiredDeviceFixture.SECRET.apiKey("hoeing");
     private static final long TIMEOUT_MS = 20_000;
-    private static final FarmSecret.Login DEVICE = Desired.SECRET.device("hoeing", "d");
+    private static final FarmSecret.Login DEVICE = DesiredDeviceFixture.SECRET.device("hoeing", "d");
 
     private static EmbeddedMqtt mqtt;
 
@@ -45,8 +45,8 @@ class EmbeddedBrokerTest {
     static void startBroker() {
         mqtt = EmbeddedMqtt.start(0, Map.of("agent", "plough"), new EmbeddedMqtt.Users() {
             @Override
-            public boolean knows(String user, byte[] password) {
-                return ACCOUNTS.knows(user, password);
+            public boolean authenticates(String user, byte[] password) {
+                return ACCOUNTS.authenticates(user, password);
             }
 
             @Override
@@ -75,8 +75,8 @@ class EmbeddedBrokerTest {
     void listen() throws MqttException {
         ACCOUNTS.replace(
                 List.of(
-                        MqttAccount.device(Desired.SECRET, "hoeing", "d"),
-                        MqttAccount.gateway(Desired.SECRET, "hoeing")),
+                        MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d"),
+                        MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing")),
                 Set.of());
         agent = connect(new FarmSecret.Login("agent", "plough"));
         agent.subscribe(
@@ -131,9 +131,9 @@ class EmbeddedBrokerTest {
     @Test
     void closesTheConnectionOfAUserWhoseAccountIsRemoved() throws MqttException {
         MqttClient device = connect(DEVICE);
-        MqttClient gateway = connect(Desired.SECRET.gateway("hoeing"));
+        MqttClient gateway = connect(DesiredDeviceFixture.SECRET.gateway("hoeing"));
 
-        ACCOUNTS.replace(List.of(MqttAccount.gateway(Desired.SECRET, "hoeing")), Set.of());
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing")), Set.of());
 
         await().until(() -> !device.isConnected());
         assertThat(gateway.isConnected()).isTrue();
@@ -142,7 +142,7 @@ class EmbeddedBrokerTest {
     }
 
     @Test
-    void letsADeviceHearItsOwnCommandsOnly() throws MqttException {
+    void letsADeviceReceiveItsOwnCommandsOnly() throws MqttException {
         MqttClient device = connect(DEVICE);
         Map<String, String> commands = new ConcurrentHashMap<>();
         assertThatThrownBy(() -> device.subscribe("#", 1)).isInstanceOf(MqttException.class);
@@ -170,8 +170,8 @@ class EmbeddedBrokerTest {
 
     @Test
     void letsAMissionHaveTheNameOfAUserOfTheStart() throws MqttException {
-        ACCOUNTS.replace(List.of(MqttAccount.gateway(Desired.SECRET, "agent")), Set.of());
-        MqttClient gateway = connect(Desired.SECRET.gateway("agent"));
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(DesiredDeviceFixture.SECRET, "agent")), Set.of());
+        MqttClient gateway = connect(DesiredDeviceFixture.SECRET.gateway("agent"));
 
         assertThatThrownBy(() -> gateway.subscribe("#", 1)).isInstanceOf(MqttException.class);
         leave(gateway);

@@ -51,7 +51,7 @@ final class FakeAgent implements AutoCloseable {
     /** What a proxy in front of it answers to requests that change something; 0 if it lets them pass. */
     volatile int proxy;
     /** It answers 503 to everything. */
-    volatile boolean away;
+    volatile boolean unavailable;
     /** What it answers with 200 to every GET; null for what is asked. */
     volatile String garbage;
     /** It makes no more devices of a batch, and breaks the connection of one that has more. */
@@ -120,7 +120,7 @@ final class FakeAgent implements AutoCloseable {
 
     private synchronized void handle(HttpExchange exchange) throws IOException {
         try {
-            if (away) {
+            if (unavailable) {
                 throw new Refusal(503, "AWAY", "the registry is away");
             }
             if (proxy > 0 && !exchange.getRequestMethod().equals("GET")) {

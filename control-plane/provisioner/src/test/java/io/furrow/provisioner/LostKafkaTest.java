@@ -13,8 +13,8 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.provisioner.Provisioning.Outcome;
-import io.furrow.provisioner.Removals.Origin;
+import io.furrow.provisioner.ProvisioningReconciler.Outcome;
+import io.furrow.provisioner.RemovalGuard.Origin;
 import io.furrow.provisioner.account.MosquittoFiles;
 import io.furrow.provisioner.account.MqttAccounts;
 
@@ -30,7 +30,7 @@ class LostKafkaTest extends ProvisioningFixture {
     Path directory;
 
     @Test
-    void keepsTheAccountsAndDevicesThatAnotherKafkaDesired() throws Exception {
+    void retainsTheAccountsAndDevicesThatAnotherKafkaDesired() throws Exception {
         provisionTen();
 
         provisioning = provisioning(files(false), new Origin("topic-2", true));
@@ -40,75 +40,75 @@ class LostKafkaTest extends ProvisioningFixture {
         assertThat(agent.deviceIds()).hasSize(10);
         assertThat(agent.apiKeys()).containsExactly(KEY);
         assertThat(outcome.done()).isTrue();
-        assertThat(outcome.kept().text())
+        assertThat(outcome.retained().text())
                 .contains("10 MQTT accounts, 10 devices and 1 service groups of the IoT Agent stay")
                 .contains("urn:ngsi-ld:Thermometer:hoeing-1", "Check --kafka", "--forget-devices");
-        assertThat(outcome.kept().summary()).doesNotContain("hoeing");
+        assertThat(outcome.retained().summary()).doesNotContain("hoeing");
     }
 
     @Test
-    void keepsTheDevicesOfTheAgentWhereNoFileSaysForWhichKafkaTheyAre() throws Exception {
+    void retainsTheDevicesOfTheAgentWhereNoFileSaysForWhichKafkaTheyAre() throws Exception {
         provisionTen();
 
-        provisioning = provisioning(settings(SecretSource.of(Desired.SECRET), false), EMPTY);
-        assertThat(provisioning.step().kept().devices()).hasSize(10);
+        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), EMPTY);
+        assertThat(provisioning.step().retained().devices()).hasSize(10);
         assertThat(agent.deviceIds()).hasSize(10);
 
-        provisioning = provisioning(settings(SecretSource.of(Desired.SECRET), false), SAME);
+        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), SAME);
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.deviceIds()).isEmpty();
     }
 
     @Test
-    void addsAndRemovesDevicesOfItsOwnBesideThoseThatItKeeps() throws Exception {
+    void addsAndRemovesDevicesOfItsOwnBesideThoseThatItRetains() throws Exception {
         provisionTen();
         provisioning = provisioning(files(false), EMPTY);
-        DesiredDevice known = Desired.thermometer("hoeing", 1);
-        DesiredDevice fresh = Desired.thermometer("weeding", 1);
+        DesiredDevice existing = DesiredDeviceFixture.thermometer("hoeing", 1);
+        DesiredDevice fresh = DesiredDeviceFixture.thermometer("weeding", 1);
 
-        want(known);
-        want(fresh);
-        assertThat(provisioning.step().kept().devices()).hasSize(9);
+        addDesired(existing);
+        addDesired(fresh);
+        assertThat(provisioning.step().retained().devices()).hasSize(9);
         assertThat(users()).hasSize(11);
         assertThat(agent.deviceIds()).hasSize(11);
 
-        want(Desired.stopped(known));
-        want(Desired.stopped(fresh));
-        assertThat(provisioning.step().kept().devices()).hasSize(9);
+        addDesired(DesiredDeviceFixture.stopped(existing));
+        addDesired(DesiredDeviceFixture.stopped(fresh));
+        assertThat(provisioning.step().retained().devices()).hasSize(9);
         assertThat(users()).hasSize(9);
-        assertThat(agent.deviceIds()).hasSize(9).doesNotContain(known.device(), fresh.device());
+        assertThat(agent.deviceIds()).hasSize(9).doesNotContain(existing.device(), fresh.device());
         assertThat(agent.apiKeys()).containsExactly(KEY);
     }
 
     @Test
-    void leavesADeviceInItsMissionThatAnotherKafkaWants() throws Exception {
+    void leavesADeviceInItsMissionThatAnotherKafkaDesires() throws Exception {
         String id = "d";
-        DesiredDevice there = Desired.device("Thermometer", "hoeing", id, 1);
-        want(there);
+        DesiredDevice there = DesiredDeviceFixture.device("Thermometer", "hoeing", id, 1);
+        addDesired(there);
         provisioning(files(false), SAME).step();
-        DesiredDevice moved = Desired.device("Thermometer", "weeding", id, 1);
+        DesiredDevice moved = DesiredDeviceFixture.device("Thermometer", "weeding", id, 1);
         desired.take(there.version().key(), null);
-        want(moved);
+        addDesired(moved);
         provisioning = provisioning(files(false), EMPTY);
 
         for (int steps = 0; steps < 3; steps++) {
             Outcome outcome = provisioning.step();
             assertThat(outcome.refused().get(moved.version().key()))
                     .contains("of mission 'hoeing'", "check --kafka", "--forget-devices");
-            assertThat(outcome.kept().devices()).containsExactly(id);
-            provisioning.lookAgain();
+            assertThat(outcome.retained().devices()).containsExactly(id);
+            provisioning.refresh();
         }
         assertThat(agent.devices.get(id).path("apikey").asText()).isEqualTo(KEY);
     }
 
     @Test
-    void isTheFarmsAgainOnceItWantsAllThatIsThere() throws Exception {
+    void isTheFarmsAgainOnceItDesiresAllThatIsThere() throws Exception {
         provisionTen();
-        wantTen();
+        addTenDesired();
         provisioning = provisioning(files(false), EMPTY);
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(Files.readString(passwords())).as("after one answer").doesNotContain("the topic topic-2");
-        askLater();
+        stepLater();
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(Files.readString(passwords())).contains("the topic topic-2").doesNotContain("topic-1");
 
@@ -121,14 +121,14 @@ class LostKafkaTest extends ProvisioningFixture {
     @Test
     void takesNoLoginAwayWhereTheAgentSaysThatItHasNothing() throws Exception {
         provisionTen();
-        wantTen();
+        addTenDesired();
         agent.garbage = NOTHING;
         provisioning = provisioning(files(false), SAME);
 
         for (int answers = 0; answers < 3; answers++) {
             assertThat(provisioning.step().refused()).hasSize(10);
             assertThat(users()).hasSize(10);
-            askLater();
+            stepLater();
         }
         agent.garbage = null;
 
@@ -140,21 +140,21 @@ class LostKafkaTest extends ProvisioningFixture {
     @Test
     void takesNoEmptyAnswerOfTheAgentForAllThatItHas() throws Exception {
         provisionTen();
-        want(Desired.thermometer("weeding", 1));
-        provisioning = provisioning(settings(SecretSource.of(Desired.SECRET), false), EMPTY);
+        addDesired(DesiredDeviceFixture.thermometer("weeding", 1));
+        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), EMPTY);
         agent.garbage = NOTHING;
         assertThat(provisioning.step()).isEqualTo(DONE);
 
         agent.garbage = null;
         for (int answers = 0; answers < 3; answers++) {
-            askLater();
-            assertThat(provisioning.step().kept().devices()).hasSize(10);
+            stepLater();
+            assertThat(provisioning.step().retained().devices()).hasSize(10);
         }
         assertThat(agent.deviceIds()).hasSize(11);
     }
 
     @Test
-    void removesThemWhereItIsTold() throws Exception {
+    void removesThemWhereConfigured() throws Exception {
         provisionTen();
 
         assertThat(provisioning(files(true), EMPTY).step()).isEqualTo(DONE);
@@ -167,27 +167,27 @@ class LostKafkaTest extends ProvisioningFixture {
     /** The thief has the login of generation 0, the device that of generation 1. */
     @Test
     void doesNotAcceptALoginAgainThatWasRevoked() throws Exception {
-        DesiredDevice device = Desired.thermometer("hoeing", 1);
-        want(device);
+        DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
+        addDesired(device);
         provisioning = provisioning(files(false), SAME);
         provisioning.step();
-        want(device.withGeneration(1));
+        addDesired(device.withGeneration(1));
         provisioning.step();
 
         desired.clear();
-        want(device);
+        addDesired(device);
         provisioning = provisioning(files(false), EMPTY);
         assertThat(provisioning.step().refused().get(device.version().key()))
                 .contains("was revoked", "rotate the device's credentials 1 times");
         assertThat(users()).containsExactly(user(device, 1));
 
-        want(device.withGeneration(1));
+        addDesired(device.withGeneration(1));
         assertThat(provisioning.step()).isEqualTo(DONE);
-        want(Desired.stopped(device).withGeneration(1));
+        addDesired(DesiredDeviceFixture.stopped(device).withGeneration(1));
         provisioning.step();
         assertThat(users()).isEmpty();
         desired.clear();
-        want(device);
+        addDesired(device);
         assertThat(provisioning(files(true), new Origin("topic-3", false))
                         .step()
                         .refused())
@@ -199,46 +199,49 @@ class LostKafkaTest extends ProvisioningFixture {
     @Test
     void removesOnlyAccountsOfAKeyWhoseTimeIsOver() throws Exception {
         provisionTen();
-        FarmSecret rotated =
-                Desired.SECRET.rotated(Instant.now(), Instant.EPOCH, false).at(Instant.now());
+        FarmSecret rotated = DesiredDeviceFixture.SECRET
+                .rotated(Instant.now(), Instant.EPOCH, false)
+                .at(Instant.now());
 
         Outcome outcome =
                 provisioning(files(SecretSource.of(rotated), false), EMPTY).step();
 
         assertThat(users()).isEmpty();
-        assertThat(outcome.kept().devices()).hasSize(10);
+        assertThat(outcome.retained().devices()).hasSize(10);
     }
 
     private static String user(DesiredDevice device, int generation) {
-        return Desired.SECRET.device("hoeing", device.device(), generation).user();
+        return DesiredDeviceFixture.SECRET
+                .device("hoeing", device.device(), generation)
+                .user();
     }
 
-    private void wantTen() {
+    private void addTenDesired() {
         for (int i = 1; i <= 10; i++) {
-            want(Desired.thermometer("hoeing", i));
+            addDesired(DesiredDeviceFixture.thermometer("hoeing", i));
         }
     }
 
     /** By another Kafka than {@link #EMPTY}; nothing is wanted afterwards. */
     private void provisionTen() throws Exception {
-        wantTen();
+        addTenDesired();
         provisioning = provisioning(files(false), SAME);
         assertThat(provisioning.step()).isEqualTo(DONE);
-        askLater();
+        stepLater();
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(users()).hasSize(10);
         desired.clear();
     }
 
     private ProvisioningSettings files(boolean forgets) {
-        return files(SecretSource.of(Desired.SECRET), forgets);
+        return files(SecretSource.of(DesiredDeviceFixture.SECRET), forgets);
     }
 
     private ProvisioningSettings files(SecretSource secret, boolean forgets) {
         List<MqttAccounts> files = List.of(new MosquittoFiles(passwords(), directory.resolve("rules"), null));
         return new ProvisioningSettings(
                 new Properties(),
-                Desired.SCOPE,
+                DesiredDeviceFixture.SCOPE,
                 secret,
                 AgentSettings.at(agent.uri()),
                 files,

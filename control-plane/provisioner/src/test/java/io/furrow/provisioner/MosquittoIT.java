@@ -18,15 +18,15 @@ import io.furrow.provisioner.account.MosquittoFiles;
 import io.furrow.provisioner.account.MosquittoPassword;
 import io.furrow.provisioner.account.MqttAccount;
 
-import static io.furrow.provisioner.Mosquitto.AGENT;
-import static io.furrow.provisioner.Mosquitto.TIMEOUT;
+import static io.furrow.provisioner.ProvisionedMosquitto.AGENT;
+import static io.furrow.provisioner.ProvisionedMosquitto.TIMEOUT;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
 /** The written files in a real Mosquitto that reads them again while it runs. */
 class MosquittoIT {
-    private static final FarmSecret SECRET = Desired.SECRET;
+    private static final FarmSecret SECRET = DesiredDeviceFixture.SECRET;
     private static final String KEY = "/" + SECRET.apiKey("hoeing");
     private static final String OTHER_KEY = "/" + SECRET.apiKey("weeding");
     /** With signs that mean something in the files. */
@@ -40,7 +40,7 @@ class MosquittoIT {
     @TempDir
     Path directory;
 
-    private Mosquitto broker;
+    private ProvisionedMosquitto broker;
     private MosquittoFiles files;
     private MqttPeer agent;
 
@@ -52,8 +52,8 @@ class MosquittoIT {
         files.replace(ACCOUNTS, Set.of());
     }
 
-    Mosquitto start(Path folder) throws Exception {
-        return new Mosquitto(folder);
+    ProvisionedMosquitto start(Path folder) throws Exception {
+        return new ProvisionedMosquitto(folder);
     }
 
     @AfterEach
@@ -99,7 +99,7 @@ class MosquittoIT {
     }
 
     @Test
-    void letsADeviceHearItsOwnCommandsOnly() throws Exception {
+    void letsADeviceReceiveItsOwnCommandsOnly() throws Exception {
         try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
             device.subscribe("#");
             device.subscribe(KEY + "/" + DEVICE + "/cmd");
@@ -128,7 +128,7 @@ class MosquittoIT {
     }
 
     @Test
-    void shutsADeviceOutThatIsNoLongerDesiredAndKeepsTheAgent() throws Exception {
+    void shutsADeviceOutThatIsNoLongerDesiredAndRetainsTheAgent() throws Exception {
         try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
             files.replace(List.of(), Set.of());
 
@@ -175,7 +175,7 @@ class MosquittoIT {
 
     /** The thief may be connected: he is cut off, and nobody else is. */
     @Test
-    void refusesTheOldPasswordOnceCredentialsAreRotatedAndCutsItsConnectionOff() throws Exception {
+    void rejectsTheOldPasswordOnceCredentialsAreRotatedAndCutsItsConnectionOff() throws Exception {
         List<MqttAccount> rotated = new ArrayList<>(MqttAccount.devices(SECRET, "hoeing", DEVICE, 1));
         rotated.add(MqttAccount.device(SECRET, "weeding", "other"));
         try (MqttPeer thief = broker.comesIn(SECRET.device("hoeing", DEVICE));

@@ -18,18 +18,18 @@ import static org.awaitility.Awaitility.await;
 
 /** What a real Mosquitto logs. */
 class MosquittoLogIT {
-    private static final FarmSecret.Login DEVICE = Desired.SECRET.device("hoeing", "d");
+    private static final FarmSecret.Login DEVICE = DesiredDeviceFixture.SECRET.device("hoeing", "d");
 
     @TempDir
     Path directory;
 
     @Test
-    void saysWhenADeviceConnectedAndWhereItPublishedThoughItMayNot() throws Exception {
+    void reportsWhenADeviceConnectedAndWhereItPublishedThoughItMayNot() throws Exception {
         long start = Instant.now().getEpochSecond() * 1000;
-        try (Mosquitto broker = new Mosquitto(directory)) {
-            broker.files().replace(List.of(MqttAccount.device(Desired.SECRET, "hoeing", "d")), Set.of());
+        try (ProvisionedMosquitto broker = new ProvisionedMosquitto(directory)) {
+            broker.files().replace(List.of(MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d")), Set.of());
             try (MqttPeer device = broker.comesIn(DEVICE)) {
-                device.publish("/" + Desired.SECRET.apiKey("hoeing") + "/d/attrs", "1");
+                device.publish("/" + DesiredDeviceFixture.SECRET.apiKey("hoeing") + "/d/attrs", "1");
                 device.publish("/key/e/attrs", "2");
             }
             MosquittoLog log = new MosquittoLog(broker.log());

@@ -31,7 +31,7 @@ import io.furrow.model.control.Fault;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.topic.Topics;
-import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.provisioner.account.InMemoryAccounts;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -43,7 +43,7 @@ class ProvisionerIT {
     @TempDir
     Path directory;
 
-    private final LiveAccounts accounts = new LiveAccounts();
+    private final InMemoryAccounts accounts = new InMemoryAccounts();
     private EmbeddedKafka kafka;
     private FakeAgent agent;
     private KafkaProducer<String, byte[]> producer;
@@ -65,8 +65,8 @@ class ProvisionerIT {
 
     @Test
     void followsTheTopicAndRemovesAfterARestartWhatWentInTheMeantime() {
-        DesiredDevice one = Desired.thermometer("hoeing", 1);
-        DesiredDevice two = Desired.thermometer("hoeing", 2);
+        DesiredDevice one = DesiredDeviceFixture.thermometer("hoeing", 1);
+        DesiredDevice two = DesiredDeviceFixture.thermometer("hoeing", 2);
         try (Provisioner provisioner = provisioner()) {
             put(one);
             put(two);
@@ -77,7 +77,7 @@ class ProvisionerIT {
         try (Provisioner provisioner = provisioner()) {
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
             assertThat(agent.deviceIds()).containsExactly(two.device());
-            put(Desired.stopped(two));
+            put(DesiredDeviceFixture.stopped(two));
             await().atMost(TIMEOUT).until(() -> agent.apiKeys().isEmpty());
             assertThat(agent.deviceIds()).isEmpty();
             assertThat(provisioner).isNotNull();
@@ -89,17 +89,17 @@ class ProvisionerIT {
     }
 
     @Test
-    void saysWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() {
-        DesiredDevice before = Desired.thermometer("hoeing", 1);
-        DesiredDevice after = Desired.thermometer("hoeing", 2);
-        DesiredDevice disliked = Desired.thermometer("hoeing", 3);
+    void reportsWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() {
+        DesiredDevice before = DesiredDeviceFixture.thermometer("hoeing", 1);
+        DesiredDevice after = DesiredDeviceFixture.thermometer("hoeing", 2);
+        DesiredDevice disliked = DesiredDeviceFixture.thermometer("hoeing", 3);
         agent.disliked.add(disliked.device());
         try (Provisioner provisioner = provisioner()) {
             put(before);
             put(disliked);
             await().atMost(TIMEOUT)
                     .until(() -> statuses().containsKey(disliked.version().key()));
-            agent.away = true;
+            agent.unavailable = true;
             put(after);
             await().atMost(TIMEOUT)
                     .until(() -> statuses().containsKey(after.version().key()));
@@ -112,7 +112,7 @@ class ProvisionerIT {
             assertThat(status.reason()).contains("not provisioned", "answers 503");
 
             agent.disliked.clear();
-            agent.away = false;
+            agent.unavailable = false;
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 3);
             assertThat(provisioner).isNotNull();
         }
@@ -120,15 +120,15 @@ class ProvisionerIT {
 
     @Test
     void restoresWhatARestartedAgentHasLostAtTheNextInterval() {
-        put(Desired.thermometer("hoeing", 1));
-        put(Desired.thermometer("hoeing", 2));
+        put(DesiredDeviceFixture.thermometer("hoeing", 1));
+        put(DesiredDeviceFixture.thermometer("hoeing", 2));
         try (Provisioner provisioner = provisioner()) {
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
 
             agent.restart();
 
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
-            assertThat(agent.apiKeys()).containsExactly(Desired.SECRET.apiKey("hoeing"));
+            assertThat(agent.apiKeys()).containsExactly(DesiredDeviceFixture.SECRET.apiKey("hoeing"));
             assertThat(provisioner).isNotNull();
         }
         assertThat(statuses()).isEmpty();
@@ -136,8 +136,8 @@ class ProvisionerIT {
 
     /** A Kafka that knows nothing of them says so on a topic until it is told to forget them. */
     @Test
-    void keepsWhatAnotherKafkaHasProvisioned() throws Exception {
-        put(Desired.thermometer("hoeing", 1));
+    void retainsWhatAnotherKafkaHasProvisioned() throws Exception {
+        put(DesiredDeviceFixture.thermometer("hoeing", 1));
         try (Provisioner provisioner = provisioner()) {
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
             assertThat(provisioner).isNotNull();
@@ -169,13 +169,13 @@ class ProvisionerIT {
     @Test
     void leavesTheWorkToOneOfTwoInstancesAndThenToTheOther() {
         Provisioner first = provisioner();
-        put(Desired.thermometer("hoeing", 1));
+        put(DesiredDeviceFixture.thermometer("hoeing", 1));
         await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
         try (Provisioner second = provisioner()) {
-            put(Desired.thermometer("hoeing", 2));
+            put(DesiredDeviceFixture.thermometer("hoeing", 2));
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
             first.close();
-            put(Desired.thermometer("weeding", 1));
+            put(DesiredDeviceFixture.thermometer("weeding", 1));
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 3);
             assertThat(second).isNotNull();
         } finally {
@@ -193,8 +193,8 @@ class ProvisionerIT {
     private ProvisioningSettings settings(boolean forgets) {
         return new ProvisioningSettings(
                 client(),
-                Desired.SCOPE,
-                SecretSource.of(Desired.SECRET),
+                DesiredDeviceFixture.SCOPE,
+                SecretSource.of(DesiredDeviceFixture.SECRET),
                 AgentSettings.at(agent.uri()).withInterval(Duration.ofSeconds(1)),
                 List.of(accounts),
                 false,

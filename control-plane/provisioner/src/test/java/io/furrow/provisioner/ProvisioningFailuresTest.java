@@ -18,8 +18,8 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.provisioner.Provisioning.Outcome;
-import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.provisioner.ProvisioningReconciler.Outcome;
+import io.furrow.provisioner.account.InMemoryAccounts;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -28,12 +28,12 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 @Tag("full")
 class ProvisioningFailuresTest {
     private static final Outcome DONE = new Outcome(Map.of(), null, null, true);
-    private static final String KEY = FakeAgent.key("/iot/json", Desired.SECRET.apiKey("hoeing"));
+    private static final String KEY = FakeAgent.key("/iot/json", DesiredDeviceFixture.SECRET.apiKey("hoeing"));
 
-    private final DesiredDevices desired = new DesiredDevices(Desired.SCOPE);
+    private final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
 
     private FakeAgent agent;
-    private Provisioning provisioning;
+    private ProvisioningReconciler provisioning;
     private volatile long now;
 
     @BeforeEach
@@ -50,7 +50,7 @@ class ProvisioningFailuresTest {
     @ParameterizedTest
     @ValueSource(strings = {"all", "groups", "devices", "a device"})
     void restoresWhatTheAgentHasLost(String lost) throws Exception {
-        want(3);
+        addDesired(3);
         provisioning.step();
         switch (lost) {
             case "all" -> agent.restart();
@@ -60,7 +60,7 @@ class ProvisioningFailuresTest {
         }
         agent.changes.clear();
 
-        provisioning.lookAgain();
+        provisioning.refresh();
         assertThat(provisioning.step()).isEqualTo(DONE);
 
         assertThat(agent.deviceIds()).containsExactlyInAnyOrder(id(1), id(2), id(3));
@@ -70,7 +70,7 @@ class ProvisioningFailuresTest {
 
     @Test
     void takesADeviceForProvisionedThatTheAgentMadeAfterItRefusedTheBatch() throws Exception {
-        want(4);
+        addDesired(4);
         agent.disliked.add(id(1));
         agent.late.add(id(2));
         agent.late.add(id(3));
@@ -82,7 +82,7 @@ class ProvisioningFailuresTest {
 
     @Test
     void provisionsTheOthersThoughTheAgentFailsOnOneDevice() throws Exception {
-        want(3);
+        addDesired(3);
         agent.broken.add(id(1));
 
         Outcome outcome = provisioning.step();
@@ -93,14 +93,14 @@ class ProvisioningFailuresTest {
         assertThat(agent.deviceIds()).containsExactlyInAnyOrder(id(2), id(3));
 
         agent.broken.clear();
-        provisioning.lookAgain();
+        provisioning.refresh();
         assertThat(provisioning.step()).isEqualTo(DONE);
     }
 
     @ParameterizedTest
     @ValueSource(ints = {401, 403, 407})
-    void refusesNoDeviceForAnAnswerOfAProxy(int status) throws Exception {
-        want(1);
+    void rejectsNoDeviceForAnAnswerOfAProxy(int status) throws Exception {
+        addDesired(1);
         agent.proxy = status;
         assertThatThrownBy(provisioning::step)
                 .isInstanceOf(IOException.class)
@@ -113,7 +113,7 @@ class ProvisioningFailuresTest {
 
     @Test
     void isAwayWhenItFailsOnAllDevices() {
-        want(3);
+        addDesired(3);
         agent.broken.addAll(List.of(id(1), id(2), id(3)));
 
         assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("500");
@@ -121,7 +121,7 @@ class ProvisioningFailuresTest {
 
     @Test
     void getsALargeMissionThroughAnAgentThatMakesFewDevicesInTime() throws Exception {
-        want(60);
+        addDesired(60);
         agent.most = 4;
         int failures = 0;
         int inARow = 0;
@@ -132,9 +132,9 @@ class ProvisioningFailuresTest {
             } catch (IOException e) {
                 failures++;
                 inARow++;
-                provisioning.lookAgain();
+                provisioning.refresh();
             }
-            assertThat(inARow).as("failures in a row").isLessThan(Failures.ATTEMPTS);
+            assertThat(inARow).as("failures in a row").isLessThan(FailureReporter.ATTEMPTS);
         }
 
         assertThat(agent.deviceIds()).hasSize(60);
@@ -143,7 +143,7 @@ class ProvisioningFailuresTest {
 
     @Test
     void removesTheOthersThoughTheAgentFailsOnOneDevice() throws Exception {
-        List<DesiredDevice> devices = want(3);
+        List<DesiredDevice> devices = addDesired(3);
         provisioning.step();
         devices.forEach(device -> desired.take(device.version().key(), null));
         agent.broken.add(id(1));
@@ -163,7 +163,7 @@ class ProvisioningFailuresTest {
     /** Time passes in requests only: three seconds in each. */
     @Test
     void removesManySlowDevicesInStepsThatLeaveTimeToPoll() throws Exception {
-        List<DesiredDevice> devices = want(100);
+        List<DesiredDevice> devices = addDesired(100);
         while (!provisioning.step().done()) {
             assertThat(agent.deviceIds()).hasSizeLessThan(100);
         }
@@ -176,7 +176,7 @@ class ProvisioningFailuresTest {
             long before = now;
             done = provisioning.step().done();
             steps++;
-            assertThat(Duration.ofNanos(now - before)).isLessThanOrEqualTo(Provisioning.STEP.plusSeconds(3));
+            assertThat(Duration.ofNanos(now - before)).isLessThanOrEqualTo(ProvisioningReconciler.STEP.plusSeconds(3));
         }
 
         assertThat(steps).isBetween(20, 101);
@@ -187,13 +187,13 @@ class ProvisioningFailuresTest {
     @ParameterizedTest
     @ValueSource(strings = {"<html>not an agent</html>", "{}", "{\"count\": 1, \"devices\": {}}", "[]"})
     void changesNothingWhileTheAgentAnswersWhatItCannotRead(String garbage) throws Exception {
-        want(2);
+        addDesired(2);
         provisioning.step();
         desired.take(key(1), null);
         agent.changes.clear();
         agent.garbage = garbage;
 
-        provisioning.lookAgain();
+        provisioning.refresh();
         assertThatThrownBy(provisioning::step)
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("/iot/devices")
@@ -210,15 +210,15 @@ class ProvisioningFailuresTest {
                     FakeAgent.key("/iot/json", "k" + i),
                     JsonNodeFactory.instance.objectNode().put("apikey", "k" + i).put("resource", "/iot/json"));
         }
-        want(1);
+        addDesired(1);
 
         assertThat(provisioning.step()).isEqualTo(DONE);
     }
 
     @Test
-    void refusesADeviceOfTheDefaultTenantWithoutHarmToOthers() throws Exception {
-        want(1);
-        DesiredDevice device = Desired.thermometer("old", 1);
+    void rejectsADeviceOfTheDefaultTenantWithoutHarmToOthers() throws Exception {
+        addDesired(1);
+        DesiredDevice device = DesiredDeviceFixture.thermometer("old", 1);
         DeviceVersion of = device.version();
         DeviceVersion version =
                 new DeviceVersion(of.id(), "", "/", of.domain(), of.mission(), 0, null, of.sequence(), null);
@@ -238,14 +238,14 @@ class ProvisioningFailuresTest {
         assertThat(agent.services).containsExactly("farm");
     }
 
-    private Provisioning provisioning() {
-        return new Provisioning(
+    private ProvisioningReconciler provisioning() {
+        return new ProvisioningReconciler(
                 new ProvisioningSettings(
                         new Properties(),
-                        Desired.SCOPE,
-                        Desired.SECRET,
+                        DesiredDeviceFixture.SCOPE,
+                        DesiredDeviceFixture.SECRET,
                         AgentSettings.at(agent.uri()),
-                        List.of(new LiveAccounts())),
+                        List.of(new InMemoryAccounts())),
                 desired,
                 () -> now);
     }
@@ -255,13 +255,13 @@ class ProvisioningFailuresTest {
     }
 
     private static String key(int number) {
-        return Desired.SCOPE.identity(id(number));
+        return DesiredDeviceFixture.SCOPE.identity(id(number));
     }
 
-    private List<DesiredDevice> want(int count) {
+    private List<DesiredDevice> addDesired(int count) {
         List<DesiredDevice> devices = new ArrayList<>();
         for (int i = 1; i <= count; i++) {
-            DesiredDevice device = Desired.thermometer("hoeing", i);
+            DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", i);
             devices.add(device);
             desired.take(device.version().key(), device);
         }

@@ -19,8 +19,8 @@ import org.junit.jupiter.api.BeforeEach;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.provisioner.Provisioning.Outcome;
-import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.provisioner.ProvisioningReconciler.Outcome;
+import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.provisioner.account.MqttAccount;
 import io.furrow.provisioner.account.MqttAccounts;
 
@@ -28,12 +28,12 @@ import io.furrow.provisioner.account.MqttAccounts;
 abstract class ProvisioningFixture {
     static final Outcome DONE = new Outcome(Map.of(), null, null, true);
     /** The Kafka whose devices were provisioned before. */
-    static final Removals.Origin SAME = new Removals.Origin("topic-1", true);
+    static final RemovalGuard.Origin SAME = new RemovalGuard.Origin("topic-1", true);
 
-    static final String KEY = Desired.SECRET.apiKey("hoeing");
+    static final String KEY = DesiredDeviceFixture.SECRET.apiKey("hoeing");
 
-    final DesiredDevices desired = new DesiredDevices(Desired.SCOPE);
-    final LiveAccounts accounts = new LiveAccounts();
+    final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
+    final InMemoryAccounts accounts = new InMemoryAccounts();
     /** How many accounts there were after each change. */
     final List<Integer> counts = new ArrayList<>();
 
@@ -42,7 +42,7 @@ abstract class ProvisioningFixture {
     final AtomicLong passed = new AtomicLong();
 
     FakeAgent agent;
-    Provisioning provisioning;
+    ProvisioningReconciler provisioning;
 
     @BeforeEach
     void start() throws IOException {
@@ -55,12 +55,13 @@ abstract class ProvisioningFixture {
         agent.close();
     }
 
-    Provisioning provisioning() {
-        return provisioning(settings(SecretSource.of(Desired.SECRET), false), SAME);
+    ProvisioningReconciler provisioning() {
+        return provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), SAME);
     }
 
-    Provisioning provisioning(ProvisioningSettings settings, Removals.Origin origin) {
-        Provisioning begun = new Provisioning(settings, desired, () -> System.nanoTime() + passed.get());
+    ProvisioningReconciler provisioning(ProvisioningSettings settings, RemovalGuard.Origin origin) {
+        ProvisioningReconciler begun =
+                new ProvisioningReconciler(settings, desired, () -> System.nanoTime() + passed.get());
         begun.startAnew(origin);
         return begun;
     }
@@ -68,25 +69,25 @@ abstract class ProvisioningFixture {
     ProvisioningSettings settings(SecretSource secret, boolean gateways) {
         return new ProvisioningSettings(
                 new Properties(),
-                Desired.SCOPE,
+                DesiredDeviceFixture.SCOPE,
                 secret,
                 AgentSettings.at(agent.uri()),
                 List.of(accounts, new Counted()),
                 gateways);
     }
 
-    void want(DesiredDevice device) {
+    void addDesired(DesiredDevice device) {
         desired.take(device.version().key(), device);
     }
 
     /** The next step asks the agent again, so late that an answer as before counts. */
-    void askLater() {
-        passed.addAndGet(Provisioning.AGREEMENT.toNanos());
-        provisioning.lookAgain();
+    void stepLater() {
+        passed.addAndGet(ProvisioningReconciler.AGREEMENT.toNanos());
+        provisioning.refresh();
     }
 
-    boolean knows(FarmSecret.Login login) {
-        return accounts.knows(login.user(), login.password().getBytes(StandardCharsets.UTF_8));
+    boolean authenticates(FarmSecret.Login login) {
+        return accounts.authenticates(login.user(), login.password().getBytes(StandardCharsets.UTF_8));
     }
 
     /** Counts accounts at each change, and refuses users that somebody else has. */
@@ -94,8 +95,8 @@ abstract class ProvisioningFixture {
         private final Set<String> users = new HashSet<>();
 
         @Override
-        public Map<String, String> replace(List<MqttAccount> all, Set<String> kept) {
-            users.retainAll(kept);
+        public Map<String, String> replace(List<MqttAccount> all, Set<String> retained) {
+            users.retainAll(retained);
             all.forEach(account -> users.add(account.login().user()));
             counts.add(users.size());
             return Map.copyOf(refused);

@@ -33,8 +33,8 @@ class RealMosquittoIT extends MosquittoIT {
     };
 
     @Override
-    Mosquitto start(Path folder) throws Exception {
-        Mosquitto.writeAgent(folder);
+    ProvisionedMosquitto start(Path folder) throws Exception {
+        ProvisionedMosquitto.writeAgent(folder);
         // For whoever runs the tests as root; Mosquitto would become a user who may not read their files.
         Files.writeString(
                 folder.resolve("mosquitto.conf"), Files.readString(SCRIPTS.resolve("mosquitto.conf")) + "user root\n");
@@ -49,6 +49,6 @@ class RealMosquittoIT extends MosquittoIT {
                 .withCreateContainerCmdModifier(command -> command.withUser(user))
                 .withExposedPorts(PORT);
         container.start();
-        return new Mosquitto(folder, container.getMappedPort(PORT), "true", container::stop);
+        return new ProvisionedMosquitto(folder, container.getMappedPort(PORT), "true", container::stop);
     }
 }

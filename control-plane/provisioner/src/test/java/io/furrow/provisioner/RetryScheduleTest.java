@@ -12,15 +12,15 @@ class RetryScheduleTest {
     private static final Duration LONG = Duration.ofHours(1);
 
     private long now;
-    private final RetrySchedule pace = new RetrySchedule(() -> now, Duration.ofSeconds(30));
+    private final RetrySchedule retrySchedule = new RetrySchedule(() -> now, Duration.ofSeconds(30));
 
     @Test
     void waitsLongerAfterEachFailureUpToTenSeconds() {
         List<Long> pauses = new ArrayList<>();
         for (int i = 0; i < 8; i++) {
-            assertThat(pace.failed()).isEqualTo(i == 0);
-            pauses.add(pace.pause(LONG).toMillis());
-            now += pace.pause(LONG).toNanos();
+            assertThat(retrySchedule.failed()).isEqualTo(i == 0);
+            pauses.add(retrySchedule.pause(LONG).toMillis());
+            now += retrySchedule.pause(LONG).toNanos();
         }
 
         assertThat(pauses).containsExactly(200L, 400L, 800L, 1600L, 3200L, 6400L, 10_000L, 10_000L);
@@ -28,24 +28,24 @@ class RetryScheduleTest {
 
     @Test
     void hurriesForWhatIsNewButNotWhereItFails() {
-        pace.rest();
-        assertThat(pace.isDue()).isFalse();
-        pace.hurry();
-        assertThat(pace.isDue()).isTrue();
+        retrySchedule.rest();
+        assertThat(retrySchedule.isDue()).isFalse();
+        retrySchedule.hurry();
+        assertThat(retrySchedule.isDue()).isTrue();
 
-        pace.failed();
-        pace.hurry();
-        assertThat(pace.isDue()).isFalse();
+        retrySchedule.failed();
+        retrySchedule.hurry();
+        assertThat(retrySchedule.isDue()).isFalse();
     }
 
     @Test
-    void looksAgainOnceAfterAFailureOrARest() {
-        assertThat(pace.looksAgain()).isFalse();
-        pace.failed();
-        assertThat(pace.looksAgain()).isTrue();
-        pace.goOn();
-        assertThat(pace.looksAgain()).isFalse();
-        pace.rest();
-        assertThat(pace.looksAgain()).isTrue();
+    void refreshesOnceAfterAFailureOrARest() {
+        assertThat(retrySchedule.isRefreshDue()).isFalse();
+        retrySchedule.failed();
+        assertThat(retrySchedule.isRefreshDue()).isTrue();
+        retrySchedule.goOn();
+        assertThat(retrySchedule.isRefreshDue()).isFalse();
+        retrySchedule.rest();
+        assertThat(retrySchedule.isRefreshDue()).isTrue();
     }
 }

@@ -33,8 +33,8 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.FarmSecretCodec;
 import io.furrow.model.topic.Topics;
 
-import static io.furrow.provisioner.Mosquitto.AGENT;
-import static io.furrow.provisioner.Mosquitto.TIMEOUT;
+import static io.furrow.provisioner.ProvisionedMosquitto.AGENT;
+import static io.furrow.provisioner.ProvisionedMosquitto.TIMEOUT;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -47,12 +47,12 @@ class RotationIT {
     @TempDir
     Path directory;
 
-    private final DesiredDevice first = Desired.thermometer("hoeing", 1);
-    private final DesiredDevice second = Desired.thermometer("hoeing", 2);
+    private final DesiredDevice first = DesiredDeviceFixture.thermometer("hoeing", 1);
+    private final DesiredDevice second = DesiredDeviceFixture.thermometer("hoeing", 2);
     private final List<AutoCloseable> open = new ArrayList<>();
     private final MovedClock clock = new MovedClock();
     private EmbeddedKafka kafka;
-    private Mosquitto broker;
+    private ProvisionedMosquitto broker;
     private FakeAgent iotAgent;
     private MqttPeer agent;
     private Path file;
@@ -65,14 +65,19 @@ class RotationIT {
         kafka.createTopics(Stream.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.MISSION_DEVICES, Topics.SECRETS)
                 .map(topic -> new NewTopic(topic, 1, (short) 1).configs(Map.of("cleanup.policy", "compact")))
                 .toList());
-        broker = open(new Mosquitto(Files.createDirectory(directory.resolve("mosquitto"))));
+        broker = open(new ProvisionedMosquitto(Files.createDirectory(directory.resolve("mosquitto"))));
         iotAgent = open(FakeAgent.start());
         agent = open(broker.connect(AGENT, "agent").subscribe("#"));
         old = FarmSecret.generate();
         file = Files.writeString(directory.resolve("secret"), FarmSecretCodec.write(old));
         secret = SecretFile.open(file, new SecretTopic(client(), null), clock);
         open(Provisioner.start(new ProvisioningSettings(
-                client(), Desired.SCOPE, secret, AgentSettings.at(iotAgent.uri()), List.of(broker.files()), false)));
+                client(),
+                DesiredDeviceFixture.SCOPE,
+                secret,
+                AgentSettings.at(iotAgent.uri()),
+                List.of(broker.files()),
+                false)));
         put(first, second);
     }
 
@@ -127,13 +132,13 @@ class RotationIT {
     }
 
     @Test
-    void keepsEverythingAsItIsWhereTheFileIsReplacedByAnothersSecret() throws Exception {
+    void retainsEverythingAsItIsWhereTheFileIsReplacedByAnothersSecret() throws Exception {
         MqttPeer device = open(broker.comesIn(old.device("hoeing", first.device())));
         Files.writeString(file, FarmSecretCodec.write(FarmSecret.generate()));
         await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(secret.problem())
                         .hasValueSatisfying(why -> assertThat(why).contains("this farm has another secret")));
-        DesiredDevice third = Desired.thermometer("hoeing", 3);
+        DesiredDevice third = DesiredDeviceFixture.thermometer("hoeing", 3);
         put(third);
 
         MqttPeer added = open(broker.comesIn(old.device("hoeing", third.device())));

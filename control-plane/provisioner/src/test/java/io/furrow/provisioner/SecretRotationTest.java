@@ -19,25 +19,27 @@ class SecretRotationTest extends ProvisioningFixture {
     void acceptsOldAndNewPasswordsWhileASecretIsRotatedAndDoesNotProvisionAnew() throws Exception {
         Secret secret = new Secret();
         provisioning = provisioning(settings(secret, false), SAME);
-        DesiredDevice device = Desired.thermometer("hoeing", 1);
-        want(device);
+        DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
+        addDesired(device);
         provisioning.step();
         assertThat(provisioning.isSecretChanged()).isFalse();
         agent.changes.clear();
         Instant until = Instant.parse("2026-03-01T08:00:00Z");
-        FarmSecret rotated = Desired.SECRET.rotated(until.minusSeconds(60), until, false);
+        FarmSecret rotated = DesiredDeviceFixture.SECRET.rotated(until.minusSeconds(60), until, false);
 
         secret.current = rotated.at(until.minusSeconds(1));
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(knows(Desired.SECRET.device("hoeing", device.device()))).isTrue();
-        assertThat(knows(rotated.device("hoeing", device.device()))).isTrue();
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", device.device())))
+                .isTrue();
+        assertThat(authenticates(rotated.device("hoeing", device.device()))).isTrue();
 
         secret.current = rotated.at(until);
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(knows(Desired.SECRET.device("hoeing", device.device()))).isFalse();
-        assertThat(knows(rotated.device("hoeing", device.device()))).isTrue();
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", device.device())))
+                .isFalse();
+        assertThat(authenticates(rotated.device("hoeing", device.device()))).isTrue();
         assertThat(agent.changes).isEmpty();
         assertThat(counts).containsExactly(1, 2, 1);
     }
@@ -45,9 +47,9 @@ class SecretRotationTest extends ProvisioningFixture {
     @Test
     void movesWhatHasAnApiKeyOfAnOlderKeyAndLeavesWhatOthersHave() throws Exception {
         Secret secret = new Secret();
-        DesiredDevice device = Desired.thermometer("hoeing", 1);
-        want(device);
-        want(Desired.thermometer("gone", 1));
+        DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
+        addDesired(device);
+        addDesired(DesiredDeviceFixture.thermometer("gone", 1));
         provisioning(settings(secret, false), SAME).step();
         agent.devices.put(
                 "foreign",
@@ -56,9 +58,10 @@ class SecretRotationTest extends ProvisioningFixture {
                         .put("device_id", "foreign")
                         .put("apikey", "secret"));
         desired.clear();
-        want(device);
-        secret.current =
-                Desired.SECRET.rotated(Instant.now(), Instant.EPOCH, true).at(Instant.now());
+        addDesired(device);
+        secret.current = DesiredDeviceFixture.SECRET
+                .rotated(Instant.now(), Instant.EPOCH, true)
+                .at(Instant.now());
 
         assertThat(provisioning(settings(secret, false), SAME).step()).isEqualTo(DONE);
 
@@ -66,30 +69,36 @@ class SecretRotationTest extends ProvisioningFixture {
         assertThat(agent.apiKeys()).containsExactly(secret.current.apiKey("hoeing"));
         assertThat(agent.devices.get(device.device()).path("apikey").asText())
                 .isEqualTo(secret.current.apiKey("hoeing"));
-        assertThat(knows(secret.current.device("hoeing", device.device()))).isTrue();
+        assertThat(authenticates(secret.current.device("hoeing", device.device())))
+                .isTrue();
     }
 
     /** A stolen device must not wait for an agent. */
     @Test
-    void refusesAnOldPasswordThoughTheAgentIsAway() throws Exception {
-        DesiredDevice stolen = Desired.thermometer("hoeing", 1);
-        DesiredDevice other = Desired.thermometer("hoeing", 2);
-        want(stolen);
-        want(other);
+    void rejectsAnOldPasswordThoughTheAgentIsUnavailable() throws Exception {
+        DesiredDevice stolen = DesiredDeviceFixture.thermometer("hoeing", 1);
+        DesiredDevice other = DesiredDeviceFixture.thermometer("hoeing", 2);
+        addDesired(stolen);
+        addDesired(other);
         provisioning.step();
-        agent.away = true;
-        provisioning.lookAgain();
-        want(stolen.withGeneration(1));
+        agent.unavailable = true;
+        provisioning.refresh();
+        addDesired(stolen.withGeneration(1));
 
         assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("503");
-        assertThat(knows(Desired.SECRET.device("hoeing", stolen.device()))).isFalse();
-        assertThat(knows(Desired.SECRET.device("hoeing", other.device()))).isTrue();
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device())))
+                .isFalse();
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", other.device())))
+                .isTrue();
 
-        agent.away = false;
+        agent.unavailable = false;
         provisioning.step();
-        assertThat(knows(Desired.SECRET.device("hoeing", stolen.device(), 1))).isTrue();
-        assertThat(knows(Desired.SECRET.device("hoeing", stolen.device()))).isFalse();
-        assertThat(knows(Desired.SECRET.device("hoeing", other.device()))).isTrue();
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device(), 1)))
+                .isTrue();
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device())))
+                .isFalse();
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", other.device())))
+                .isTrue();
         assertThat(agent.changes)
                 .filteredOn(change -> change.startsWith("DELETE"))
                 .isEmpty();
@@ -97,7 +106,7 @@ class SecretRotationTest extends ProvisioningFixture {
 
     @Test
     void doesNothingWithASecretThatIsNotTheFarms() throws Exception {
-        want(Desired.thermometer("hoeing", 1));
+        addDesired(DesiredDeviceFixture.thermometer("hoeing", 1));
         provisioning.step();
         agent.changes.clear();
         counts.clear();
@@ -110,13 +119,13 @@ class SecretRotationTest extends ProvisioningFixture {
 
         assertThat(agent.changes).isEmpty();
         assertThat(counts).isEmpty();
-        assertThat(knows(Desired.SECRET.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")))
+        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")))
                 .isTrue();
     }
 
     /** The farm's secret, as long as nobody says that it is not. */
     private static final class Secret implements SecretSource {
-        private FarmSecret current = Desired.SECRET;
+        private FarmSecret current = DesiredDeviceFixture.SECRET;
         private String foreign;
 
         @Override

@@ -6,7 +6,7 @@ import java.util.Properties;
 import org.apache.kafka.streams.StreamsConfig;
 
 import io.furrow.control.manager.FailureHandler;
-import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.mission.MissionSettings;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.model.control.Limits;
 import io.furrow.model.event.FiwareScope;
@@ -26,13 +26,13 @@ public record ControlSettings(
         int standbyReplicas,
         short replicationFactor,
         Duration remembered,
-        MissionOptions missions,
+        MissionSettings missions,
         ReplaySettings replays) {
     /** Name of the group, first part of the names of its topics, of which state is rebuilt: never changed. */
     static final String APPLICATION = "furrow-control-plane";
 
     /** A rebalance waits no longer for a member that does not join; the default of five minutes is as long as nobody would be answered. */
-    private static final Duration REBALANCED_WITHIN = Duration.ofSeconds(60);
+    private static final Duration REBALANCE_TIMEOUT = Duration.ofSeconds(60);
 
     private static final Duration TAKEN_OVER_AFTER = Duration.ofSeconds(10);
 
@@ -49,11 +49,11 @@ public record ControlSettings(
                 0,
                 (short) -1,
                 Duration.ofHours(1),
-                new MissionOptions(MissionOptions.START_TIMEOUT, FiwareScope.DEFAULT, false),
+                new MissionSettings(MissionSettings.START_TIMEOUT, FiwareScope.DEFAULT, false),
                 ReplaySettings.DEFAULT);
     }
 
-    public ControlSettings with(MissionOptions newMissions) {
+    public ControlSettings with(MissionSettings newMissions) {
         return new ControlSettings(client, standbyReplicas, replicationFactor, remembered, newMissions, replays);
     }
 
@@ -84,7 +84,7 @@ public record ControlSettings(
         streams.put(StreamsConfig.topicPrefix("max.message.bytes"), Limits.MESSAGE_BYTES);
         streams.put(StreamsConfig.consumerPrefix("auto.offset.reset"), "earliest");
         streams.put(StreamsConfig.mainConsumerPrefix("session.timeout.ms"), (int) TAKEN_OVER_AFTER.toMillis());
-        streams.put(StreamsConfig.mainConsumerPrefix("max.poll.interval.ms"), (int) REBALANCED_WITHIN.toMillis());
+        streams.put(StreamsConfig.mainConsumerPrefix("max.poll.interval.ms"), (int) REBALANCE_TIMEOUT.toMillis());
         return streams;
     }
 }

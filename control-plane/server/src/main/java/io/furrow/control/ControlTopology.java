@@ -8,9 +8,9 @@ import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.Topology;
 
 import io.furrow.control.domain.DomainManager;
-import io.furrow.control.manager.StoredRecords;
+import io.furrow.control.manager.StoreTable;
 import io.furrow.control.mission.MissionManager;
-import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.mission.MissionSettings;
 import io.furrow.control.replay.ReplayManager;
 import io.furrow.control.replay.ReplaySettings;
 
@@ -22,17 +22,17 @@ final class ControlTopology {
      * @param remembered how long ids of requests are
      * @param replays how they are managed
      */
-    static Topology of(Duration remembered, MissionOptions missions, ReplaySettings replays) {
+    static Topology of(Duration remembered, MissionSettings missions, ReplaySettings replays) {
         StreamsBuilder builder = new StreamsBuilder();
 
         for (List<String> shared : List.of(DomainManager.stores(), MissionManager.stores())) {
-            shared.forEach(store -> builder.addStateStore(StoredRecords.builder(store)));
+            shared.forEach(store -> builder.addStateStore(StoreTable.builder(store)));
         }
 
         DomainManager.add(
                 builder,
                 remembered,
-                (context, outbox) -> MissionManager.handler(context, outbox, missions),
+                (context, publisher) -> MissionManager.handler(context, publisher, missions),
                 MissionManager.stores());
 
         MissionManager.add(builder, remembered, missions);

@@ -64,8 +64,8 @@ public final class FarmWatch implements AutoCloseable {
     }
 
     /** How it is with each thread that acts on alarms, for a health page. */
-    public List<PartStatus> followers() {
-        return actions.followers();
+    public List<PartStatus> workers() {
+        return actions.workers();
     }
 
     /** Finishes what it is at and leaves; another instance takes over at once. */

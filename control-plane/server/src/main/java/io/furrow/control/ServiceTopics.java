@@ -58,7 +58,7 @@ public final class ServiceTopics {
             Topics.ALARMS_DELIVERED,
             Topics.SECRETS);
     /** A year; whoever wants another time alters the topic, which then stays so. */
-    private static final Map<String, String> KEPT_LONG =
+    private static final Map<String, String> LONG_RETENTION =
             Map.of(POLICY, "delete", "retention.ms", Long.toString(TimeUnit.DAYS.toMillis(365)));
     /** Written by others, or read by others: made as jobs make them, never altered. */
     private static final List<String> DATA =
@@ -93,7 +93,7 @@ public final class ServiceTopics {
             List<NewTopic> desired = new ArrayList<>();
             REQUESTS.forEach(name -> desired.add(topic(name, settings, requestConfigs())));
             COMPACTED.forEach(name -> desired.add(topic(name, settings, stateConfigs(name))));
-            desired.add(topic(Topics.AUDIT, settings, KEPT_LONG));
+            desired.add(topic(Topics.AUDIT, settings, LONG_RETENTION));
             desired.add(
                     topic(Topics.FIELDS, settings, Map.of(POLICY, "compact"))); // as an import makes it, never altered
             Stream.concat(DATA.stream(), DEAD.stream())
@@ -106,7 +106,7 @@ public final class ServiceTopics {
             REQUESTS.forEach(name -> set(policies, name, requestConfigs()));
             COMPACTED.forEach(name -> set(policies, name, stateConfigs(name)));
             await(admin.incrementalAlterConfigs(policies).all(), false);
-            awaitKnown(admin, desired.stream().map(NewTopic::name).toList());
+            awaitMetadata(admin, desired.stream().map(NewTopic::name).toList());
         } catch (KafkaException | ExecutionException | TimeoutException e) {
             throw new IOException(
                     "The topics service.* cannot be prepared at %s (%s). Check the address, and that the user may create and alter them."
@@ -119,7 +119,7 @@ public final class ServiceTopics {
     }
 
     /** A broker learns of a topic some time after it was made, and who reads before that finds none. */
-    private static void awaitKnown(Admin admin, List<String> names)
+    private static void awaitMetadata(Admin admin, List<String> names)
             throws ExecutionException, InterruptedException, TimeoutException {
         long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(TIMEOUT_SECONDS);
         while (!admin.listTopics()

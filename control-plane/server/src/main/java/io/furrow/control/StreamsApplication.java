@@ -165,7 +165,7 @@ final class StreamsApplication implements AutoCloseable {
 
     /** Null if no thread has polled yet. */
     private static Instant lastPoll(KafkaStreams streams) {
-        double longest = streams.metrics().entrySet().stream()
+        double max = streams.metrics().entrySet().stream()
                 .filter(metric -> metric.getKey().name().equals("last-poll-seconds-ago"))
                 .filter(metric ->
                         metric.getKey().tags().getOrDefault("client-id", "").endsWith("-consumer")
@@ -174,7 +174,7 @@ final class StreamsApplication implements AutoCloseable {
                 .filter(seconds -> seconds >= 0)
                 .max()
                 .orElse(-1);
-        return longest < 0 ? null : Instant.now().minusMillis((long) (longest * 1000));
+        return max < 0 ? null : Instant.now().minusMillis((long) (max * 1000));
     }
 
     /** Finishes what it is at and leaves; another instance takes over at once. */

@@ -9,8 +9,8 @@ import org.apache.kafka.streams.kstream.KStream;
 
 import io.furrow.control.alarm.AlarmManager;
 import io.furrow.control.alarm.watch.AnalyticsAlarms;
-import io.furrow.control.alarm.watch.WatchEncounters;
-import io.furrow.control.context.ContextWatch;
+import io.furrow.control.alarm.watch.EncounterAlarmProcessor;
+import io.furrow.control.context.ContextTopology;
 import io.furrow.control.health.HealthWatch;
 import io.furrow.control.manager.ManagerInput;
 import io.furrow.model.event.FiwareScope;
@@ -37,7 +37,9 @@ final class WatchTopology {
         AnalyticsAlarms.Types types = new AnalyticsAlarms.Types(HealthWatch::typeOf, HealthWatch.stores());
         KStream<String, byte[]> collisions = observed(builder, Topics.COLLISION, "collisions");
         AnalyticsAlarms.addEncounters(
-                collisions, types, new WatchEncounters.Holds(options.predictionHolds(), options.collisionHolds()));
+                collisions,
+                types,
+                new EncounterAlarmProcessor.AlarmDurations(options.predictionHolds(), options.collisionHolds()));
 
         KStream<String, byte[]> temperatures = observed(builder, Topics.TEMPERATURE, "temperatures");
         AnalyticsAlarms.addSensors(builder, temperatures, types);
@@ -50,7 +52,7 @@ final class WatchTopology {
                 builder, Topics.MISSIONS_STATUS, "context-mission-statuses", AutoOffsetReset.earliest());
         AnalyticsAlarms.addStarts(statuses, types);
 
-        ContextWatch.add(builder, new ContextWatch.Shared(collisions, temperatures, statuses), scope);
+        ContextTopology.add(builder, new ContextTopology.Shared(collisions, temperatures, statuses), scope);
 
         return builder.build();
     }

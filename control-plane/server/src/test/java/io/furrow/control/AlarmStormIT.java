@@ -122,9 +122,9 @@ class AlarmStormIT {
     void stopsARobotWhileTenThousandDevicesFallSilentAndTheWebhookHangs(TestReporter reporter) throws Exception {
         hangs = true;
         try (FarmWatch watch = watch()) {
-            want(ROBOT, "Robot", Duration.ofHours(1));
+            addDesired(ROBOT, "Robot", Duration.ofHours(1));
             for (int i = 0; i < DEVICES; i++) {
-                want("urn:ngsi-ld:Thermometer:m-" + i, "Thermometer", Duration.ofSeconds(1));
+                addDesired("urn:ngsi-ld:Thermometer:m-" + i, "Thermometer", Duration.ofSeconds(1));
             }
             await().atMost(TIMEOUT).until(watch::isHealthy);
             await().atMost(TIMEOUT).until(() -> {
@@ -190,7 +190,7 @@ class AlarmStormIT {
         }
     }
 
-    private void want(String id, String type, Duration period) {
+    private void addDesired(String id, String type, Duration period) {
         DeviceVersion version = new DeviceVersion(id, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
         DesiredDevice device = DesiredDevice.simulated(
                 version, type, id, true, period, NgsiJson.mapper().createObjectNode());

@@ -17,7 +17,7 @@ import org.apache.kafka.streams.TopologyTestDriver;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.mission.MissionSettings;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
@@ -31,7 +31,7 @@ class AuditTopicTest {
     private final TopologyTestDriver driver = new TopologyTestDriver(
             ControlTopology.of(
                     Duration.ofHours(1),
-                    new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT, false),
+                    new MissionSettings(Duration.ofMinutes(1), FiwareScope.DEFAULT, false),
                     ReplaySettings.DEFAULT),
             settings(),
             START);
@@ -42,11 +42,13 @@ class AuditTopicTest {
     }
 
     @Test
-    void saysOfEachCommandWhoGaveItWhatItWasWhenAndWhatCameOfIt() throws Exception {
-        ask(
+    void reportsForEachCommandWhoGaveItWhatItWasWhenAndWhatCameOfIt() throws Exception {
+        request(
                 Topics.DOMAIN_MANAGER,
                 "{'type':'request','requestId':'r-1','user':'ann','command':'create','domain':'north'}");
-        ask(Topics.MISSION_MANAGER, "{'type':'request','command':'stop','mission':'m','force':true,'devices':['a']}");
+        request(
+                Topics.MISSION_MANAGER,
+                "{'type':'request','command':'stop','mission':'m','force':true,'devices':['a']}");
 
         List<JsonNode> entries = entries();
         assertThat(entries).hasSize(2);
@@ -62,16 +64,16 @@ class AuditTopicTest {
     @Test
     void hasACommandOnceThoughItIsRepeated() throws Exception {
         for (int i = 0; i < 3; i++) {
-            ask(Topics.DOMAIN_MANAGER, "{'type':'request','requestId':'r-1','domain':'north'}");
+            request(Topics.DOMAIN_MANAGER, "{'type':'request','requestId':'r-1','domain':'north'}");
         }
         assertThat(entries()).hasSize(1);
     }
 
     @Test
     void hasWhatIsNoRequestToo() throws Exception {
-        ask(Topics.DOMAIN_MANAGER, "{'type':");
-        ask(Topics.DOMAIN_MANAGER, "[7]");
-        ask(
+        request(Topics.DOMAIN_MANAGER, "{'type':");
+        request(Topics.DOMAIN_MANAGER, "[7]");
+        request(
                 Topics.DOMAIN_MANAGER,
                 "{'type':'request','domain':'\\uD800','user':'" + "x".repeat(5000) + "','n':1e9999}");
 
@@ -92,7 +94,7 @@ class AuditTopicTest {
         return entries;
     }
 
-    private void ask(String topic, String request) {
+    private void request(String topic, String request) {
         driver.createInputTopic(topic, new StringSerializer(), new ByteArraySerializer())
                 .pipeInput((String) null, bytes(request));
     }

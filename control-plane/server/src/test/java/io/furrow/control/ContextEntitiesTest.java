@@ -24,7 +24,7 @@ class ContextEntitiesTest {
             + "'deviceCount':3,'running':true,'start':5,'created':1,'sequence':2}";
     private static final Duration SECOND = Duration.ofSeconds(1);
 
-    private final WatchedFarm farm = new WatchedFarm();
+    private final FarmWatchFixture farm = new FarmWatchFixture();
 
     @AfterEach
     void close() {
@@ -132,7 +132,7 @@ class ContextEntitiesTest {
     }
 
     @Test
-    void tellsOfEachOnceASecondAtMostAndOnlyWhatIsNew() {
+    void reportsEachOnceASecondAtMostAndOnlyWhatIsNew() {
         farm.pipe(Topics.DOMAINS, "north", DOMAIN);
         farm.pipe(Topics.MISSIONS, "m", MISSION);
         for (int i = 0; i < 100; i++) {
@@ -148,7 +148,7 @@ class ContextEntitiesTest {
     }
 
     @Test
-    void tellsThatDomainsAndMissionsWereDeleted() {
+    void reportsThatDomainsAndMissionsWereDeleted() {
         farm.pipe(Topics.DOMAINS, "north", DOMAIN);
         farm.pipe(Topics.MISSIONS, "m", MISSION);
         farm.pass(SECOND);
@@ -158,11 +158,11 @@ class ContextEntitiesTest {
         farm.encounter("started", 1);
         farm.pass(SECOND);
 
-        List<TestRecord<String, byte[]>> gone = farm.read(Topics.CONTEXT);
-        assertThat(gone)
+        List<TestRecord<String, byte[]>> removed = farm.read(Topics.CONTEXT);
+        assertThat(removed)
                 .extracting(TestRecord::key)
                 .containsExactlyInAnyOrder("urn:ngsi-ld:Domain:north", "urn:ngsi-ld:Mission:m");
-        assertThat(gone).allSatisfy(record -> {
+        assertThat(removed).allSatisfy(record -> {
             assertThat(record.value()).isNull();
             assertThat(header(record, HeaderNames.CE_TYPE)).isEqualTo("ngsi.entity.deleted");
         });

@@ -173,8 +173,8 @@ class ControlPlaneIT {
                 }
             }
             producer.flush();
-            int asked = GROUPS + commands;
-            await().atMost(TIMEOUT).until(() -> answers(Topics.REPLAY_MANAGER).size() >= asked);
+            int requested = GROUPS + commands;
+            await().atMost(TIMEOUT).until(() -> answers(Topics.REPLAY_MANAGER).size() >= requested);
         }
 
         assertThat(answers(Topics.REPLAY_MANAGER))

@@ -12,7 +12,7 @@ import org.apache.kafka.streams.test.TestRecord;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.mission.MissionSettings;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.Limits;
@@ -28,7 +28,7 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ControlTopologyTest {
-    private final ManagedFarm farm = new ManagedFarm();
+    private final ManagerFixture farm = new ManagerFixture();
 
     @AfterEach
     void close() {
@@ -38,23 +38,24 @@ class ControlTopologyTest {
     /** As the WeLASER dashboard asks. */
     @Test
     void answersARequestForANewDomainOnTheTopicOfTheRequest() throws Exception {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
 
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
-        assertThat(ManagedFarm.text(answer.value()))
+        assertThat(ManagerFixture.text(answer.value()))
                 .isEqualTo(
                         "{\"type\":\"response\",\"status\":\"created\",\"domain\":\"north\",\"topic\":\"data.north.realtime\"}");
         assertThat(answer.key()).isNull();
         TestRecord<String, byte[]> domain = farm.only(Topics.DOMAINS);
         assertThat(domain.key()).isEqualTo("north");
-        assertThat(NgsiJson.read(domain.value()).path("created").asLong()).isEqualTo(ManagedFarm.START.toEpochMilli());
+        assertThat(NgsiJson.read(domain.value()).path("created").asLong())
+                .isEqualTo(ManagerFixture.START.toEpochMilli());
     }
 
     @Test
     void givesTheSameRequestOneEffectAndOneAnswer() {
         String request = "{'type':'request','requestId':'r-1','domain':'north'}";
-        farm.ask(Topics.DOMAIN_MANAGER, "mine", request);
-        farm.ask(Topics.DOMAIN_MANAGER, "mine", "{'domain':'north','type':'request','requestId':'r-1'}");
+        farm.request(Topics.DOMAIN_MANAGER, "mine", request);
+        farm.request(Topics.DOMAIN_MANAGER, "mine", "{'domain':'north','type':'request','requestId':'r-1'}");
 
         assertThat(farm.only(Topics.DOMAIN_MANAGER).key()).isEqualTo("r-1");
         assertThat(farm.read(Topics.DOMAINS)).hasSize(1);
@@ -62,25 +63,25 @@ class ControlTopologyTest {
 
     /** Else whoever asks for something new would take the answer of something old for its own. */
     @Test
-    void refusesAnotherRequestUnderTheSameId() {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
-        assertThat(ManagedFarm.response(farm.only(Topics.DOMAIN_MANAGER)).status())
+    void rejectsAnotherRequestUnderTheSameId() {
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
+        assertThat(ManagerFixture.response(farm.only(Topics.DOMAIN_MANAGER)).status())
                 .isEqualTo("created");
         for (String other : List.of(
                 "'user':'ann','domain':'south'",
                 "'user':'bob','domain':'north'",
                 "'user':'ann','command':'nonsense','domain':'north'")) {
-            farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1'," + other + "}");
-            assertThat(ManagedFarm.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("request-id-reused");
+            farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1'," + other + "}");
+            assertThat(ManagerFixture.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("request-id-reused");
         }
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).isEmpty();
         assertThat(farm.read(Topics.DOMAINS)).hasSize(1);
     }
 
     @Test
-    void endsTheFieldsOfADomainThatIsDeletedAndSaysSo() throws Exception {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+    void endsTheFieldsOfADomainThatIsDeletedAndReportsSo() throws Exception {
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
         FieldVersion field = new FieldVersion(
                 "f",
                 0,
@@ -88,7 +89,7 @@ class ControlTopologyTest {
                 (ObjectNode) NgsiJson.read("{\"Domain\":\"north\"}".getBytes(StandardCharsets.UTF_8)));
         farm.pipe(Topics.FIELDS, field.key(), field.toBytes());
         farm.pipe(Topics.FIELDS, "g", new byte[] {'?'});
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
 
         TestRecord<String, byte[]> end = farm.only(Topics.FIELDS);
         assertThat(end.key()).isEqualTo("f@2026-03-01T08:00:00.000Z");
@@ -99,16 +100,17 @@ class ControlTopologyTest {
     }
 
     @Test
-    void refusesARequestThatIsTooLarge() {
+    void rejectsARequestThatIsTooLarge() {
         String domain = "{'type':'request','requestId':'r-1','domain':'north','description':'%s'}"
                 .formatted("x".repeat(Limits.REQUEST_BYTES));
-        farm.ask(Topics.DOMAIN_MANAGER, null, domain);
-        farm.ask(Topics.DOMAIN_MANAGER, null, domain);
+        farm.request(Topics.DOMAIN_MANAGER, null, domain);
+        farm.request(Topics.DOMAIN_MANAGER, null, domain);
 
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
-        assertThat(ManagedFarm.error(answer)).isEqualTo("too-large");
-        assertThat(ManagedFarm.response(answer).json().path("domain").asText()).isEqualTo("north");
-        assertThat(ManagedFarm.response(answer).json().path("reason").asText())
+        assertThat(ManagerFixture.error(answer)).isEqualTo("too-large");
+        assertThat(ManagerFixture.response(answer).json().path("domain").asText())
+                .isEqualTo("north");
+        assertThat(ManagerFixture.response(answer).json().path("reason").asText())
                 .contains(Integer.toString(domain.length()), "524288");
         assertThat(farm.read(Topics.DOMAINS)).isEmpty();
         assertThat(farm.read(Topics.AUDIT)).hasSize(1);
@@ -117,13 +119,13 @@ class ControlTopologyTest {
     @Test
     void answersARefusedRequestOnceToo() {
         String request = "{'type':'request','requestId':'r-1','command':'nonsense','mission':'m'}";
-        farm.ask(Topics.MISSION_MANAGER, "mine", request);
-        farm.ask(Topics.MISSION_MANAGER, "mine", request);
-        farm.ask(Topics.MISSION_MANAGER, "mine", "{'type':'request',");
+        farm.request(Topics.MISSION_MANAGER, "mine", request);
+        farm.request(Topics.MISSION_MANAGER, "mine", request);
+        farm.request(Topics.MISSION_MANAGER, "mine", "{'type':'request',");
 
         List<TestRecord<String, byte[]>> answers = farm.read(Topics.MISSION_MANAGER);
         assertThat(answers)
-                .extracting(answer -> ManagedFarm.error(answer))
+                .extracting(answer -> ManagerFixture.error(answer))
                 .containsExactly("unknown-command", "not-json");
         assertThat(answers).extracting(TestRecord::key).containsExactly("r-1", "mine");
     }
@@ -131,33 +133,33 @@ class ControlTopologyTest {
     @Test
     void forgetsIdsOfRequestsAfterTheTimeForThat() {
         String request = "{'type':'request','requestId':'r-1','domain':'north'}";
-        farm.ask(Topics.DOMAIN_MANAGER, null, request);
-        farm.pass(ManagedFarm.REMEMBERED.minusSeconds(1));
-        farm.ask(Topics.DOMAIN_MANAGER, null, request);
+        farm.request(Topics.DOMAIN_MANAGER, null, request);
+        farm.pass(ManagerFixture.REMEMBERED.minusSeconds(1));
+        farm.request(Topics.DOMAIN_MANAGER, null, request);
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).hasSize(1);
-        farm.pass(ManagedFarm.REMEMBERED.dividedBy(4));
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-2','domain':'south'}");
+        farm.pass(ManagerFixture.REMEMBERED.dividedBy(4));
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-2','domain':'south'}");
         farm.read(Topics.DOMAIN_MANAGER);
-        farm.ask(Topics.DOMAIN_MANAGER, null, request);
-        assertThat(ManagedFarm.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("domain-exists");
+        farm.request(Topics.DOMAIN_MANAGER, null, request);
+        assertThat(ManagerFixture.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("domain-exists");
         assertThat(farm.remembered("domain-answers")).isEqualTo(2);
     }
 
     @Test
     void passesOverAnswersAndRecordsWithoutAValue() {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
         farm.pipe(Topics.DOMAIN_MANAGER, answer.key(), answer.value());
         farm.pipe(Topics.DOMAIN_MANAGER, null, null);
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).isEmpty();
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'south'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'south'}");
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).hasSize(1);
     }
 
     @Test
     void takesAMissionThroughItsLifeAsHostsReport() throws Exception {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
-        farm.ask(
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(
                 Topics.MISSION_MANAGER,
                 null,
                 "{'type':'request','command':'start','mission':'m','domain':'north','devices':[{'type':'Camera','count':2,'simulated':true}]}");
@@ -165,26 +167,26 @@ class ControlTopologyTest {
         assertThat(farm.hostAll(DeviceStatus.State.RUNNING)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("running");
 
-        farm.ask(Topics.MISSION_MANAGER, null, "{'type':'request','command':'stop','mission':'m'}");
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.MISSION_MANAGER, null, "{'type':'request','command':'stop','mission':'m'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
         assertThat(farm.read(Topics.DOMAIN_MANAGER))
-                .extracting(record -> ManagedFarm.response(record)
+                .extracting(record -> ManagerFixture.response(record)
                         .error()
-                        .orElse(ManagedFarm.response(record).status()))
+                        .orElse(ManagerFixture.response(record).status()))
                 .containsExactly("created", "missions-running");
         assertThat(farm.state("m")).isEqualTo("stopping");
         assertThat(farm.hostAll(DeviceStatus.State.STOPPED)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("stopped");
 
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
         assertThat(farm.only(Topics.MISSIONS_STATUS).value()).isNull();
         assertThat(farm.read(Topics.DEVICES)).extracting(TestRecord::value).containsOnlyNulls();
     }
 
     @Test
-    void countsARealDeviceByTheReportThatTheFarmWatchHeard() throws Exception {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
-        farm.ask(
+    void countsARealDeviceByTheReportThatTheFarmWatchSaw() throws Exception {
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(
                 Topics.MISSION_MANAGER,
                 null,
                 "{'type':'request','command':'start','mission':'m','domain':'north','devices':[{'type':'Camera'}]}");
@@ -193,7 +195,7 @@ class ControlTopologyTest {
         assertThat(farm.state("m")).isEqualTo("starting");
 
         String heard = "{\"id\":\"urn:ngsi-ld:Camera:m-1\",\"heard\":%d}"
-                .formatted(ManagedFarm.START.plus(Duration.ofMinutes(1)).toEpochMilli());
+                .formatted(ManagerFixture.START.plus(Duration.ofMinutes(1)).toEpochMilli());
         farm.pipe(Topics.DEVICES_HEALTH, "farm|/|urn:ngsi-ld:Camera:m-1", heard.getBytes(StandardCharsets.UTF_8));
         assertThat(farm.state("m")).isEqualTo("running");
         farm.pipe(Topics.DEVICES_HEALTH, "x", "[]".getBytes(StandardCharsets.UTF_8));
@@ -202,8 +204,8 @@ class ControlTopologyTest {
 
     @Test
     void startsAMissionAtItsDateAndHasTheMissionOfTheThesisAtHand() throws Exception {
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
-        farm.ask(
+        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(
                 Topics.MISSION_MANAGER,
                 null,
                 "{'type':'request','command':'start','mission':'m','domain':'north','template':'thesis-demo','start':'2026-03-01T08:01:00Z'}");
@@ -222,32 +224,33 @@ class ControlTopologyTest {
         farm.pipe(Topics.DEVICES_STATUS, "farm|/|x", null);
 
         TestRecord<String, byte[]> dead = farm.only(Topics.dead(Topics.DEVICES_STATUS));
-        assertThat(ManagedFarm.text(dead.value())).isEqualTo("{\"sequence\":1}");
-        assertThat(ManagedFarm.text(dead.headers().lastHeader(DeadLetter.REASON).value()))
+        assertThat(ManagerFixture.text(dead.value())).isEqualTo("{\"sequence\":1}");
+        assertThat(ManagerFixture.text(
+                        dead.headers().lastHeader(DeadLetter.REASON).value()))
                 .isEqualTo("not-an-event");
     }
 
     @Test
     void handsReplaysOnAndForgetsThemWhenTheyAreOver() throws Exception {
-        farm.ask(
+        farm.request(
                 Topics.REPLAY_MANAGER,
                 null,
                 "{'type':'request','command':'start','mission':'m','speed':'max','from':1000,'devices':['urn:x']}");
-        CommandResult created = ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER));
+        CommandResult created = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
         String replay = created.json().path("replay").asText();
         assertThat(replay).matches("m\\.[0-9a-f]{8}");
         assertThat(created.json().path("topic").asText()).isEqualTo("data.m.replay." + replay.substring(2));
 
         for (String command : List.of("step", "pause", "step", "step", "seek", "resume", "resume", "stop", "stop")) {
-            farm.ask(
+            farm.request(
                     Topics.REPLAY_MANAGER,
                     null,
                     "{'type':'request','command':'" + command + "','to':5000,'replay':'" + replay + "'}");
         }
         assertThat(farm.read(Topics.REPLAY_MANAGER))
-                .extracting(record -> ManagedFarm.response(record)
+                .extracting(record -> ManagerFixture.response(record)
                         .error()
-                        .orElse(ManagedFarm.response(record).status()))
+                        .orElse(ManagerFixture.response(record).status()))
                 .containsExactly(
                         "wrong-state",
                         "paused",
@@ -259,7 +262,7 @@ class ControlTopologyTest {
                         "deleted",
                         "wrong-state");
         List<TestRecord<String, byte[]>> desired = farm.read(Topics.REPLAYS);
-        assertThat(ManagedFarm.text(desired.get(desired.size() - 1).value()))
+        assertThat(ManagerFixture.text(desired.get(desired.size() - 1).value()))
                 .contains("\"from\":1000,", "\"speed\":\"max\"", "\"wanted\":\"stopped\"")
                 .contains("\"seek\":{\"to\":5000,\"sequence\":5},\"step\":{\"total\":2,\"sequence\":4}")
                 .endsWith("\"sequence\":7}");
@@ -276,13 +279,13 @@ class ControlTopologyTest {
                 replay,
                 "{\"sequence\":7,\"state\":\"stopped\"}".getBytes(StandardCharsets.UTF_8));
         assertThat(farm.only(Topics.REPLAYS).value()).isNull();
-        farm.ask(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'stop','replay':'" + replay + "'}");
-        assertThat(ManagedFarm.error(farm.only(Topics.REPLAY_MANAGER))).isEqualTo("unknown-replay");
+        farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'stop','replay':'" + replay + "'}");
+        assertThat(ManagerFixture.error(farm.only(Topics.REPLAY_MANAGER))).isEqualTo("unknown-replay");
     }
 
     private String startReplay(String members) {
-        farm.ask(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'start','mission':'m'" + members + "}");
-        String replay = ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER))
+        farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'start','mission':'m'" + members + "}");
+        String replay = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER))
                 .json()
                 .path("replay")
                 .asText();
@@ -291,8 +294,9 @@ class ControlTopologyTest {
     }
 
     private CommandResult steer(String replay, String command) {
-        farm.ask(Topics.REPLAY_MANAGER, null, "{'type':'request','replay':'" + replay + "','command':" + command + "}");
-        return ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER));
+        farm.request(
+                Topics.REPLAY_MANAGER, null, "{'type':'request','replay':'" + replay + "','command':" + command + "}");
+        return ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
     }
 
     /** Its recording lasts from 1 s to 9 s. */
@@ -309,17 +313,17 @@ class ControlTopologyTest {
             replays.add(startReplay(""));
         }
         String group = "{'type':'request','command':'start','missions':['a','b'],'from':1000,'to':9000}";
-        farm.ask(Topics.REPLAY_MANAGER, null, group);
-        CommandResult refused = ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER));
+        farm.request(Topics.REPLAY_MANAGER, null, group);
+        CommandResult refused = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
         assertThat(refused.error()).contains("quota-exceeded");
         assertThat(refused.json().path("reason").asText())
                 .isEqualTo(
                         "255 replays are not over, of at most 256 (--max-replays); stop one that is not needed any more");
 
         report(replays.get(0), 1, ReplayStatus.State.ENDED, false);
-        farm.ask(Topics.REPLAY_MANAGER, null, group);
+        farm.request(Topics.REPLAY_MANAGER, null, group);
 
-        assertThat(ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER)).status())
+        assertThat(ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER)).status())
                 .isEqualTo("created");
     }
 
@@ -334,7 +338,7 @@ class ControlTopologyTest {
         assertThat(farm.read(Topics.REPLAYS)).isEmpty();
 
         assertThat(steer(replay, "'seek','to':5000").status()).isEqualTo("running");
-        assertThat(ManagedFarm.text(farm.only(Topics.REPLAYS).value()))
+        assertThat(ManagerFixture.text(farm.only(Topics.REPLAYS).value()))
                 .contains("\"seek\":{\"to\":5000,\"sequence\":2}");
         farm.pass(Duration.ofMinutes(61));
         assertThat(farm.read(Topics.REPLAYS)).as("sought, and not played yet").isEmpty();
@@ -355,19 +359,19 @@ class ControlTopologyTest {
         String replay = startReplay("");
         report(replay, 1, ReplayStatus.State.ENDED, true);
         assertThat(steer(replay, "'step','count':-3").status()).isEqualTo("paused");
-        assertThat(ManagedFarm.text(farm.only(Topics.REPLAYS).value()))
+        assertThat(ManagerFixture.text(farm.only(Topics.REPLAYS).value()))
                 .contains("\"wanted\":\"paused\"", "\"step\":{\"total\":-3,\"sequence\":2}");
         assertThat(steer(replay, "'resume'").status()).isEqualTo("running");
         farm.read(Topics.REPLAYS);
 
         report(replay, 3, ReplayStatus.State.ENDED, true);
         assertThat(steer(replay, "'loop','from':2000,'to':3000").status()).isEqualTo("running");
-        assertThat(ManagedFarm.text(farm.only(Topics.REPLAYS).value()))
+        assertThat(ManagerFixture.text(farm.only(Topics.REPLAYS).value()))
                 .contains("\"seek\":{\"to\":2000,\"sequence\":4}", "\"range\":{\"from\":2000,\"to\":3000}");
     }
 
     @Test
-    void answersFromWhatAReplayIsNotFromWhatWasAskedOfIt() {
+    void answersFromWhatAReplayIsNotFromWhatWasRequestedOfIt() {
         String replay = startReplay("");
         report(replay, 1, ReplayStatus.State.ENDED, false);
         for (String command : List.of("'pause'", "'resume'", "'step'", "'step','count':2")) {
@@ -398,7 +402,7 @@ class ControlTopologyTest {
     }
 
     @Test
-    void refusesASeekToWhatIsNotPlayed() {
+    void rejectsASeekToWhatIsNotPlayed() {
         String whole = startReplay("");
         assertThat(steer(whole, "'seek','to':99000").error())
                 .as("of what nobody knows")
@@ -436,8 +440,8 @@ class ControlTopologyTest {
     @Test
     void hasANameForEveryStoreAndEveryTopicOfItsOwn() {
         assertThat(ControlTopology.of(
-                                ManagedFarm.REMEMBERED,
-                                new MissionOptions(ManagedFarm.REMEMBERED, FiwareScope.DEFAULT, false),
+                                ManagerFixture.REMEMBERED,
+                                new MissionSettings(ManagerFixture.REMEMBERED, FiwareScope.DEFAULT, false),
                                 ReplaySettings.DEFAULT)
                         .describe()
                         .toString())

@@ -86,10 +86,10 @@ class FarmWatchIT {
     }
 
     @Test
-    void tellsOfADeviceThatFallsSilentAndComesBack() throws Exception {
+    void reportsADeviceThatFallsSilentAndComesBack() throws Exception {
         try (FarmWatch watch = watch("one")) {
             assertThat(watch.state()).isNotEqualTo("ERROR");
-            want();
+            addDesired();
             await().atMost(TIMEOUT).until(() -> {
                 report();
                 return !records(Topics.DEVICES_HEALTH).isEmpty()
@@ -111,33 +111,32 @@ class FarmWatchIT {
 
     @Tag("full")
     @Test
-    void deliversWhatOpenedAndClosedWhileTheWebhookAndThenTheWatchWereAway() throws Exception {
+    void deliversWhatOpenedAndClosedWhileTheWebhookAndThenTheWatchWereUnavailable() throws Exception {
         hookIsUp = false;
         try (FarmWatch watch = watch("one")) {
             encounter("started");
             await().atMost(TIMEOUT).until(() -> state("collision").equals("open"));
             encounter("ended");
             await().atMost(TIMEOUT).until(() -> state("collision").equals("closed"));
-            await().atMost(TIMEOUT)
-                    .until(() -> watch.followers().get(0).detail().contains("it responded with 503"));
-            assertThat(watch.followers())
+            await().atMost(TIMEOUT).until(() -> watch.workers().get(0).detail().contains("it responded with 503"));
+            assertThat(watch.workers())
                     .extracting(PartStatus::name, PartStatus::state)
                     .containsExactly(
                             tuple("webhook", PartStatus.State.UP),
                             tuple("device-types", PartStatus.State.UP),
                             tuple("stop-on-predicted", PartStatus.State.UP));
-            assertThat(watch.followers().get(0).lastSuccess()).isNull();
+            assertThat(watch.workers().get(0).lastSuccess()).isNull();
         }
         hookIsUp = true;
         try (FarmWatch watch = watch("two")) {
             await().atMost(TIMEOUT).until(() -> !posted.isEmpty());
-            await().atMost(TIMEOUT).until(() -> watch.followers().get(0).lastSuccess() != null);
+            await().atMost(TIMEOUT).until(() -> watch.workers().get(0).lastSuccess() != null);
         }
         assertThat(posted).extracting(alarm -> alarm.path("id").asText()).containsExactly("collision-1:2");
         try (FarmWatch watch = watch("three")) {
             encounter("started");
             await().atMost(TIMEOUT).until(() -> posted.size() > 1);
-            assertThat(watch.followers().get(0).detail()).contains("0 rejected");
+            assertThat(watch.workers().get(0).detail()).contains("0 rejected");
         }
         assertThat(posted)
                 .as("what was delivered is not delivered again")
@@ -150,7 +149,7 @@ class FarmWatchIT {
     void stopsRobotsOnceAndRemembersAlarmsOverARestart() throws Exception {
         try (FarmWatch watch = watch("one")) {
             assertThat(watch.state()).isNotEqualTo("ERROR");
-            want();
+            addDesired();
             await().atMost(TIMEOUT).until(() -> {
                 report();
                 return !records(Topics.DEVICES_HEALTH).isEmpty()
@@ -190,7 +189,7 @@ class FarmWatchIT {
         try (FarmWatch second = watch("two")) {
             try (FarmWatch first = watch("one")) {
                 await().atMost(TIMEOUT).until(() -> first.isHealthy() && second.isHealthy());
-                want();
+                addDesired();
                 await().atMost(TIMEOUT).until(() -> {
                     report();
                     return !records(Topics.DEVICES_HEALTH).isEmpty()
@@ -215,7 +214,7 @@ class FarmWatchIT {
         return FarmWatch.start(ControlPlaneProcess.settings(kafka.bootstrapServers(), own.toString()), options);
     }
 
-    private void want() {
+    private void addDesired() {
         DeviceVersion version =
                 new DeviceVersion(ROBOT, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
         DesiredDevice device = DesiredDevice.simulated(

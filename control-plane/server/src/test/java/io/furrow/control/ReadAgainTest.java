@@ -15,7 +15,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 class ReadAgainTest {
     private static final String LINE = FarmWatch.APPLICATION + "-collisions-repartition";
 
-    private final WatchedFarm farm = new WatchedFarm();
+    private final FarmWatchFixture farm = new FarmWatchFixture();
 
     @AfterEach
     void close() {

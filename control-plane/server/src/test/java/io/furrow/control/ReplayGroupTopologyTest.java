@@ -25,9 +25,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** Replays of several missions that follow one clock. Missions a and b are stored, from 10 s to 60 s and from 20 s to 90 s. */
 class ReplayGroupTopologyTest {
-    private static final long NOW = ManagedFarm.START.toEpochMilli();
+    private static final long NOW = ManagerFixture.START.toEpochMilli();
 
-    private final ManagedFarm farm = new ManagedFarm(true);
+    private final ManagerFixture farm = new ManagerFixture(true);
     private long sequence;
 
     @AfterEach
@@ -35,15 +35,15 @@ class ReplayGroupTopologyTest {
         farm.close();
     }
 
-    private CommandResult ask(String members) {
-        farm.ask(Topics.REPLAY_MANAGER, null, "{'type':'request'," + members + "}");
-        return ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER));
+    private CommandResult request(String members) {
+        farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request'," + members + "}");
+        return ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
     }
 
     private String start(String members) throws Exception {
         farm.pipe(Topics.RECORDINGS, "a", new RecordedMission("a", 10_000, 60_000).toBytes());
         farm.pipe(Topics.RECORDINGS, "b", new RecordedMission("b", 20_000, 90_000).toBytes());
-        CommandResult answer = ask("'command':'start','missions':['a','b']" + members);
+        CommandResult answer = request("'command':'start','missions':['a','b']" + members);
         assertThat(answer.error()).as(answer.json().toString()).isEmpty();
         return answer.json().path("group").asText();
     }
@@ -69,7 +69,7 @@ class ReplayGroupTopologyTest {
     }
 
     private DesiredReplay steered(String group, String command, String status) throws Exception {
-        CommandResult answer = ask("'group':'" + group + "','command':" + command);
+        CommandResult answer = request("'group':'" + group + "','command':" + command);
         assertThat(answer.json().path("status").asText())
                 .as(answer.json().toString())
                 .isEqualTo(status);
@@ -96,7 +96,7 @@ class ReplayGroupTopologyTest {
     void answersWithTheirNamesAndTopics() throws Exception {
         start("");
         CommandResult answer =
-                ask("'command':'start','missions':['b','a'],'from':30000,'range':{'from':40000,'to':50000},"
+                request("'command':'start','missions':['b','a'],'from':30000,'range':{'from':40000,'to':50000},"
                         + "'startAt':" + (NOW + 60_000));
 
         String group = answer.json().path("group").asText();
@@ -118,7 +118,8 @@ class ReplayGroupTopologyTest {
         farm.pass(Duration.ofSeconds(60));
         DesiredReplay resumed = steered(group, "'resume'", "running");
         assertThat(resumed.clock()).isEqualTo(new Clock(NOW + 66_000, 40_000));
-        assertThat(ask("'command':'resume','group':'" + group + "'").error()).contains("wrong-state");
+        assertThat(request("'command':'resume','group':'" + group + "'").error())
+                .contains("wrong-state");
     }
 
     @Test
@@ -133,7 +134,7 @@ class ReplayGroupTopologyTest {
         DesiredReplay held = steered(group, "'seek','to':60000", "paused");
         assertThat(held.position(NOW + 1_000_000)).isEqualTo(60_000);
         for (String outside : List.of("9999", "90001")) {
-            assertThat(ask("'command':'seek','group':'" + group + "','to':" + outside)
+            assertThat(request("'command':'seek','group':'" + group + "','to':" + outside)
                             .error())
                     .contains("wrong-member");
         }
@@ -150,7 +151,7 @@ class ReplayGroupTopologyTest {
         DesiredReplay faster = steered(group, "'speed','speed':0.5", "running");
         assertThat(faster.clock()).isEqualTo(new Clock(NOW + 5000, 25_000));
         assertThat(faster.position(NOW + 7000)).isEqualTo(26_000);
-        assertThat(ask("'command':'speed','speed':'max','group':'" + group + "'")
+        assertThat(request("'command':'speed','speed':'max','group':'" + group + "'")
                         .error())
                 .contains("wrong-member");
     }
@@ -173,7 +174,7 @@ class ReplayGroupTopologyTest {
         DesiredReplay outside = steered(group, "'loop','from':30000,'to':40000", "running");
         assertThat(outside.clock()).isEqualTo(new Clock(NOW + 16_000, 30_000));
         assertThat(outside.seek()).isEqualTo(new DesiredReplay.Seek(30_000, outside.sequence()));
-        assertThat(ask("'command':'loop','from':91000,'to':95000,'group':'" + group + "'")
+        assertThat(request("'command':'loop','from':91000,'to':95000,'group':'" + group + "'")
                         .error())
                 .contains("wrong-member");
     }
@@ -193,7 +194,7 @@ class ReplayGroupTopologyTest {
             assertThat(removed.key()).isEqualTo(mission + "." + group);
             assertThat(removed.value()).isNull();
         }
-        CommandResult unknown = ask("'command':'pause','group':'" + group + "'");
+        CommandResult unknown = request("'command':'pause','group':'" + group + "'");
         assertThat(unknown.error()).contains("unknown-replay");
         assertThat(unknown.json().path("reason").asText()).contains(group);
     }
@@ -216,7 +217,7 @@ class ReplayGroupTopologyTest {
         ended("a", group, resumed.sequence());
         farm.pass(Duration.ofMinutes(30));
         ended("b", group, resumed.sequence());
-        assertThat(ask("'command':'pause','group':'" + group + "'").error()).contains("wrong-state");
+        assertThat(request("'command':'pause','group':'" + group + "'").error()).contains("wrong-state");
         farm.pass(Duration.ofMinutes(59));
         assertThat(farm.read(Topics.REPLAYS)).as("together").isEmpty();
 
@@ -235,11 +236,11 @@ class ReplayGroupTopologyTest {
         String group = start("");
         desired();
         for (String command : List.of("pause", "stop", "step")) {
-            CommandResult alone = ask("'command':'" + command + "','replay':'a." + group + "'");
+            CommandResult alone = request("'command':'" + command + "','replay':'a." + group + "'");
             assertThat(alone.error()).contains("wrong-state");
             assertThat(alone.json().path("reason").asText()).contains("'" + group + "'");
         }
-        assertThat(ask("'command':'step','group':'" + group + "'").error()).contains("wrong-state");
+        assertThat(request("'command':'step','group':'" + group + "'").error()).contains("wrong-state");
         assertThat(farm.read(Topics.REPLAYS)).isEmpty();
     }
 
@@ -254,28 +255,28 @@ class ReplayGroupTopologyTest {
             'mission':'a','topic':'data.x.replay.0000000a'  | replay-exists   | 'a.0000000a'
             'mission':'b','topic':'data.x.replay.0000000a'  | replay-exists   | 'data.x.replay.0000000a'
             """)
-    void refusesAStart(String members, String error, String said) throws Exception {
+    void rejectsAStart(String members, String error, String message) throws Exception {
         start("");
-        assertThat(ask("'command':'start','mission':'a','topic':'data.x.replay.0000000a'")
+        assertThat(request("'command':'start','mission':'a','topic':'data.x.replay.0000000a'")
                         .error())
                 .isEmpty();
         farm.read(Topics.REPLAYS);
 
-        CommandResult refused = ask("'command':'start'," + members);
+        CommandResult refused = request("'command':'start'," + members);
 
         assertThat(refused.error()).contains(error);
-        assertThat(refused.json().path("reason").asText()).contains(said);
+        assertThat(refused.json().path("reason").asText()).contains(message);
         assertThat(farm.read(Topics.REPLAYS)).isEmpty();
     }
 
     @Test
-    void knowsMissionsAsLongAsTheyAreListed() throws Exception {
+    void findsMissionsAsLongAsTheyAreListed() throws Exception {
         start("");
         farm.pipe(Topics.RECORDINGS, "a", null);
         farm.pipe(Topics.RECORDINGS, "b", "no JSON".getBytes(StandardCharsets.UTF_8));
-        assertThat(ask("'command':'start','mission':'a'").error()).contains("unknown-mission");
-        assertThat(ask("'command':'start','mission':'b'").error()).contains("unknown-mission");
-        assertThat(ask("'command':'start','mission':'a','source':{'file':'a.jsonl'}")
+        assertThat(request("'command':'start','mission':'a'").error()).contains("unknown-mission");
+        assertThat(request("'command':'start','mission':'b'").error()).contains("unknown-mission");
+        assertThat(request("'command':'start','mission':'a','source':{'file':'a.jsonl'}")
                         .error())
                 .as("what has a source is not looked up")
                 .isEmpty();
@@ -283,14 +284,14 @@ class ReplayGroupTopologyTest {
 
     @Test
     void needsTimesWhereItDoesNotKnowWhatIsStored() throws Exception {
-        try (ManagedFarm without = new ManagedFarm()) {
+        try (ManagerFixture without = new ManagerFixture()) {
             Set<String> answers = new HashSet<>();
             for (String times : List.of("", ",'from':1", ",'from':1,'to':9")) {
-                without.ask(
+                without.request(
                         Topics.REPLAY_MANAGER,
                         null,
                         "{'type':'request','command':'start','missions':['x','y']" + times + "}");
-                CommandResult answer = ManagedFarm.response(without.only(Topics.REPLAY_MANAGER));
+                CommandResult answer = ManagerFixture.response(without.only(Topics.REPLAY_MANAGER));
                 answers.add(answer.error().orElse(answer.status()));
             }
             assertThat(answers).containsExactlyInAnyOrder("missing-member", "created");

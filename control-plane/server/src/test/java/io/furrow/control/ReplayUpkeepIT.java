@@ -101,7 +101,7 @@ class ReplayUpkeepIT {
     }
 
     @Test
-    void knowsWhatIsStoredAndRefusesReplaysOfAnythingElse() throws Exception {
+    void findsWhatIsStoredAndRejectsReplaysOfAnythingElse() throws Exception {
         EmbeddedMongo mongo = opened(EmbeddedMongo.inMemory());
         MongoDatabase missions = opened(MongoClients.create(mongo.uri())).getDatabase("persistence");
         missions.getCollection("mission_weeding")
@@ -127,10 +127,10 @@ class ReplayUpkeepIT {
         await().until(() -> answer("weeding").error().isPresent());
     }
 
-    private int asked;
+    private int requested;
 
     private CommandResult answer(String mission) throws Exception {
-        String id = "r-" + asked++;
+        String id = "r-" + requested++;
         send(
                 Topics.REPLAY_MANAGER,
                 null,
@@ -143,13 +143,13 @@ class ReplayUpkeepIT {
     @Test
     void deletesTheTopicsOfAReplayThatIsOverAndNoOthers() throws Exception {
         String own = "data.show.replay.0000000a";
-        List<String> gone = List.of(own, own + ".collision", own + ".collision.late", own + ".clocks");
-        List<String> stay = List.of(
+        List<String> removed = List.of(own, own + ".collision", own + ".collision.late", own + ".clocks");
+        List<String> retained = List.of(
                 "data.b.replay.0000000b",
                 "data.b.replay.0000000b.collision",
                 "data.show.replay.0000000ab",
                 "data.a.realtime");
-        kafka.createTopics(Stream.concat(gone.stream(), stay.stream())
+        kafka.createTopics(Stream.concat(removed.stream(), retained.stream())
                 .map(name -> new NewTopic(name, 1, (short) 1))
                 .toList());
         send(Topics.REPLAYS, "a.0000000a", desired("a", own));
@@ -161,15 +161,15 @@ class ReplayUpkeepIT {
         TopicCleanup early = opened(
                 TopicCleanup.start(client, ReplaySettings.DEFAULT.withGrace(Duration.ofHours(1)), Clock.systemUTC()));
         await().until(() -> early.status().lastSuccess() != null);
-        assertThat(names()).containsAll(gone);
+        assertThat(names()).containsAll(removed);
         for (int i = 0; i < 2; i++) {
             opened(TopicCleanup.start(client, ReplaySettings.DEFAULT.withGrace(Duration.ZERO), Clock.systemUTC()));
         }
 
-        await().until(() -> names().stream().noneMatch(gone::contains));
+        await().until(() -> names().stream().noneMatch(removed::contains));
         TopicContent statuses = new TopicContent(client, Topics.REPLAYS_STATUS);
         await().until(() -> !statuses.newest().containsKey("a.0000000a"));
-        assertThat(names()).containsAll(stay);
+        assertThat(names()).containsAll(retained);
         assertThat(statuses.newest()).containsOnlyKeys("b.0000000b");
     }
 

@@ -19,7 +19,7 @@ class SilenceTopologyTest {
     private static final Duration REMEMBERED = Duration.ofHours(1);
     private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:m-1";
 
-    private final WatchedFarm farm = new WatchedFarm();
+    private final FarmWatchFixture farm = new FarmWatchFixture();
 
     @AfterEach
     void close() {
@@ -28,7 +28,7 @@ class SilenceTopologyTest {
 
     @Test
     void raisesAnAlarmOfADeviceThatIsSilentAndEndsItWhenItReportsAgain() throws Exception {
-        farm.want(THERMOMETER, "Thermometer", true);
+        farm.addDesired(THERMOMETER, "Thermometer", true);
         farm.report(Entity.builder(THERMOMETER, "Thermometer"));
         farm.pass(Duration.ofSeconds(30));
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
@@ -51,10 +51,10 @@ class SilenceTopologyTest {
     @Test
     void raisesOneAlarmForAllSilentDevicesOfAMission() throws Exception {
         for (int i = 1; i <= 40; i++) {
-            farm.want(THERMOMETER + i, "Thermometer", true);
+            farm.addDesired(THERMOMETER + i, "Thermometer", true);
             farm.report(Entity.builder(THERMOMETER + i, "Thermometer"));
         }
-        passKeepingAlive(3, 40);
+        passTimeWithReports(3, 40);
         List<JsonNode> alarms = farm.all(Topics.ALARMS);
         assertThat(alarms).extracting(each -> each.path("alarm").asText()).containsOnly("silent-device-1");
         JsonNode alarm = alarms.get(alarms.size() - 1);
@@ -69,13 +69,13 @@ class SilenceTopologyTest {
     }
 
     @Test
-    void saysThatAMissionIsAwayRatherThanItsDevices() throws Exception {
-        farm.want(THERMOMETER, "Thermometer", "other", true);
+    void reportsThatAMissionIsUnavailableRatherThanItsDevices() throws Exception {
+        farm.addDesired(THERMOMETER, "Thermometer", "other", true);
         for (int i = 1; i <= 40; i++) {
-            farm.want(THERMOMETER + i, "Thermometer", true);
+            farm.addDesired(THERMOMETER + i, "Thermometer", true);
             farm.report(Entity.builder(THERMOMETER + i, "Thermometer"));
         }
-        passKeepingAlive(0, 0);
+        passTimeWithReports(0, 0);
         List<JsonNode> newest = newestOfEach(farm.all(Topics.ALARMS));
         assertThat(newest)
                 .extracting(
@@ -92,9 +92,9 @@ class SilenceTopologyTest {
     }
 
     @Test
-    void saysOnceThatNothingArrivesAnyMore() throws Exception {
+    void reportsOnceThatNothingArrivesAnyMore() throws Exception {
         for (int i = 1; i <= 40; i++) {
-            farm.want(THERMOMETER + i, "Thermometer", "m" + i % 10, true);
+            farm.addDesired(THERMOMETER + i, "Thermometer", "m" + i % 10, true);
             farm.report(Entity.builder(THERMOMETER + i, "Thermometer"));
         }
         for (int i = 0; i < 120; i++) {
@@ -114,7 +114,7 @@ class SilenceTopologyTest {
     @Test
     void deliversNoAlarmOfAMissionWhileReportsComeBack() throws Exception {
         for (int i = 1; i <= 40; i++) {
-            farm.want(THERMOMETER + i, "Thermometer", "m" + i % 10, true);
+            farm.addDesired(THERMOMETER + i, "Thermometer", "m" + i % 10, true);
             farm.report(Entity.builder(THERMOMETER + i, "Thermometer"));
         }
         for (int i = 0; i < 120; i++) {
@@ -139,10 +139,10 @@ class SilenceTopologyTest {
 
     /** One device reports every five seconds while a sign of life of each comes every thirty. */
     @Test
-    void doesNotSayThatNothingArrivesWhileOneDeviceReports() throws Exception {
-        farm.want(THERMOMETER, "Thermometer", "other", true);
+    void doesNotReportThatNothingArrivesWhileOneDeviceReports() throws Exception {
+        farm.addDesired(THERMOMETER, "Thermometer", "other", true);
         for (int i = 1; i <= 40; i++) {
-            farm.want(THERMOMETER + i, "Thermometer", true);
+            farm.addDesired(THERMOMETER + i, "Thermometer", true);
             farm.report(Entity.builder(THERMOMETER + i, "Thermometer"));
         }
         for (int second = 0; second < 300; second++) {
@@ -160,7 +160,7 @@ class SilenceTopologyTest {
 
     @Test
     void doesNotLetASilenceBeClosedByHandWhileItLasts() throws Exception {
-        farm.want(THERMOMETER, "Thermometer", true);
+        farm.addDesired(THERMOMETER, "Thermometer", true);
         farm.report(Entity.builder(THERMOMETER, "Thermometer"));
         farm.pass(Duration.ofSeconds(30));
         farm.pass(Duration.ofSeconds(1));
@@ -172,7 +172,7 @@ class SilenceTopologyTest {
     }
 
     /** Two minutes, in which some of the devices continue reporting. */
-    private void passKeepingAlive(int from, int to) throws Exception {
+    private void passTimeWithReports(int from, int to) throws Exception {
         for (int i = 0; i < 120; i++) {
             farm.pass(Duration.ofSeconds(1));
             farm.report(Entity.builder(THERMOMETER, "Thermometer"));

@@ -24,7 +24,7 @@ class WatchTopologyTest {
     private static final Duration WINDOW = Duration.ofSeconds(30);
     private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:m-1";
 
-    private final WatchedFarm farm = new WatchedFarm();
+    private final FarmWatchFixture farm = new FarmWatchFixture();
 
     @AfterEach
     void close() {
@@ -33,7 +33,7 @@ class WatchTopologyTest {
 
     @Test
     void publishesWhenADeviceWasLastSeenAndHowFullItsBatteryIs() throws Exception {
-        farm.want(THERMOMETER, "Thermometer", true);
+        farm.addDesired(THERMOMETER, "Thermometer", true);
         farm.pass(Duration.ofSeconds(1));
         farm.report(Entity.builder(THERMOMETER, "Thermometer").number("battery", 81.5));
 
@@ -47,7 +47,7 @@ class WatchTopologyTest {
     /** Of a clock that is far ahead the event time is that of the receipt, which says nothing of the clock. */
     @Test
     void publishesTheTimeThatADeviceItselfGave() throws Exception {
-        farm.want(THERMOMETER, "Thermometer", true);
+        farm.addDesired(THERMOMETER, "Thermometer", true);
         for (int report = 0; report < 2; report++) {
             farm.pass(Duration.ofSeconds(31));
             long time = farm.now().plusSeconds(3000).toEpochMilli();
@@ -79,12 +79,12 @@ class WatchTopologyTest {
 
     @Test
     void raisesAnAlarmOfACollisionUntilItHasEnded() throws Exception {
-        farm.want(WatchedFarm.ROBOT, null, true);
-        farm.report(Entity.builder(WatchedFarm.ROBOT, "WatchedFarm.ROBOT"));
+        farm.addDesired(FarmWatchFixture.ROBOT, null, true);
+        farm.report(Entity.builder(FarmWatchFixture.ROBOT, "ROBOT"));
         farm.encounter("predicted", 3.2);
         JsonNode predicted = farm.newest(Topics.ALARMS);
         assertThat(predicted.path("kind").asText()).isEqualTo("predicted-encounter");
-        assertThat(predicted.path("devices").path(0).path("type").asText()).isEqualTo("WatchedFarm.ROBOT");
+        assertThat(predicted.path("devices").path(0).path("type").asText()).isEqualTo("ROBOT");
         farm.encounter("predicted", 3.2);
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
         farm.encounter("started", 3.2);
@@ -176,17 +176,17 @@ class WatchTopologyTest {
 
     @Test
     void raisesAnAlarmOfADeviceWhosePositionsComeTooLate() throws Exception {
-        farm.want(WatchedFarm.ROBOT, "ROBOT", true);
-        farm.clockBehind(WatchedFarm.ROBOT, 999);
+        farm.addDesired(FarmWatchFixture.ROBOT, "ROBOT", true);
+        farm.clockBehind(FarmWatchFixture.ROBOT, 999);
         JsonNode alarm = farm.newest(Topics.ALARMS);
         assertThat(alarm.path("kind").asText()).isEqualTo("clock-behind");
         assertThat(alarm.path("severity").asText()).isEqualTo("major");
-        assertThat(alarm.path("subject").asText()).isEqualTo(WatchedFarm.ROBOT);
+        assertThat(alarm.path("subject").asText()).isEqualTo(FarmWatchFixture.ROBOT);
         assertThat(alarm.path("group").asText()).isEqualTo("urn:ngsi-ld:Mission:m");
         assertThat(alarm.path("text").asText())
                 .isEqualTo("positions of robot-1 arrive 1.0 s too late and are dropped: check its clock and its link");
         farm.pass(Duration.ofMinutes(2));
-        farm.clockBehind(WatchedFarm.ROBOT, 999);
+        farm.clockBehind(FarmWatchFixture.ROBOT, 999);
         farm.pass(Duration.ofSeconds(179));
         farm.pipe(
                 Topics.CLOCKS, "x", Entity.builder("x", "Analytics:ClockOffset").toBytes());
@@ -368,7 +368,7 @@ class WatchTopologyTest {
     }
 
     @Test
-    void answersWhatIsAskedOfAlarms() throws Exception {
+    void answersWhatIsRequestedOfAlarms() throws Exception {
         farm.encounter("started", 3.2);
         farm.newest(Topics.ALARMS);
         farm.pipe(
@@ -404,8 +404,8 @@ class WatchTopologyTest {
 
         assertThat(farm.read(Topics.dead(Topics.COLLISION)))
                 .singleElement()
-                .satisfies(
-                        letter -> assertThat(header(letter, DeadLetter.SOURCE)).isEqualTo("data.collision-0@0"));
+                .satisfies(deadLetter ->
+                        assertThat(header(deadLetter, DeadLetter.SOURCE)).isEqualTo("data.collision-0@0"));
         assertThat(farm.read(Topics.dead(Topics.TEMPERATURE))).hasSize(1);
     }
 
@@ -420,8 +420,8 @@ class WatchTopologyTest {
         for (String topic : List.of(Topics.COLLISION, Topics.TEMPERATURE)) {
             assertThat(farm.read(Topics.dead(topic)))
                     .singleElement()
-                    .satisfies(letter ->
-                            assertThat(header(letter, DeadLetter.REASON)).isEqualTo("too-large"));
+                    .satisfies(deadLetter ->
+                            assertThat(header(deadLetter, DeadLetter.REASON)).isEqualTo("too-large"));
         }
     }
 

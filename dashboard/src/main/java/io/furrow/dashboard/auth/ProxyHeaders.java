@@ -20,14 +20,14 @@ import io.furrow.dashboard.http.Problem;
  */
 public final class ProxyHeaders extends Handler.Wrapper {
     private final TrustedProxy proxy;
-    private final Users users;
+    private final UserCache users;
     private final Consumer<Problem> refused;
 
     /**
      * @param proxy null if there is none
      * @param refused is notified of each request that is refused
      */
-    public ProxyHeaders(TrustedProxy proxy, Users users, Consumer<Problem> refused, Handler handler) {
+    public ProxyHeaders(TrustedProxy proxy, UserCache users, Consumer<Problem> refused, Handler handler) {
         super(handler);
         this.proxy = proxy;
         this.users = users;
@@ -67,12 +67,12 @@ public final class ProxyHeaders extends Handler.Wrapper {
         }
         headers.remove(proxy.userHeader());
         headers.remove(proxy.groupsHeader());
-        boolean asks = Request.getPathInContext(request).startsWith("/api/"); // the page itself is everybody's
-        if (asks && given.contains(proxy.userHeader()) && proxy.isAt(address(request))) {
+        boolean isApi = Request.getPathInContext(request).startsWith("/api/"); // the page itself is everybody's
+        if (isApi && given.contains(proxy.userHeader()) && proxy.isAt(address(request))) {
             User user = proxy.user(given.getValuesList(proxy.userHeader()), given.getValuesList(proxy.groupsHeader()));
             headers.put(Credentials.AUTHORIZATION, "Bearer " + proxy.token());
             headers.put(Credentials.USER, user.name());
-            headers.put(Credentials.ROLE, user.role().word());
+            headers.put(Credentials.ROLE, user.role().code());
             // a control plane that does not know these headers would take everybody for the dashboard, or for an admin
             users.find(Credentials.of(headers, Request.getRemoteAddr(request)));
         }

@@ -21,7 +21,11 @@ import io.furrow.dashboard.http.Problem;
  * @param token of the dashboard, which the control plane's file of tokens has with {@code for-users}
  */
 public record TrustedProxy(
-        List<AddressRange> addresses, String userHeader, String groupsHeader, Map<String, Role> roles, String token) {
+        List<AddressRange> addresses,
+        String userHeader,
+        String groupsHeader,
+        Map<String, UserRole> roles,
+        String token) {
     private static final Pattern NAME = Pattern.compile("[A-Za-z0-9_.@-]{1,64}");
 
     public TrustedProxy {
@@ -58,11 +62,11 @@ public record TrustedProxy(
                     "%s has no name of 1 to 64 of A-Z a-z 0-9 _ . @ -; another header may, --user-header names it"
                             .formatted(userHeader));
         }
-        Role role = groups.stream()
+        UserRole role = groups.stream()
                 .flatMap(value -> Arrays.stream(value.split("[,|]")))
                 .map(String::strip)
                 .flatMap(group -> Stream.ofNullable(roles.get(group)))
-                .max(Role::compareTo)
+                .max(UserRole::compareTo)
                 .orElseThrow(() -> new Problem(
                         403,
                         "no-role",

@@ -1,4 +1,4 @@
 package io.furrow.dashboard.auth;
 
 /** @param name as on the audit topic */
-public record User(String name, Role role) {}
+public record User(String name, UserRole role) {}

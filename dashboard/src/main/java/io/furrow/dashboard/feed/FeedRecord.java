@@ -28,19 +28,19 @@ public final class FeedRecord {
 
     private final ConsumerRecord<byte[], byte[]> record;
     private final long sequence;
-    private final int longest;
+    private final int maxValueBytes;
     private String text;
     private String envelope;
     private String type;
 
     /**
      * @param sequence among those of its topic, {@link #NO_SEQUENCE} for the known state
-     * @param longest value, bytes, that an envelope holds
+     * @param maxValueBytes value, bytes, that an envelope holds
      */
-    public FeedRecord(ConsumerRecord<byte[], byte[]> record, long sequence, int longest) {
+    public FeedRecord(ConsumerRecord<byte[], byte[]> record, long sequence, int maxValueBytes) {
         this.record = record;
         this.sequence = sequence;
-        this.longest = longest;
+        this.maxValueBytes = maxValueBytes;
     }
 
     /** By which newer ones take the place of older ones: that of {@link #ofAllTypes}, and the type of the entity. */
@@ -152,7 +152,7 @@ public final class FeedRecord {
         byte[] value = record.value();
         if (value == null) {
             json.putNull("value");
-        } else if (value.length > longest) {
+        } else if (value.length > maxValueBytes) {
             json.putNull("value").put("cut", value.length);
         } else if (!isJson(value)) {
             json.put("value", text());

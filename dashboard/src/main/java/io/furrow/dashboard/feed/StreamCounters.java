@@ -27,14 +27,14 @@ public final class StreamCounters {
         TOPIC("topic"),
         STOPPING("stopping");
 
-        private final String word;
+        private final String code;
 
-        Closing(String word) {
-            this.word = word;
+        Closing(String code) {
+            this.code = code;
         }
 
-        public String word() {
-            return word;
+        public String code() {
+            return code;
         }
     }
 

@@ -53,14 +53,14 @@ public final class TopicDensity {
         TreeMap<Long, Long> offsets = new TreeMap<>();
         Set<Long> unknown = new HashSet<>();
         for (long time = from, i = 0; i <= buckets; time += width, i++) {
-            Long known = settled.get(new Begin(topic, time));
-            if (known == null) {
+            Long existing = settled.get(new Begin(topic, time));
+            if (existing == null) {
                 unknown.add(time);
             } else {
-                offsets.put(time, known);
+                offsets.put(time, existing);
             }
         }
-        ask(topic, unknown, offsets);
+        request(topic, unknown, offsets);
         List<Long> counts = new ArrayList<>(buckets);
         for (int i = 0; i < buckets; i++) {
             counts.add(Math.max(0, offsets.get(from + (i + 1) * width) - offsets.get(from + i * width)));
@@ -69,7 +69,7 @@ public final class TopicDensity {
     }
 
     /** Sums over the partitions of a topic. */
-    private void ask(String topic, Set<Long> times, Map<Long, Long> offsets)
+    private void request(String topic, Set<Long> times, Map<Long, Long> offsets)
             throws InterruptedException, ExecutionException, TimeoutException {
         if (times.isEmpty()) {
             return;

@@ -99,12 +99,12 @@ public final class TopicFeed implements AutoCloseable {
         try (consumer) {
             assign(true);
             atEnd.countDown();
-            long looked = System.nanoTime();
+            long polledAt = System.nanoTime();
             while (!closed) {
-                tell(consumer.poll(POLL));
-                if (System.nanoTime() - looked
+                publish(consumer.poll(POLL));
+                if (System.nanoTime() - polledAt
                         > Duration.ofMillis(NEW_PARTITIONS_MILLIS).toNanos()) {
-                    looked = System.nanoTime();
+                    polledAt = System.nanoTime();
                     assign(false);
                 }
             }
@@ -149,7 +149,7 @@ public final class TopicFeed implements AutoCloseable {
         further.forEach(consumer::position); // a position is looked up only when it is asked for
     }
 
-    private void tell(ConsumerRecords<byte[], byte[]> records) {
+    private void publish(ConsumerRecords<byte[], byte[]> records) {
         if (records.isEmpty()) {
             return;
         }

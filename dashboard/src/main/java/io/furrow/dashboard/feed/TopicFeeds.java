@@ -27,7 +27,7 @@ import io.furrow.dashboard.http.Problem;
 public final class TopicFeeds implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(TopicFeeds.class);
     /** Without an answer for this long, Kafka is unavailable. */
-    static final Duration AWAY_AFTER = Duration.ofSeconds(6);
+    static final Duration UNAVAILABLE_AFTER = Duration.ofSeconds(6);
 
     private static final long TIMEOUT_SECONDS = 5;
 
@@ -52,15 +52,15 @@ public final class TopicFeeds implements AutoCloseable {
 
     /** @throws Problem 503 where Kafka does not answer */
     public Set<String> topics() {
-        if (isKafkaAway()) {
-            throw away();
+        if (isKafkaUnavailable()) {
+            throw unavailable();
         }
         try {
             Set<String> names = new TreeSet<>(admin.listTopics().names().get(TIMEOUT_SECONDS, TimeUnit.SECONDS));
             lastAnswer = System.nanoTime();
             return names;
         } catch (ExecutionException | TimeoutException e) {
-            throw away();
+            throw unavailable();
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
             throw new Problem(503, "stopping", "the dashboard stops");
@@ -129,11 +129,11 @@ public final class TopicFeeds implements AutoCloseable {
     }
 
     /** By the answers to {@link #checkKafka}, so that nobody has to wait to find it out. */
-    public boolean isKafkaAway() {
-        return System.nanoTime() - lastAnswer > AWAY_AFTER.toNanos();
+    public boolean isKafkaUnavailable() {
+        return System.nanoTime() - lastAnswer > UNAVAILABLE_AFTER.toNanos();
     }
 
-    private static Problem away() {
+    private static Problem unavailable() {
         return new Problem(
                 503, "kafka-away", "Kafka does not say which topics there are; check --kafka and that it runs");
     }

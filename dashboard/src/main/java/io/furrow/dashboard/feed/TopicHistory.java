@@ -83,7 +83,7 @@ public final class TopicHistory {
     private final class Reading {
         private final Range range;
         private final KafkaConsumer<byte[], byte[]> consumer;
-        private final LinkedHashMap<String, ConsumerRecord<byte[], byte[]>> kept = new LinkedHashMap<>();
+        private final LinkedHashMap<String, ConsumerRecord<byte[], byte[]>> retained = new LinkedHashMap<>();
         /** The ids of what is kept, the oldest first: partitions are read one after the other. */
         private final TreeMap<Place, String> byTime = new TreeMap<>(Comparator.comparingLong(Place::time)
                 .thenComparingInt(Place::partition)
@@ -116,8 +116,8 @@ public final class TopicHistory {
                     break;
                 }
             }
-            List<FeedRecord> records = new ArrayList<>(kept.size());
-            kept.values().forEach(each -> records.add(new FeedRecord(each, FeedRecord.NO_SEQUENCE, valueBytes)));
+            List<FeedRecord> records = new ArrayList<>(retained.size());
+            retained.values().forEach(each -> records.add(new FeedRecord(each, FeedRecord.NO_SEQUENCE, valueBytes)));
             return new Answer(records, since);
         }
 
@@ -137,13 +137,13 @@ public final class TopicHistory {
                 boolean toEnd = to.get(each) == null;
                 long end = toEnd ? last.get(each) : to.get(each).offset();
                 // of a stretch to the end no more records count than may be answered
-                long most = toEnd && range.newest() == null ? Math.min(share, range.limit()) : share;
+                long maximum = toEnd && range.newest() == null ? Math.min(share, range.limit()) : share;
                 long start = from.get(each) == null
                         ? end
                         : Math.min(end, from.get(each).offset());
                 ends.put(each, end);
-                starts.put(each, Math.max(start, end - most));
-                cutOff.put(each, start < end - most || start < end && start == first.get(each) && start > 0);
+                starts.put(each, Math.max(start, end - maximum));
+                cutOff.put(each, start < end - maximum || start < end && start == first.get(each) && start > 0);
             }
         }
 
@@ -167,17 +167,17 @@ public final class TopicHistory {
                 return;
             }
             String id = id(record);
-            ConsumerRecord<byte[], byte[]> older = kept.remove(id);
+            ConsumerRecord<byte[], byte[]> older = retained.remove(id);
             if (older != null) {
                 bytes -= length(older);
                 byTime.remove(Place.of(older));
             }
-            kept.put(id, record);
+            retained.put(id, record);
             byTime.put(Place.of(record), id);
             bytes += length(record);
-            while (kept.size() > range.limit() || bytes > limits.answered() && kept.size() > 1) {
+            while (retained.size() > range.limit() || bytes > limits.answered() && retained.size() > 1) {
                 ConsumerRecord<byte[], byte[]> oldest =
-                        kept.remove(byTime.pollFirstEntry().getValue());
+                        retained.remove(byTime.pollFirstEntry().getValue());
                 bytes -= length(oldest);
                 since = Math.max(since, oldest.timestamp() + 1);
             }

@@ -33,11 +33,11 @@ public final class ImageIndex implements AutoCloseable {
     private static final Pattern IMAGE_TYPE = Pattern.compile("image/(png|jpeg|webp|gif|avif|bmp)");
 
     private final Properties client;
-    private final Map<String, StoredImage> images = new LinkedHashMap<>() {
+    private final Map<String, ImageLocation> images = new LinkedHashMap<>() {
         private static final long serialVersionUID = 1L;
 
         @Override
-        protected boolean removeEldestEntry(Map.Entry<String, StoredImage> eldest) {
+        protected boolean removeEldestEntry(Map.Entry<String, ImageLocation> eldest) {
             return size() > MAX;
         }
     };
@@ -55,7 +55,7 @@ public final class ImageIndex implements AutoCloseable {
      *
      * @return empty if the topic does not name it
      */
-    Optional<StoredImage> find(String sha256, Duration timeout) throws InterruptedException {
+    Optional<ImageLocation> find(String sha256, Duration timeout) throws InterruptedException {
         if (!SHA256.matcher(sha256).matches()) {
             return Optional.empty();
         }
@@ -131,8 +131,8 @@ public final class ImageIndex implements AutoCloseable {
             String contentType = image.path("contentType").asText();
             if (SHA256.matcher(sha256).matches()
                     && IMAGE_TYPE.matcher(contentType).matches()) {
-                StoredImage stored =
-                        new StoredImage(sha256, URI.create(image.path("url").asText()), contentType);
+                ImageLocation stored =
+                        new ImageLocation(sha256, URI.create(image.path("url").asText()), contentType);
                 synchronized (images) {
                     images.remove(sha256);
                     images.put(sha256, stored);

@@ -16,7 +16,7 @@ import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 
 import io.furrow.dashboard.auth.Credentials;
-import io.furrow.dashboard.auth.Users;
+import io.furrow.dashboard.auth.UserCache;
 import io.furrow.dashboard.http.Problem;
 
 /**
@@ -28,7 +28,7 @@ public final class ImageServlet extends HttpServlet {
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
     private static final long LARGEST = 32L << 20;
 
-    private final transient Users users;
+    private final transient UserCache users;
     private final transient ImageIndex index;
     private final transient List<Path> folders;
     private final transient Consumer<Problem> refused;
@@ -37,7 +37,7 @@ public final class ImageServlet extends HttpServlet {
      * @param folders of stored images; none for no images
      * @param refused is notified of each request that is refused
      */
-    public ImageServlet(Users users, ImageIndex index, List<Path> folders, Consumer<Problem> refused) {
+    public ImageServlet(UserCache users, ImageIndex index, List<Path> folders, Consumer<Problem> refused) {
         this.users = users;
         this.index = index;
         this.folders = folders;
@@ -49,7 +49,7 @@ public final class ImageServlet extends HttpServlet {
         try {
             users.find(Credentials.of(request));
             String path = request.getPathInfo() == null ? "" : request.getPathInfo();
-            StoredImage image = find(path.substring(Math.min(1, path.length())));
+            ImageLocation image = find(path.substring(Math.min(1, path.length())));
             String tag = '"' + image.sha256() + '"';
             response.setHeader("ETag", tag);
             response.setHeader("Cache-Control", "private, max-age=31536000, immutable");
@@ -69,7 +69,7 @@ public final class ImageServlet extends HttpServlet {
         }
     }
 
-    private StoredImage find(String sha256) {
+    private ImageLocation find(String sha256) {
         try {
             return index.find(sha256, TIMEOUT)
                     .orElseThrow(
@@ -80,7 +80,7 @@ public final class ImageServlet extends HttpServlet {
         }
     }
 
-    private byte[] read(StoredImage image) throws IOException {
+    private byte[] read(ImageLocation image) throws IOException {
         Path file = locate(image.location());
         if (Files.size(file) > LARGEST) {
             throw new Problem(

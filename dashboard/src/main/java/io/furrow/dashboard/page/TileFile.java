@@ -75,10 +75,10 @@ public final class TileFile {
         } catch (IOException e) {
             throw new IOException("The file of tiles %s cannot be read (%s).".formatted(file, FileProblem.of(e)), e);
         }
-        boolean known = header.length == HEADER
+        boolean valid = header.length == HEADER
                 && ByteBuffer.wrap(header, 0, MAGIC.length).equals(ByteBuffer.wrap(MAGIC))
                 && header[VERSION_AT] == VERSION;
-        if (!known) {
+        if (!valid) {
             throw new IOException(
                     "%s is no PMTiles file of version 3. 'pmtiles convert' makes one of MBTiles.".formatted(file));
         }

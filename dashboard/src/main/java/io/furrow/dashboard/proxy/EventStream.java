@@ -23,26 +23,26 @@ final class EventStream implements OpenStream, WriteListener, AsyncListener {
     private final String topic;
     private final Credentials credentials;
     private final AsyncContext context;
-    private final Outbox outbox;
+    private final SendQueue queue;
     private final ServletOutputStream out;
     private final long openedAt = System.nanoTime();
     private boolean greeted;
     private boolean pinged;
     private boolean closed;
 
-    EventStream(TopicStreams streams, String topic, Credentials credentials, AsyncContext context, Outbox outbox)
+    EventStream(TopicStreams streams, String topic, Credentials credentials, AsyncContext context, SendQueue queue)
             throws IOException {
         this.streams = streams;
         this.topic = topic;
         this.credentials = credentials;
         this.context = context;
-        this.outbox = outbox;
+        this.queue = queue;
         this.out = context.getResponse().getOutputStream();
     }
 
     @Override
     public void offer(FeedRecord record) {
-        if (!outbox.offer(record)) {
+        if (!queue.offer(record)) {
             LOG.debug("a stream of {} is too slow", topic);
             end(Closing.TOO_SLOW);
         }
@@ -88,7 +88,7 @@ final class EventStream implements OpenStream, WriteListener, AsyncListener {
             }
             boolean wrote = comment();
             while (!closed && out.isReady()) {
-                String frame = outbox.take();
+                String frame = queue.take();
                 if (frame == null) {
                     if (wrote) {
                         out.flush();

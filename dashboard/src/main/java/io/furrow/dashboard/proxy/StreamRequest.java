@@ -44,21 +44,21 @@ record StreamRequest(String topic, Mode mode, boolean prime, Format format) {
      *
      * @param otherwise null if it must be said
      */
-    static long number(HttpServletRequest request, String name, long least, long most, Long otherwise) {
+    static long number(HttpServletRequest request, String name, long minimum, long maximum, Long otherwise) {
         String given = request.getParameter(name);
         if (given == null && otherwise != null) {
             return otherwise;
         }
         try {
             long number = Long.parseLong(given);
-            if (number >= least && number <= most) {
+            if (number >= minimum && number <= maximum) {
                 return number;
             }
         } catch (NumberFormatException e) {
             // as of a number that is too large
         }
         throw new Problem(
-                400, "wrong-parameter", "'%s' must be a whole number from %d to %d".formatted(name, least, most));
+                400, "wrong-parameter", "'%s' must be a whole number from %d to %d".formatted(name, minimum, maximum));
     }
 
     /** The topic that the path ends with. @throws Problem 400 for a name that is none, 403 for a topic that may not be read */

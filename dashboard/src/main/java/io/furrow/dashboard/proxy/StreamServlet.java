@@ -33,11 +33,11 @@ public final class StreamServlet extends HttpServlet {
             response.setHeader("Cache-Control", "no-store");
             AsyncContext context = request.startAsync();
             context.setTimeout(0);
-            Outbox outbox = new Outbox(desired, streams.limits(), streams.counters());
-            EventStream stream = new EventStream(streams, desired.topic(), credentials, context, outbox);
+            SendQueue queue = new SendQueue(desired, streams.limits(), streams.counters());
+            EventStream stream = new EventStream(streams, desired.topic(), credentials, context, queue);
             response.getOutputStream().setWriteListener(stream);
             context.addListener(stream);
-            streams.begin(desired, stream, outbox);
+            streams.begin(desired, stream, queue);
         } catch (Problem problem) {
             streams.counters().refused(problem);
             problem.answer(response);

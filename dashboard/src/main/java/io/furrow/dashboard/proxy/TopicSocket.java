@@ -34,7 +34,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     private final TopicStreams streams;
     private final Tickets.Ticket ticket;
     private final StreamLimits limits;
-    private final Outbox outbox;
+    private final SendQueue queue;
     private final long openedAt = System.nanoTime();
     private volatile User user;
     /** Completes when the stream has begun and the messages before are written: whoever writes at once sees what becomes of it. */
@@ -51,7 +51,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
         this.ticket = ticket;
         this.user = ticket.user();
         this.limits = limits;
-        this.outbox = new Outbox(ticket.request(), limits, streams.counters());
+        this.queue = new SendQueue(ticket.request(), limits, streams.counters());
     }
 
     @Override
@@ -84,12 +84,12 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
             return;
         }
         CompletableFuture<Void> first = written;
-        streams.begin(ticket.request(), this, outbox).thenAccept(first::complete);
+        streams.begin(ticket.request(), this, queue).thenAccept(first::complete);
     }
 
     @Override
     public void offer(FeedRecord record) {
-        if (!outbox.offer(record)) {
+        if (!queue.offer(record)) {
             end(
                     TRY_AGAIN_LATER,
                     "too slow: more than %d records or %d bytes wait"
@@ -107,7 +107,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
             if (closed || sending || session == null) {
                 return;
             }
-            frame = outbox.take();
+            frame = queue.take();
             if (frame == null) {
                 return;
             }
@@ -191,7 +191,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
                 }
                 streams.counters().written();
                 if (ticket.request().format() == StreamRequest.Format.RECORD) {
-                    say(NgsiJson.write(NgsiJson.mapper()
+                    send(NgsiJson.write(NgsiJson.mapper()
                             .createObjectNode()
                             .set(
                                     "written",
@@ -208,7 +208,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
 
     private void refuse(Problem problem) {
         streams.counters().refused(problem);
-        say(problem.json());
+        send(problem.json());
     }
 
     private synchronized void count() {
@@ -226,8 +226,8 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
         }
     }
 
-    private void say(byte[] json) {
-        outbox.note(new String(json, java.nio.charset.StandardCharsets.UTF_8));
+    private void send(byte[] json) {
+        queue.note(new String(json, java.nio.charset.StandardCharsets.UTF_8));
         flush();
     }
 

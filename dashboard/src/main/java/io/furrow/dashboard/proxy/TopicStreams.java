@@ -18,10 +18,10 @@ import org.apache.kafka.common.KafkaException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.dashboard.auth.Users;
+import io.furrow.dashboard.auth.UserCache;
 import io.furrow.dashboard.feed.FeedRecord;
-import io.furrow.dashboard.feed.KnownState;
-import io.furrow.dashboard.feed.KnownStateReader;
+import io.furrow.dashboard.feed.InitialState;
+import io.furrow.dashboard.feed.InitialStateReader;
 import io.furrow.dashboard.feed.StreamCounters;
 import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.feed.TopicFeeds;
@@ -43,9 +43,9 @@ public final class TopicStreams implements AutoCloseable {
     private static final int UNAUTHORIZED = 401;
 
     private final TopicFeeds feeds;
-    private final KnownStateReader known;
+    private final InitialStateReader initialStates;
     private final TopicWriter writer;
-    private final Users users;
+    private final UserCache users;
     private final StreamQuota quota;
     private final Tickets tickets;
     private final TopicRules rules;
@@ -58,9 +58,9 @@ public final class TopicStreams implements AutoCloseable {
     private final ExecutorService beginners = Executors.newFixedThreadPool(BEGINNERS, daemon("streams-begin"));
     private final ExecutorService endings = Executors.newSingleThreadExecutor(daemon("streams-end"));
 
-    public TopicStreams(Properties client, TopicRules rules, StreamLimits limits, Users users) {
+    public TopicStreams(Properties client, TopicRules rules, StreamLimits limits, UserCache users) {
         this.feeds = new TopicFeeds(client, limits, counters);
-        this.known = new KnownStateReader(new KnownState(client, limits, feeds::isCompacted)::read);
+        this.initialStates = new InitialStateReader(new InitialState(client, limits, feeds::isCompacted)::read);
         this.writer = new TopicWriter(client, rules);
         this.users = users;
         this.rules = rules;
@@ -69,7 +69,7 @@ public final class TopicStreams implements AutoCloseable {
         this.tickets = new Tickets(limits, System::nanoTime);
         clock.scheduleWithFixedDelay(
                 () -> streams.forEach(OpenStream::ping), PING_SECONDS, PING_SECONDS, TimeUnit.SECONDS);
-        clock.scheduleWithFixedDelay(this::askAgain, USER_SECONDS, USER_SECONDS, TimeUnit.SECONDS);
+        clock.scheduleWithFixedDelay(this::reauthenticate, USER_SECONDS, USER_SECONDS, TimeUnit.SECONDS);
     }
 
     private static java.util.concurrent.ThreadFactory daemon(String name) {
@@ -112,11 +112,11 @@ public final class TopicStreams implements AutoCloseable {
     }
 
     /** Whether Kafka has answered none of these checks for six seconds. */
-    public boolean isKafkaAway() {
-        return feeds.isKafkaAway();
+    public boolean isKafkaUnavailable() {
+        return feeds.isKafkaUnavailable();
     }
 
-    public Users users() {
+    public UserCache users() {
         return users;
     }
 
@@ -166,7 +166,7 @@ public final class TopicStreams implements AutoCloseable {
      *
      * @return completes when each record that is written from then on goes to the stream; never where it ends before
      */
-    CompletableFuture<Void> begin(StreamRequest request, OpenStream stream, Outbox outbox) {
+    CompletableFuture<Void> begin(StreamRequest request, OpenStream stream, SendQueue queue) {
         CompletableFuture<Void> begun = new CompletableFuture<>();
         if (streams.add(stream) && !(stream instanceof TopicSocket)) {
             counters.opened();
@@ -184,8 +184,9 @@ public final class TopicStreams implements AutoCloseable {
                     }
                     begun.complete(null);
                     if (request.prime()) {
-                        known.read(request.topic())
-                                .whenComplete((records, failure) -> prime(request, stream, outbox, records, failure));
+                        initialStates
+                                .read(request.topic())
+                                .whenComplete((records, failure) -> prime(request, stream, queue, records, failure));
                     }
                 } catch (Problem | KafkaException e) {
                     fail(request, stream, e);
@@ -202,12 +203,12 @@ public final class TopicStreams implements AutoCloseable {
     }
 
     private static void prime(
-            StreamRequest request, OpenStream stream, Outbox outbox, List<FeedRecord> records, Throwable failure) {
+            StreamRequest request, OpenStream stream, SendQueue queue, List<FeedRecord> records, Throwable failure) {
         if (failure != null) {
             fail(request, stream, failure);
             return;
         }
-        outbox.prime(records);
+        queue.prime(records);
         stream.flush();
     }
 
@@ -240,7 +241,7 @@ public final class TopicStreams implements AutoCloseable {
     }
 
     /** A token that was taken back opens no stream, and keeps none; a role that changed counts for open sockets too. */
-    private void askAgain() {
+    private void reauthenticate() {
         for (OpenStream stream : streams) {
             try {
                 stream.refresh(users.find(stream.credentials()));
@@ -249,7 +250,7 @@ public final class TopicStreams implements AutoCloseable {
                     stream.revoke("the proxy is to be asked again who this is; register once more");
                 }
             } catch (Problem e) {
-                if (e.status() == UNAUTHORIZED || e.error().equals(Users.NOT_TAKEN)) {
+                if (e.status() == UNAUTHORIZED || e.error().equals(UserCache.NOT_TAKEN)) {
                     stream.revoke("the token is not valid any more");
                 }
             }
@@ -268,7 +269,7 @@ public final class TopicStreams implements AutoCloseable {
         clock.shutdownNow();
         beginners.shutdownNow();
         endings.shutdownNow();
-        known.close();
+        initialStates.close();
         try {
             beginners.awaitTermination(Duration.ofSeconds(2).toMillis(), TimeUnit.MILLISECONDS);
         } catch (InterruptedException e) {

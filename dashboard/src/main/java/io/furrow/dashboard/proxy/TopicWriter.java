@@ -14,8 +14,8 @@ import org.apache.kafka.clients.producer.RecordMetadata;
 import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
-import io.furrow.dashboard.auth.Role;
 import io.furrow.dashboard.auth.User;
+import io.furrow.dashboard.auth.UserRole;
 import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.http.Problem;
 import io.furrow.model.control.AdminCommands;
@@ -52,10 +52,10 @@ final class TopicWriter implements AutoCloseable {
                     "topic-not-allowed",
                     "topic '%s' is not among those that may be written; --writable-topics names them".formatted(topic));
         }
-        check(user, Role.OPERATOR);
+        check(user, UserRole.OPERATOR);
         ObjectNode json = read(message);
         if (AdminCommands.contains(topic, json.path("command").asText())) {
-            check(user, Role.ADMIN);
+            check(user, UserRole.ADMIN);
         }
         json.put("user", user.name()); // nobody speaks for another
         JsonNode id = json.path("requestId");
@@ -75,13 +75,13 @@ final class TopicWriter implements AutoCloseable {
         return written;
     }
 
-    private static void check(User user, Role least) {
-        if (!user.role().includes(least)) {
+    private static void check(User user, UserRole minimum) {
+        if (!user.role().includes(minimum)) {
             throw new Problem(
                     403,
                     "forbidden",
                     "this needs the role %s, and '%s' is %s"
-                            .formatted(least.word(), user.name(), user.role().word()));
+                            .formatted(minimum.code(), user.name(), user.role().code()));
         }
     }
 

@@ -23,10 +23,10 @@ public final class StatusPages extends Handler.Abstract {
     public static final String READY = "/ready";
     public static final String METRICS = "/metrics";
 
-    private final Surroundings surroundings;
+    private final BackendHealth surroundings;
     private final StreamMetrics metrics;
 
-    public StatusPages(Surroundings surroundings, TopicStreams streams) {
+    public StatusPages(BackendHealth surroundings, TopicStreams streams) {
         this.surroundings = surroundings;
         this.metrics = new StreamMetrics(streams);
     }

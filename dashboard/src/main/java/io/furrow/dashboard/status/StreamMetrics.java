@@ -34,7 +34,7 @@ final class StreamMetrics {
         int sockets = streams.sockets();
         CounterSnapshot.Builder closed = counter("streams_closed", "Streams that are over, by why.");
         for (StreamCounters.Closing reason : StreamCounters.Closing.values()) {
-            closed.dataPoint(point(Labels.of(REASON, reason.word()), counters.streamsClosed(reason)));
+            closed.dataPoint(point(Labels.of(REASON, reason.code()), counters.streamsClosed(reason)));
         }
         CounterSnapshot.Builder refused = counter(
                 "refused",

@@ -42,7 +42,7 @@ class AddressRangeTest {
                 "1.2.3.4.5",
                 "::1/129"
             })
-    void refusesNamesAndWhatIsNoAddress(String text) {
+    void rejectsNamesAndWhatIsNoAddress(String text) {
         assertThatThrownBy(() -> AddressRange.parse(text))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContaining("no address");

@@ -136,7 +136,7 @@ class TopicHistoryIT {
     }
 
     @Test
-    void leavesOutTheOldestOfTooManyAndSaysSinceWhenAllIsThere() throws Exception {
+    void leavesOutTheOldestOfTooManyAndReportsSinceWhenAllIsThere() throws Exception {
         topic("data.many", 1);
         for (int n = 0; n < 100; n++) {
             send("data.many", 0, n, "{\"n\":%d,\"filler\":\"%s\"}".formatted(n, "x".repeat(1_000)));
@@ -174,7 +174,7 @@ class TopicHistoryIT {
     }
 
     @Test
-    void saysSinceWhenTheTopicHoldsSomething() throws Exception {
+    void reportsSinceWhenTheTopicHoldsSomething() throws Exception {
         topic("data.short", 1);
         for (int n = 0; n < 10; n++) {
             send("data.short", 0, n * 1_000L, "{\"n\":%d}".formatted(n));

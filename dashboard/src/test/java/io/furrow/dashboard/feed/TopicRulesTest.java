@@ -38,7 +38,7 @@ class TopicRulesTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"", "a b", "a/b", "data.[a-z]"})
-    void refusesWhatNamesNoTopics(String pattern) {
+    void rejectsWhatNamesNoTopics(String pattern) {
         assertThatThrownBy(() -> new TopicRules(List.of(pattern), List.of()))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContaining("'" + pattern + "' names no topics");

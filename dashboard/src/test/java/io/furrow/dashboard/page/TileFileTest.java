@@ -48,7 +48,7 @@ class TileFileTest {
         void at(URI uri) throws Exception;
     }
 
-    private void serving(Path file, Asked asked) throws Exception {
+    private void serving(Path file, Asked test) throws Exception {
         Server server = new Server();
         ServerConnector connector = new ServerConnector(server);
         connector.setHost("127.0.0.1");
@@ -58,7 +58,7 @@ class TileFileTest {
         server.setHandler(paths);
         server.start();
         try {
-            asked.at(URI.create("http://127.0.0.1:" + connector.getLocalPort()));
+            test.at(URI.create("http://127.0.0.1:" + connector.getLocalPort()));
         } finally {
             server.stop();
         }
@@ -74,7 +74,7 @@ class TileFileTest {
     }
 
     @Test
-    void givesTheRangesThatAreAskedFor() throws Exception {
+    void givesTheRangesThatAreRequested() throws Exception {
         Path file = file("PMTiles", 3, GZIP, PNG);
         byte[] all = Files.readAllBytes(file);
         serving(file, uri -> {
@@ -129,14 +129,14 @@ class TileFileTest {
             PMTiles | 3 | 2 | 6 | does not say that its tiles are PNG
             PMTiles | 3 | 4 | 2 | is compressed in a way
             """)
-    void refusesWhatThePageCannotDraw(String magic, int version, int compression, int type, String why) {
+    void rejectsWhatThePageCannotDraw(String magic, int version, int compression, int type, String why) {
         assertThatThrownBy(() -> TileFile.handler(file(magic, version, compression, type)))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("tiles.pmtiles " + why);
     }
 
     @Test
-    void refusesAFileThatIsNotThereOrHasNoHeader() throws Exception {
+    void rejectsAFileThatIsNotThereOrHasNoHeader() throws Exception {
         assertThatThrownBy(() -> TileFile.handler(directory.resolve("missing")))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("There is no file of tiles")

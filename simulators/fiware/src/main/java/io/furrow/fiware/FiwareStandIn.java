@@ -10,8 +10,8 @@ import io.furrow.fiware.agent.DeviceRegistry;
 import io.furrow.fiware.agent.IotAgent;
 import io.furrow.fiware.agent.IotAgentApi;
 import io.furrow.fiware.agent.MeasureHistory;
-import io.furrow.fiware.agent.MqttLink;
-import io.furrow.fiware.api.ContextBrokerApi;
+import io.furrow.fiware.agent.MqttBridge;
+import io.furrow.fiware.api.NgsiV2Api;
 import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.Notifier;
 import io.furrow.fiware.http.LoopbackServer;
@@ -56,7 +56,7 @@ public final class FiwareStandIn implements AutoCloseable {
         boolean complete = false;
         try {
             if (settings.state() != null) {
-                KeptState state = new KeptState(broker, registry, revision);
+                StateCodec state = new StateCodec(broker, registry, revision);
                 started.push(PersistentState.open(settings.state(), state, revision)::close);
             }
             notifier.start();
@@ -65,16 +65,16 @@ public final class FiwareStandIn implements AutoCloseable {
                     "context-broker",
                     settings.contextBrokerPort(),
                     settings.allowed(),
-                    new ContextBrokerApi(broker, notifier));
+                    new NgsiV2Api(broker, notifier));
             started.push(contextBroker::close);
             iotAgent = LoopbackServer.start(
                     "iot-agent", settings.iotAgentPort(), settings.allowed(), new IotAgentApi(registry));
             started.push(iotAgent::close);
             if (settings.mqttBroker() != null) {
-                MqttLink link =
-                        MqttLink.open(settings.mqttBroker(), settings.mqttUser(), settings.mqttPassword(), agent);
-                started.push(link::close);
-                agent.connect(link);
+                MqttBridge bridge =
+                        MqttBridge.open(settings.mqttBroker(), settings.mqttUser(), settings.mqttPassword(), agent);
+                started.push(bridge::close);
+                agent.connect(bridge);
             }
             complete = true;
         } finally {

@@ -58,7 +58,7 @@ final class PersistentState implements AutoCloseable {
             .build();
 
     private final Path file;
-    private final KeptState state;
+    private final StateCodec state;
     private final AtomicLong revision;
     private final ScheduledExecutorService writer = Executors.newSingleThreadScheduledExecutor(PersistentState::thread);
     private long saved;
@@ -71,7 +71,7 @@ final class PersistentState implements AutoCloseable {
      * @throws IllegalStateException if the file is damaged
      * @throws UncheckedIOException if it cannot be read
      */
-    static PersistentState open(Path path, KeptState state, AtomicLong revision) {
+    static PersistentState open(Path path, StateCodec state, AtomicLong revision) {
         Path file = path.toAbsolutePath();
         try {
             if (Files.exists(file)) {
@@ -95,7 +95,7 @@ final class PersistentState implements AutoCloseable {
         return new PersistentState(file, state, revision);
     }
 
-    private PersistentState(Path file, KeptState state, AtomicLong revision) {
+    private PersistentState(Path file, StateCodec state, AtomicLong revision) {
         this.file = file;
         this.state = state;
         this.revision = revision;
@@ -103,7 +103,7 @@ final class PersistentState implements AutoCloseable {
         writer.scheduleWithFixedDelay(this::save, INTERVAL.toMillis(), INTERVAL.toMillis(), TimeUnit.MILLISECONDS);
     }
 
-    private static void read(Path file, KeptState state) throws IOException, NgsiError {
+    private static void read(Path file, StateCodec state) throws IOException, NgsiError {
         try (InputStream in = new GZIPInputStream(Files.newInputStream(file), BUFFER);
                 JsonParser parser = DEEPER.createParser(in);
                 MappingIterator<JsonNode> lines =

@@ -28,15 +28,15 @@ final class ExchangeClient {
         this.brokerOfAgent = brokerOfAgent;
     }
 
-    Map<RecordedExchange, Answer> askAll() throws IOException, InterruptedException {
+    Map<RecordedExchange, Answer> sendAll() throws IOException, InterruptedException {
         Map<RecordedExchange, Answer> answers = new LinkedHashMap<>();
         for (RecordedExchange exchange : RecordedExchange.all()) {
-            answers.put(exchange, ask(exchange));
+            answers.put(exchange, send(exchange));
         }
         return answers;
     }
 
-    private Answer ask(RecordedExchange exchange) throws IOException, InterruptedException {
+    private Answer send(RecordedExchange exchange) throws IOException, InterruptedException {
         URI base = exchange.isForContextBroker() ? contextBroker : iotAgent;
         String path = exchange.path().replace("SUB", subscription).replace(">", "%3E");
         String body = exchange.body().replace("\"CB\"", "\"" + brokerOfAgent + "\"");

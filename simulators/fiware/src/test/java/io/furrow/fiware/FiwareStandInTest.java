@@ -43,7 +43,7 @@ class FiwareStandInTest {
     }
 
     @Test
-    void saysWhichPortIsTakenAndStartsNothing() {
+    void reportsWhichPortIsTakenAndStartsNothing() {
         try (FiwareStandIn first = FiwareStandIn.start(FiwareSettings.httpOnly())) {
             Set<Thread> before = Thread.getAllStackTraces().keySet();
             int taken = first.contextBroker().getPort();
@@ -57,7 +57,7 @@ class FiwareStandInTest {
     }
 
     @Test
-    void saysThatTheMqttBrokerIsNotThere() {
+    void reportsThatTheMqttBrokerIsNotThere() {
         URI nobody = URI.create("tcp://127.0.0.1:1");
 
         assertThatThrownBy(() -> FiwareStandIn.start(new FiwareSettings(0, 0, nobody, null, null)))
@@ -66,7 +66,7 @@ class FiwareStandInTest {
     }
 
     @Test
-    void keepsThePasswordOutOfItsText() {
+    void excludesThePasswordFromItsText() {
         assertThat(new FiwareSettings(0, 0, null, "agent", "secret").toString())
                 .contains("agent")
                 .doesNotContain("secret");

@@ -56,7 +56,7 @@ class RealFiwareIT {
             agent.start();
             Map<RecordedExchange, Answer> answers = new ExchangeClient(
                             at(orion, BROKER), at(agent, AGENT), URI.create("http://orion:" + BROKER))
-                    .askAll();
+                    .sendAll();
             return answers.entrySet().stream()
                     .map(asked -> DynamicTest.dynamicTest(
                             asked.getKey().toString(),

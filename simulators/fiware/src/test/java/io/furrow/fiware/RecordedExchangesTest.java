@@ -27,7 +27,7 @@ class RecordedExchangesTest {
     Stream<DynamicTest> answersAsRecorded() throws Exception {
         Map<Integer, Set<String>> named = RecordedExchange.namedDifferences();
         Map<RecordedExchange, Answer> answers =
-                new ExchangeClient(standIn.contextBroker(), standIn.iotAgent(), standIn.contextBroker()).askAll();
+                new ExchangeClient(standIn.contextBroker(), standIn.iotAgent(), standIn.contextBroker()).sendAll();
         List<DynamicTest> tests = new ArrayList<>();
         answers.forEach((exchange, answer) -> tests.add(DynamicTest.dynamicTest(
                 exchange.toString(),

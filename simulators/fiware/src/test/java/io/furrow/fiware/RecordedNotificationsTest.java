@@ -28,7 +28,7 @@ class RecordedNotificationsTest {
     private static final int SUBSCRIPTIONS = 7;
 
     private final SettableClock clock = new SettableClock();
-    private final Receiver receiver = new Receiver();
+    private final NotificationReceiver receiver = new NotificationReceiver();
     private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly(), clock);
     private final Client client = Client.of(standIn.contextBroker());
 
@@ -129,10 +129,11 @@ class RecordedNotificationsTest {
         List<String> head = Arrays.asList(parts[0].split("\n"));
         Map<String, String> expected = new TreeMap<>(String.CASE_INSENSITIVE_ORDER);
         head.stream().skip(1).map(line -> line.split(": ", 2)).forEach(header -> expected.put(header[0], header[1]));
-        List<Receiver.Received> found = receiver.at(head.get(0).split(" ")[1]);
+        List<NotificationReceiver.ReceivedNotification> found =
+                receiver.at(head.get(0).split(" ")[1]);
 
         assertThat(found).as(file.toString()).hasSize(1);
-        Receiver.Received notification = found.get(0);
+        NotificationReceiver.ReceivedNotification notification = found.get(0);
         assertThat(withoutId(notification.body())).isEqualTo(withoutId(parts[1].strip()));
         assertThat(notification.headers().keySet()).containsExactlyElementsOf(expected.keySet());
         for (String name : List.of(

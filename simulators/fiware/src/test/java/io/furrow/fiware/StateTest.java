@@ -49,7 +49,7 @@ class StateTest {
     }
 
     @Test
-    void keepsEntitiesWithTheirDatesTheirMetadataAndTheirOrder() {
+    void retainsEntitiesWithTheirDatesTheirMetadataAndTheirOrder() {
         String before;
         try (FiwareStandIn first = start()) {
             Client broker = Client.of(first.contextBroker());
@@ -71,8 +71,8 @@ class StateTest {
     }
 
     @Test
-    void tellsAChangeFromARepetitionAcrossARestart() {
-        try (Receiver receiver = new Receiver()) {
+    void distinguishesAChangeFromARepetitionAcrossARestart() {
+        try (NotificationReceiver receiver = new NotificationReceiver()) {
             try (FiwareStandIn first = start()) {
                 Client.of(first.contextBroker()).post("/v2/entities", T1);
             }
@@ -97,8 +97,8 @@ class StateTest {
     }
 
     @Test
-    void keepsSubscriptionsWithTheirIdsAndCounters() {
-        try (Receiver receiver = new Receiver()) {
+    void retainsSubscriptionsWithTheirIdsAndCounters() {
+        try (NotificationReceiver receiver = new NotificationReceiver()) {
             String before;
             try (FiwareStandIn first = start()) {
                 Client broker = Client.of(first.contextBroker());
@@ -134,7 +134,7 @@ class StateTest {
     }
 
     @Test
-    void keepsGroupsAndDevicesAndWhatADeviceGotFromAGroupThatIsGone() {
+    void retainsGroupsAndDevicesAndWhatADeviceGotFromAGroupThatIsGone() {
         String devices;
         String groups;
         try (FiwareStandIn first = start()) {
@@ -215,7 +215,7 @@ class StateTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"half", "one byte differs", "empty", "no gzip", "other version", "no end", "unknown line"})
-    void refusesADamagedFile(String damage) throws IOException {
+    void rejectsADamagedFile(String damage) throws IOException {
         try (FiwareStandIn first = start()) {
             Client.of(first.contextBroker()).post("/v2/entities", T1);
         }

@@ -21,7 +21,7 @@ import static org.awaitility.Awaitility.await;
 
 /** What a client may ask of a subscription, and what it is notified of its life. */
 class SubscriptionOptionsTest {
-    private final Receiver receiver = new Receiver();
+    private final NotificationReceiver receiver = new NotificationReceiver();
     private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
     private final Client client = Client.of(standIn.contextBroker());
 
@@ -42,7 +42,7 @@ class SubscriptionOptionsTest {
                 "\"entityDelete\"                 | 4",
                 "\"entityCreate\",\"entityDelete\" | 1 4",
             })
-    void notifiesTheAlterationsThatAreAskedFor(String types, String steps) {
+    void notifiesTheAlterationsThatAreRequested(String types, String steps) {
         String condition = types.isEmpty() ? "{}" : "{\"alterationTypes\": [" + types + "]}";
         subscribe(condition, "\"attrs\": [\"step\", \"alterationType\"]", http("/asked"));
         subscribe("{\"alterationTypes\": [\"entityDelete\"]}", "\"attrs\": []", http("/end"));
@@ -102,7 +102,7 @@ class SubscriptionOptionsTest {
     }
 
     @Test
-    void countsFailuresUntilASuccessAndTellsTheirReason() throws IOException {
+    void countsFailuresUntilASuccessAndReportsTheirReason() throws IOException {
         int port = closedPort();
         String location = subscribe("{}", "\"attrs\": []", "\"http\": {\"url\": \"http://127.0.0.1:" + port + "/\"}");
         client.post("/v2/entities", "{\"id\": \"P\", \"type\": \"Probe\"}");
@@ -162,7 +162,7 @@ class SubscriptionOptionsTest {
 
     @ParameterizedTest
     @EnumSource(Connections.class)
-    void keepsConnectionsOrMakesANewOneForEachNotification(Connections connections) {
+    void reusesConnectionsOrMakesANewOneForEachNotification(Connections connections) {
         try (FiwareStandIn other = FiwareStandIn.start(FiwareSettings.httpOnly().withConnections(connections))) {
             Client there = Client.of(other.contextBroker());
             there.post("/v2/subscriptions", """
@@ -176,7 +176,9 @@ class SubscriptionOptionsTest {
             }
         }
 
-        assertThat(receiver.received().stream().map(Receiver.Received::sender).distinct())
+        assertThat(receiver.received().stream()
+                        .map(NotificationReceiver.ReceivedNotification::sender)
+                        .distinct())
                 .hasSize(connections == Connections.TRANSIENT ? 5 : 1);
         assertThat(receiver.received())
                 .allSatisfy(one -> assertThat(one.headers()).doesNotContainKey("Connection"));
@@ -206,7 +208,7 @@ class SubscriptionOptionsTest {
     }
 
     /** The number of the step; a deletion is the fourth, an update without a change the second. */
-    private static String step(Receiver.Received one) {
+    private static String step(NotificationReceiver.ReceivedNotification one) {
         JsonNode entity = one.json().path("data").get(0);
         return switch (entity.path("alterationType").path("value").asText()) {
             case "entityDelete" -> "4";

@@ -7,29 +7,29 @@ import picocli.CommandLine.Model.CommandSpec;
 
 import io.furrow.cli.command.CatalogCommand;
 import io.furrow.cli.command.DeadLettersCommand;
-import io.furrow.cli.command.FieldsCommand;
+import io.furrow.cli.command.FieldsCommandGroup;
 import io.furrow.cli.command.ImagesCommand;
-import io.furrow.cli.command.MissionCommand;
-import io.furrow.cli.control.AlarmCommand;
-import io.furrow.cli.control.DeviceCommand;
-import io.furrow.cli.control.DomainCommand;
-import io.furrow.cli.control.ReplayCommand;
-import io.furrow.cli.control.TemplateCommand;
+import io.furrow.cli.command.MissionCommandGroup;
+import io.furrow.cli.control.AlarmCommandGroup;
+import io.furrow.cli.control.DeviceCommandGroup;
+import io.furrow.cli.control.DomainCommandGroup;
+import io.furrow.cli.control.ReplayCommandGroup;
+import io.furrow.cli.control.TemplateCommandGroup;
 import io.furrow.cli.option.CommandException;
 import io.furrow.flink.job.JobCommandLine;
 
 /** The commands that start nothing: they use the control plane, Kafka and stored missions wherever these run. */
 public final class Commands {
     private static final List<Class<?>> ALL = List.of(
-            DomainCommand.class,
-            MissionCommand.class,
-            TemplateCommand.class,
-            DeviceCommand.class,
-            AlarmCommand.class,
-            ReplayCommand.class,
+            DomainCommandGroup.class,
+            MissionCommandGroup.class,
+            TemplateCommandGroup.class,
+            DeviceCommandGroup.class,
+            AlarmCommandGroup.class,
+            ReplayCommandGroup.class,
             ImagesCommand.class,
             CatalogCommand.class,
-            FieldsCommand.class,
+            FieldsCommandGroup.class,
             DeadLettersCommand.class);
 
     private Commands() {}

@@ -54,7 +54,7 @@ class CatalogIT {
 
     @Test
     void showsTheNewestOfEachEntryAndNothingWhereThereIsNothing() throws Exception {
-        assertThat(said("catalog", "--kafka", kafka.bootstrapServers())).startsWith("Nothing is stored yet.");
+        assertThat(output("catalog", "--kafka", kafka.bootstrapServers())).startsWith("Nothing is stored yet.");
 
         write("farm|north|weeding|Thermometer", "weeding", 1);
         write("farm|north|sowing|Camera", "sowing", 5);
@@ -69,7 +69,7 @@ class CatalogIT {
                 .containsExactly("sowing 5", "weeding 2");
         assertThat(json("catalog", "--kafka", kafka.bootstrapServers(), "--output", "json", "--mission", "weeding"))
                 .hasSize(1);
-        assertThat(said("catalog", "--kafka", kafka.bootstrapServers()).lines())
+        assertThat(output("catalog", "--kafka", kafka.bootstrapServers()).lines())
                 .anyMatch(line -> line.startsWith("north / weeding"));
     }
 
@@ -93,7 +93,8 @@ class CatalogIT {
                 "catalog", "--kafka", kafka.bootstrapServers(), "--mongo", mongo.uri(), "--images", root.toString()
             };
 
-            JsonNode all = NgsiJson.read(said(with(command, "--output", "json")).getBytes(UTF_8));
+            JsonNode all =
+                    NgsiJson.read(output(with(command, "--output", "json")).getBytes(UTF_8));
             assertThat(all.path("missions")).singleElement().satisfies(mission -> {
                 assertThat(mission.path("mission").asText()).isEqualTo("weeding");
                 assertThat(mission.path("collection").asText()).isEqualTo("mission_weeding");
@@ -107,7 +108,7 @@ class CatalogIT {
             assertThat(all.path("images").toString())
                     .isEqualTo(
                             "[{\"domain\":\"north\",\"mission\":\"weeding\",\"entities\":1,\"images\":2,\"bytes\":2000}]");
-            assertThat(said(command).lines())
+            assertThat(output(command).lines())
                     .anyMatch(line -> line.matches("weeding +2 +.*2023-11-14T22:13:20Z +2023-11-14T22:14:20Z +– .*"))
                     .anyMatch(line -> line.matches("north / weeding +1 +2 +2.0 kB"));
 
@@ -115,19 +116,19 @@ class CatalogIT {
             Files.delete(image);
             Files.delete(image.resolveSibling("cam-1_20231114221321123.jpg"));
             JsonNode after =
-                    NgsiJson.read(said(with(command, "--output", "json")).getBytes(UTF_8));
+                    NgsiJson.read(output(with(command, "--output", "json")).getBytes(UTF_8));
             assertThat(after.path("missions")).isEmpty();
             assertThat(after.path("images")).isEmpty();
         }
     }
 
     @Test
-    void saysWhatOfTheStoresDoesNotAnswer() {
+    void reportsWhatOfTheStoresDoesNotAnswer() {
         String[] kafkaOnly = {"catalog", "--kafka", kafka.bootstrapServers()};
         String nobody = "mongodb://127.0.0.1:" + FreePort.orFree(0) + "/?serverSelectionTimeoutMS=500";
 
-        assertThat(said(with(kafkaOnly, "--mongo", nobody))).contains("Check that it runs, and --mongo.");
-        assertThat(said(with(kafkaOnly, "--images", folder.resolve("nothing").toString())))
+        assertThat(output(with(kafkaOnly, "--mongo", nobody))).contains("Check that it runs, and --mongo.");
+        assertThat(output(with(kafkaOnly, "--images", folder.resolve("nothing").toString())))
                 .contains("is not there; name the folder of --images");
     }
 
@@ -136,8 +137,8 @@ class CatalogIT {
     }
 
     @Test
-    void saysThatKafkaDoesNotAnswer() {
-        assertThat(said("catalog", "--kafka", "127.0.0.1:" + FreePort.orFree(0)))
+    void reportsThatKafkaDoesNotAnswer() {
+        assertThat(output("catalog", "--kafka", "127.0.0.1:" + FreePort.orFree(0)))
                 .contains("cannot be read")
                 .contains("Check the address given with --kafka");
     }
@@ -158,15 +159,15 @@ class CatalogIT {
 
     private static List<JsonNode> json(String... args) throws Exception {
         List<JsonNode> entries = new ArrayList<>();
-        NgsiJson.read(said(args).getBytes(UTF_8)).path("types").forEach(entries::add);
+        NgsiJson.read(output(args).getBytes(UTF_8)).path("types").forEach(entries::add);
         return entries;
     }
 
-    private static String said(String... args) {
-        StringWriter said = new StringWriter();
+    private static String output(String... args) {
+        StringWriter output = new StringWriter();
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
-        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+        line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
         line.execute(args);
-        return said.toString();
+        return output.toString();
     }
 }

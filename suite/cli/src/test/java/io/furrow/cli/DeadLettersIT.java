@@ -57,8 +57,8 @@ class DeadLettersIT {
     @Test
     void bringsEachLetterBackOnceAsItWas() {
         byte[] original = {'{', (byte) 0xff};
-        letter("once.dead", "robot", original, Reason.NOT_JSON, "cut off", Map.of("trace", "7"));
-        letter("once.dead", null, null, Reason.NOT_AN_EVENT, "empty", Map.of());
+        deadLetter("once.dead", "robot", original, Reason.NOT_JSON, "cut off", Map.of("trace", "7"));
+        deadLetter("once.dead", null, null, Reason.NOT_AN_EVENT, "empty", Map.of());
 
         assertThat(redrive("--topic", "once.dead"))
                 .isEqualTo("sent 2 dead letters from once.dead to once: 1 not-an-event, 1 not-json");
@@ -83,7 +83,7 @@ class DeadLettersIT {
     @Tag("full")
     @Test
     void countsThemOnlyInADryRun() {
-        letter("dry.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
+        deadLetter("dry.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
 
         assertThat(redrive("--topic", "dry.dead", "--dry-run"))
                 .isEqualTo("would send 1 dead letter from dry.dead to dry: 1 not-json");
@@ -94,10 +94,10 @@ class DeadLettersIT {
 
     @Tag("full")
     @Test
-    void leavesWhatWasNotAskedForOrIsNoLongerWhole() {
-        letter("some.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
-        letter("some.dead", "k", new byte[] {2}, Reason.NOT_AN_ENTITY, "why", Map.of());
-        letter("some.dead", "k", new byte[] {3}, Reason.NOT_JSON, "why (truncated to 1 bytes)", Map.of());
+    void leavesWhatWasNotRequestedOrIsNoLongerWhole() {
+        deadLetter("some.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
+        deadLetter("some.dead", "k", new byte[] {2}, Reason.NOT_AN_ENTITY, "why", Map.of());
+        deadLetter("some.dead", "k", new byte[] {3}, Reason.NOT_JSON, "why (truncated to 1 bytes)", Map.of());
 
         assertThat(redrive("--topic", "some.dead", "--to", "elsewhere", "--reason", "not-json"))
                 .isEqualTo("sent 1 dead letter from some.dead to elsewhere: 1 not-json\n"
@@ -108,9 +108,9 @@ class DeadLettersIT {
     /** The last one is the first to be brought: what was left before it is not taken for brought. */
     @Tag("full")
     @Test
-    void saysAgainWhatItLeftBeforeALetterThatItBrought() {
-        letter("left.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why (truncated to 1 bytes)", Map.of());
-        letter("left.dead", "k", new byte[] {2}, Reason.NOT_JSON, "why", Map.of());
+    void reportsAgainWhatItLeftBeforeALetterThatItBrought() {
+        deadLetter("left.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why (truncated to 1 bytes)", Map.of());
+        deadLetter("left.dead", "k", new byte[] {2}, Reason.NOT_JSON, "why", Map.of());
 
         assertThat(redrive("--topic", "left.dead"))
                 .isEqualTo("sent 1 dead letter from left.dead to left: 1 not-json\nleft where they are: 1 truncated");
@@ -120,8 +120,8 @@ class DeadLettersIT {
 
     @Tag("full")
     @Test
-    void bringsThemAgainWhereAskedTo() {
-        letter("again.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
+    void bringsThemAgainWhereConfigured() {
+        deadLetter("again.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
         redrive("--topic", "again.dead");
 
         assertThat(redrive("--topic", "again.dead", "--again")).startsWith("sent 1 ");
@@ -130,15 +130,15 @@ class DeadLettersIT {
 
     @Tag("full")
     @Test
-    void bringsEachBackOnceWhicheverReasonsAreAskedForTogether() {
-        letter("kinds.dead", "a", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
-        letter("kinds.dead", "b", new byte[] {2}, Reason.TOO_LARGE, "why", Map.of());
-        letter("kinds.dead", "c", new byte[] {3}, Reason.NOT_AN_ENTITY, "why", Map.of());
+    void bringsEachBackOnceWhicheverReasonsAreRequestedTogether() {
+        deadLetter("kinds.dead", "a", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
+        deadLetter("kinds.dead", "b", new byte[] {2}, Reason.TOO_LARGE, "why", Map.of());
+        deadLetter("kinds.dead", "c", new byte[] {3}, Reason.NOT_AN_ENTITY, "why", Map.of());
 
         assertThat(redrive("--topic", "kinds.dead", "--reason", "not-json")).startsWith("sent 1 ");
         assertThat(redrive("--topic", "kinds.dead", "--reason", "too-large,not-json"))
                 .contains("sent 1 dead letter from kinds.dead to kinds: 1 too-large");
-        letter("kinds.dead", "d", new byte[] {4}, Reason.NOT_JSON, "why", Map.of());
+        deadLetter("kinds.dead", "d", new byte[] {4}, Reason.NOT_JSON, "why", Map.of());
         assertThat(redrive("--topic", "kinds.dead"))
                 .isEqualTo("sent 2 dead letters from kinds.dead to kinds: 1 not-an-entity, 1 not-json");
         assertThat(redrive("--topic", "kinds.dead", "--reason", "not-json")).startsWith("sent 0 ");
@@ -151,7 +151,7 @@ class DeadLettersIT {
     @Tag("full")
     @Test
     void remembersEachTargetByItself() {
-        letter("two.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
+        deadLetter("two.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
 
         assertThat(redrive("--topic", "two.dead", "--to", "first")).startsWith("sent 1 ");
         assertThat(redrive("--topic", "two.dead", "--to", "second")).startsWith("sent 1 ");
@@ -161,9 +161,9 @@ class DeadLettersIT {
     @Tag("full")
     @Test
     void leavesLettersWhoseEventWentOnUnlessTheirStageIsNamed() {
-        letterOf("ingest-images", "went.dead", 1, Reason.NOT_AN_IMAGE);
-        letterOf("missions", "went.dead", 2, Reason.REFUSED);
-        letterOf("ingest", "went.dead", 3, Reason.NOT_JSON);
+        deadLetterOf("ingest-images", "went.dead", 1, Reason.NOT_AN_IMAGE);
+        deadLetterOf("missions", "went.dead", 2, Reason.REFUSED);
+        deadLetterOf("ingest", "went.dead", 3, Reason.NOT_JSON);
 
         assertThat(redrive("--topic", "went.dead"))
                 .isEqualTo("sent 1 dead letter from went.dead to went: 1 not-json\n"
@@ -181,7 +181,7 @@ class DeadLettersIT {
     void bringsBackTheWholeOfWhatALetterStandsFor() {
         byte[] whole = new byte[2_000_000];
         whole[whole.length - 1] = 7;
-        letter("large", "other", new byte[] {1}, Map.of());
+        deadLetter("large", "other", new byte[] {1}, Map.of());
         Original place = place("large", "robot", whole, Map.of("trace", "7"));
         standIn("large.dead", "robot", place);
         standIn("large.dead", "another", place);
@@ -200,26 +200,27 @@ class DeadLettersIT {
 
     @Tag("full")
     @Test
-    void saysWhatIsMissing() {
+    void reportsWhatIsMissing() {
         assertThat(redrive("--topic", "nowhere.dead")).contains("there is no topic nowhere.dead");
         assertThat(redrive("--topic", "data.raw")).contains("--to");
     }
 
     private static String redrive(String... options) {
-        List<String> words = new ArrayList<>(List.of("dead-letters", "redrive", "--kafka", kafka.bootstrapServers()));
-        words.addAll(List.of(options));
-        StringWriter said = new StringWriter();
-        PrintWriter printer = new PrintWriter(said, true);
+        List<String> arguments =
+                new ArrayList<>(List.of("dead-letters", "redrive", "--kafka", kafka.bootstrapServers()));
+        arguments.addAll(List.of(options));
+        StringWriter output = new StringWriter();
+        PrintWriter printer = new PrintWriter(output, true);
         Commands.commandLine(CommandSpec.create().name("furrow"))
                 .setOut(printer)
                 .setErr(printer)
-                .execute(words.toArray(String[]::new));
-        return said.toString().strip();
+                .execute(arguments.toArray(String[]::new));
+        return output.toString().strip();
     }
 
     /** Where the record is afterwards. */
     private static Original place(String topic, String key, byte[] value, Map<String, String> headers) {
-        letter(topic, key, value, headers);
+        deadLetter(topic, key, value, headers);
         return recordsOf(topic).stream()
                 .filter(record -> Arrays.equals(record.value(), value))
                 .map(record -> new Original(topic, record.partition(), record.offset(), value.length))
@@ -228,21 +229,21 @@ class DeadLettersIT {
     }
 
     private static void standIn(String topic, String key, Original original) {
-        letter(topic, key, new byte[] {0}, Reason.NOT_JSON, "why", original.headers());
+        deadLetter(topic, key, new byte[] {0}, Reason.NOT_JSON, "why", original.headers());
     }
 
-    private static void letterOf(String stage, String topic, int value, Reason reason) {
-        letter(topic, "k", new byte[] {(byte) value}, new DeadLetter(reason, "why", stage, "t-0@0").headers());
+    private static void deadLetterOf(String stage, String topic, int value, Reason reason) {
+        deadLetter(topic, "k", new byte[] {(byte) value}, new DeadLetter(reason, "why", stage, "t-0@0").headers());
     }
 
-    private static void letter(
+    private static void deadLetter(
             String topic, String key, byte[] value, Reason reason, String message, Map<String, String> own) {
         Map<String, String> headers = new TreeMap<>(own);
         headers.putAll(new DeadLetter(reason, message, "test", "t-0@0").headers());
-        letter(topic, key, value, headers);
+        deadLetter(topic, key, value, headers);
     }
 
-    private static void letter(String topic, String key, byte[] value, Map<String, String> headers) {
+    private static void deadLetter(String topic, String key, byte[] value, Map<String, String> headers) {
         byte[] keyBytes = key == null ? null : key.getBytes(StandardCharsets.UTF_8);
         ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, TIME, keyBytes, value);
         headers.forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));

@@ -84,8 +84,9 @@ class MissionExportTest {
 
     private Path exported(EmbeddedMongo mongo, String name, String... options) {
         Path file = folder.resolve(name);
-        String[] words = {"mission", "export", "--mongo", mongo.uri(), "hoeing", file.toString()};
-        String[] all = java.util.stream.Stream.concat(java.util.Arrays.stream(words), java.util.Arrays.stream(options))
+        String[] arguments = {"mission", "export", "--mongo", mongo.uri(), "hoeing", file.toString()};
+        String[] all = java.util.stream.Stream.concat(
+                        java.util.Arrays.stream(arguments), java.util.Arrays.stream(options))
                 .toArray(String[]::new);
         assertThat(furrow.execute(all)).isZero();
         return file;

@@ -82,7 +82,7 @@ class ArchiveIT {
     }
 
     @Test
-    void tellsItsVersionAndItsCommands() throws Exception {
+    void reportsItsVersionAndItsCommands() throws Exception {
         assertThat(furrow("--version")).isEqualTo(new Ended(0, "furrow %s\n".formatted(VERSION)));
         assertThat(furrow("--help").output()).contains("demo", "mission", "init");
         assertThat(jars("lib", ".jsa")).as("stored classes").hasSize(1);
@@ -135,7 +135,7 @@ class ArchiveIT {
         "analytics, presence",
         "replay, replay"
     })
-    void refusesWrongOptionsOfAJobInASentence(String module, String job) throws Exception {
+    void rejectsWrongOptionsOfAJobInASentence(String module, String job) throws Exception {
         String jar = home.resolve("jobs/furrow-%s-%s-job.jar".formatted(module, VERSION))
                 .toString();
 

@@ -140,11 +140,11 @@ public final class EmbeddedKafka implements AutoCloseable {
         if (!Files.exists(meta)) {
             return Uuid.randomUuid().toString();
         }
-        Properties known = new Properties();
+        Properties existing = new Properties();
         try (var reader = Files.newBufferedReader(meta)) {
-            known.load(reader);
+            existing.load(reader);
         }
-        return known.getProperty("cluster.id");
+        return existing.getProperty("cluster.id");
     }
 
     private static Map<String, Object> settings(Path directory, int port, int controllerPort) {

@@ -28,7 +28,7 @@ public final class EmbeddedMqtt implements AutoCloseable {
 
     /** Users who come and go while the broker runs; asked at each connection, subscription and message. */
     public interface Users {
-        boolean knows(String user, byte[] password);
+        boolean authenticates(String user, byte[] password);
 
         /** Connections of others are closed. */
         boolean exists(String user);
@@ -42,7 +42,7 @@ public final class EmbeddedMqtt implements AutoCloseable {
         static Users none() {
             return new Users() {
                 @Override
-                public boolean knows(String user, byte[] password) {
+                public boolean authenticates(String user, byte[] password) {
                     return false;
                 }
 
@@ -114,7 +114,7 @@ public final class EmbeddedMqtt implements AutoCloseable {
         properties.setProperty("netty.mqtt.message_size", Integer.toString(MAX_MESSAGE_BYTES));
         IAuthenticator authenticator = (clientId, user, password) -> user != null
                 && password != null
-                && (matches(passwords.get(user), password) || others.knows(user, password));
+                && (matches(passwords.get(user), password) || others.authenticates(user, password));
         MqttServer server = new MqttServer(
                 new MemoryConfig(properties),
                 new MqttServer.Access(

@@ -61,14 +61,14 @@ final class LimitedSortCollection extends H2Collection {
     private static List<Document> first(Stream<Document> documents, long count, Comparator<Document> order) {
         Comparator<Numbered> stable =
                 Comparator.comparing(Numbered::document, order).thenComparingLong(Numbered::number);
-        PriorityQueue<Numbered> kept = new PriorityQueue<>(stable.reversed());
+        PriorityQueue<Numbered> retained = new PriorityQueue<>(stable.reversed());
         long[] number = {0};
         documents.forEachOrdered(document -> {
-            kept.add(new Numbered(document, number[0]++));
-            if (kept.size() > count) {
-                kept.remove();
+            retained.add(new Numbered(document, number[0]++));
+            if (retained.size() > count) {
+                retained.remove();
             }
         });
-        return kept.stream().sorted(stable).map(Numbered::document).toList();
+        return retained.stream().sorted(stable).map(Numbered::document).toList();
     }
 }

@@ -63,7 +63,7 @@ class DateIndexTest {
     }
 
     @Test
-    void knowsWhatAnEarlierReleaseStored() {
+    void findsWhatAnEarlierReleaseStored() {
         MVStore store = MVStore.open(directory.resolve("mongo.mv").toString());
         MongoServer server = new MongoServer(new H2Backend(store));
         String uri = "mongodb://127.0.0.1:" + server.bind().getPort();
@@ -89,7 +89,7 @@ class DateIndexTest {
     }
 
     @Test
-    void readsNoMoreThanItIsAskedFor() {
+    void readsNoMoreThanItIsRequested() {
         try (MVStore store = MVStore.open(null)) {
             MVMap<KeyValue, Object> entries =
                     store.openMap("index", new MVMap.Builder<KeyValue, Object>().keyType(new IndexKeyType()));

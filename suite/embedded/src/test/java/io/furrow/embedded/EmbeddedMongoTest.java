@@ -63,7 +63,7 @@ class EmbeddedMongoTest {
     /** PyMongo 4.20 wants 9 at least, drivers in a year will want more. */
     @ParameterizedTest
     @ValueSource(strings = {"isMaster", "hello"})
-    void greetsDriversWithTheProtocolOfTheVersionThatItSaysItIs(String greeting) {
+    void greetsDriversWithTheProtocolOfTheVersionThatItReports(String greeting) {
         try (EmbeddedMongo mongo = EmbeddedMongo.start(directory);
                 MongoClient client = MongoClients.create(mongo.uri())) {
             Document answer = client.getDatabase("admin").runCommand(new Document(greeting, 1));

@@ -77,21 +77,22 @@ class RestAccessIT {
 
     @ParameterizedTest
     @MethodSource("apis")
-    void refusesAForeignHostInItsOwnShape(Api api) throws IOException {
-        String answer = ask(api, "GET " + api.path(), "Host: evil.example");
+    void rejectsAForeignHostInItsOwnShape(Api api) throws IOException {
+        String answer = request(api, "GET " + api.path(), "Host: evil.example");
 
         assertThat(answer).startsWith("HTTP/1.1 403 ").contains(api.error(), "'evil.example'", api.option());
         assertThat(answer).containsIgnoringCase("content-type: application/json");
-        assertThat(ask(api, "GET " + api.path(), "Host: " + api.host() + ":80")).startsWith("HTTP/1.1 200 ");
-        assertThat(ask(api, "GET " + api.path(), "Host: localhost")).startsWith("HTTP/1.1 200 ");
+        assertThat(request(api, "GET " + api.path(), "Host: " + api.host() + ":80"))
+                .startsWith("HTTP/1.1 200 ");
+        assertThat(request(api, "GET " + api.path(), "Host: localhost")).startsWith("HTTP/1.1 200 ");
     }
 
     @ParameterizedTest
     @MethodSource("apis")
-    void refusesAForeignPageAlsoWithABody(Api api) throws IOException {
+    void rejectsAForeignPageAlsoWithABody(Api api) throws IOException {
         String headers = "Host: localhost\r\nOrigin: https://evil.example";
-        String small = ask(api, "POST " + api.path(), headers, "{}");
-        String begunOnly = ask(api, "POST " + api.path(), headers + "\r\nContent-Length: 200000");
+        String small = request(api, "POST " + api.path(), headers, "{}");
+        String begunOnly = request(api, "POST " + api.path(), headers + "\r\nContent-Length: 200000");
 
         assertThat(small).startsWith("HTTP/1.1 403 ").contains("https://evil.example");
         assertThat(begunOnly).startsWith("HTTP/1.1 403 ").contains("https://evil.example");
@@ -102,29 +103,29 @@ class RestAccessIT {
     void letsAnAllowedPageRead(Api api) throws IOException {
         String headers = "Host: localhost\r\nOrigin: " + PAGE;
 
-        assertThat(ask(api, "GET " + api.path(), headers))
+        assertThat(request(api, "GET " + api.path(), headers))
                 .startsWith("HTTP/1.1 200 ")
                 .containsIgnoringCase("Access-Control-Allow-Origin: " + PAGE);
-        assertThat(ask(api, "OPTIONS " + api.path(), headers + "\r\nAccess-Control-Request-Method: PUT"))
+        assertThat(request(api, "OPTIONS " + api.path(), headers + "\r\nAccess-Control-Request-Method: PUT"))
                 .startsWith("HTTP/1.1 204 ")
                 .containsIgnoringCase("Access-Control-Allow-Methods: PUT");
-        assertThat(ask(api, "GET " + api.path(), "Host: localhost")).doesNotContainIgnoringCase("allow-origin");
+        assertThat(request(api, "GET " + api.path(), "Host: localhost")).doesNotContainIgnoringCase("allow-origin");
     }
 
     /** What Flink itself does not check. */
     @Test
-    void refusesAtFlinkWhatNamesTwoHostsOrAnotherInItsTarget() throws IOException {
+    void rejectsAtFlinkWhatNamesTwoHostsOrAnotherInItsTarget() throws IOException {
         Api api = apis().skip(1).findFirst().orElseThrow();
 
-        assertThat(ask(api, "GET /config", "Host: localhost\r\nHost: localhost"))
+        assertThat(request(api, "GET /config", "Host: localhost\r\nHost: localhost"))
                 .startsWith("HTTP/1.1 403 ");
-        assertThat(ask(api, "GET http://evil.example/config", "Host: localhost"))
+        assertThat(request(api, "GET http://evil.example/config", "Host: localhost"))
                 .startsWith("HTTP/1.1 403 ");
-        assertThat(ask(api, "GET /config", "X-Host: localhost")).startsWith("HTTP/1.1 403 ");
+        assertThat(request(api, "GET /config", "X-Host: localhost")).startsWith("HTTP/1.1 403 ");
     }
 
     @Test
-    void writesNoUploadToTheDiskBeforeItRefuses() throws IOException {
+    void writesNoUploadToTheDiskBeforeItRejects() throws IOException {
         Api api = apis().skip(1).findFirst().orElseThrow();
         Path temporary = Path.of(System.getProperty("java.io.tmpdir"));
         long before = jars(temporary);
@@ -132,8 +133,8 @@ class RestAccessIT {
                 + "Content-Type: application/x-java-archive\r\n\r\nPK\r\n--x--\r\n";
 
         for (String path : List.of("/jars/upload", "/jobs")) {
-            String answer =
-                    ask(api, "POST " + path, "Host: localhost\r\nContent-Type: multipart/form-data; boundary=x", body);
+            String answer = request(
+                    api, "POST " + path, "Host: localhost\r\nContent-Type: multipart/form-data; boundary=x", body);
 
             assertThat(answer).startsWith("HTTP/1.1 403 ").contains("furrow.http.read-only");
         }
@@ -149,11 +150,11 @@ class RestAccessIT {
         }
     }
 
-    private static String ask(Api api, String requestLine, String headers) throws IOException {
-        return ask(api, requestLine, headers, "");
+    private static String request(Api api, String requestLine, String headers) throws IOException {
+        return request(api, requestLine, headers, "");
     }
 
-    private static String ask(Api api, String requestLine, String headers, String body) throws IOException {
+    private static String request(Api api, String requestLine, String headers, String body) throws IOException {
         String length = body.isEmpty() ? "" : "Content-Length: " + body.length() + "\r\n";
         String request = requestLine + " HTTP/1.1\r\nConnection: close\r\n" + headers + "\r\n" + length + "\r\n" + body;
         try (Socket socket =

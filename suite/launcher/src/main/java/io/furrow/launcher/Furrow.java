@@ -14,7 +14,7 @@ import io.furrow.launcher.command.DashboardCommand;
 import io.furrow.launcher.command.DemoCommand;
 import io.furrow.launcher.command.InitCommand;
 import io.furrow.launcher.command.ScenarioCommand;
-import io.furrow.launcher.command.SecretCommand;
+import io.furrow.launcher.command.SecretCommandGroup;
 import io.furrow.launcher.command.UpCommand;
 import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.replay.AnalyticsCommand;
@@ -33,7 +33,7 @@ import io.furrow.simulators.host.DeviceHostCommand;
             DashboardCommand.class,
             DeviceHostCommand.class,
             ScenarioCommand.class,
-            SecretCommand.class,
+            SecretCommandGroup.class,
             InitCommand.class
         })
 public final class Furrow {

@@ -95,7 +95,7 @@ class ArchiveScriptTest {
     }
 
     @Test
-    void tellsItsVersionByOneSmallProgram() throws Exception {
+    void reportsItsVersionByOneSmallProgram() throws Exception {
         run("bin/furrow", "--version");
 
         assertThat(calls())
@@ -106,15 +106,15 @@ class ArchiveScriptTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"soak collision-cases", "bench dashboard"})
-    void sendsToACheckoutForWhatIsNotInIt(String words) throws Exception {
-        assertThat(run("bin/furrow", words.split(" "))).contains("run", "in a checkout of Furrow");
+    void sendsToACheckoutForWhatIsNotInIt(String arguments) throws Exception {
+        assertThat(run("bin/furrow", arguments.split(" "))).contains("run", "in a checkout of Furrow");
         assertThat(jdk.resolve("bin/calls")).doesNotExist();
     }
 
     /** What it wrote to the terminal. */
-    private String run(String script, String... words) throws Exception {
+    private String run(String script, String... arguments) throws Exception {
         List<String> command = new ArrayList<>(List.of(home.resolve(script).toString()));
-        command.addAll(List.of(words));
+        command.addAll(List.of(arguments));
         Path out = directory.resolve("out");
         ProcessBuilder builder =
                 new ProcessBuilder(command).redirectErrorStream(true).redirectOutput(out.toFile());

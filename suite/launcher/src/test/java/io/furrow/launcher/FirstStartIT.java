@@ -66,7 +66,7 @@ class FirstStartIT {
     }
 
     @Test
-    void saysWhatMavenFoundWrong() throws Exception {
+    void reportsWhatMavenFoundWrong() throws Exception {
         program(
                 home.resolve("mvnw"),
                 "echo '[INFO] fine so far'; echo '[ERROR] Failed to execute goal: disk full'; echo '[ERROR] '; exit 1");
@@ -94,7 +94,7 @@ class FirstStartIT {
     }
 
     @Test
-    void saysSoWhereThereIsNothingInTheLog() throws Exception {
+    void reportsSoWhereThereIsNothingInTheLog() throws Exception {
         program(home.resolve("mvnw"), "exit 1");
 
         assertThat(furrow("demo").err()).contains("nothing", "full disk");
@@ -114,7 +114,7 @@ class FirstStartIT {
 
     @ParameterizedTest
     @ValueSource(strings = {"1.8", "11", "16"})
-    void refusesAJavaThatIsTooOld(String version) throws Exception {
+    void rejectsAJavaThatIsTooOld(String version) throws Exception {
         java(version);
 
         Ended ended = furrow("demo");
@@ -151,7 +151,7 @@ class FirstStartIT {
     }
 
     @Test
-    void saysThatThereIsNoJava() throws Exception {
+    void reportsThatThereIsNoJava() throws Exception {
         ProcessBuilder builder = builder(home.resolve("furrow"), "only", "demo");
         builder.environment().put("JAVA_HOME", directory.resolve("nowhere").toString());
 
@@ -223,21 +223,21 @@ class FirstStartIT {
         assertThat(furrow("demo").err()).doesNotContain("Another start builds Furrow");
     }
 
-    private Ended furrow(String... words) throws Exception {
-        return run(home.resolve("furrow"), words);
+    private Ended furrow(String... arguments) throws Exception {
+        return run(home.resolve("furrow"), arguments);
     }
 
-    private Ended run(Path script, String... words) throws Exception {
-        return ended(start(script, "only", words), "only");
+    private Ended run(Path script, String... arguments) throws Exception {
+        return ended(start(script, "only", arguments), "only");
     }
 
-    private Process start(Path script, String name, String... words) throws IOException {
-        return builder(script, name, words).start();
+    private Process start(Path script, String name, String... arguments) throws IOException {
+        return builder(script, name, arguments).start();
     }
 
-    private ProcessBuilder builder(Path script, String name, String... words) {
+    private ProcessBuilder builder(Path script, String name, String... arguments) {
         List<String> command = new ArrayList<>(List.of(script.toString()));
-        command.addAll(List.of(words));
+        command.addAll(List.of(arguments));
         ProcessBuilder builder = new ProcessBuilder(command)
                 .redirectOutput(directory.resolve(name + ".out").toFile())
                 .redirectError(directory.resolve(name + ".err").toFile());

@@ -18,7 +18,7 @@ class UnusableFieldsTest {
 
     /** Before it takes a port, or waits for an engine. */
     @Test
-    void saysWhyFieldsCannotBeUsedBeforeAnythingStarts() throws Exception {
+    void reportsWhyFieldsCannotBeUsedBeforeAnythingStarts() throws Exception {
         Path fields = Files.writeString(directory.resolve("fields.geojson"), "{}");
         StringWriter err = new StringWriter();
         try (ServerSocket taken = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {

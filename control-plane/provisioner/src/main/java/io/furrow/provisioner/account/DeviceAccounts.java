@@ -29,7 +29,7 @@ public final class DeviceAccounts {
     /** Whose accounts this Kafka has asked for since the start: devices and missions. */
     private final Set<String> own = new HashSet<>();
     /** Users that nothing asks for and that may not be removed. */
-    private final Set<String> kept = new TreeSet<>();
+    private final Set<String> retained = new TreeSet<>();
 
     private Map<String, String> refused = Map.of();
 
@@ -45,7 +45,7 @@ public final class DeviceAccounts {
         granted = null;
         allowed = null;
         own.clear();
-        kept.clear();
+        retained.clear();
     }
 
     /** The ids of the topics whose devices the brokers' accounts are noted to be of. */
@@ -65,8 +65,8 @@ public final class DeviceAccounts {
     }
 
     /** Users that nothing asks for and that may not be removed. */
-    public Set<String> kept() {
-        return Set.copyOf(kept);
+    public Set<String> retained() {
+        return Set.copyOf(retained);
     }
 
     /** Tries those again that a broker has refused. */
@@ -74,7 +74,7 @@ public final class DeviceAccounts {
         if (!refused.isEmpty()) {
             granted = null;
         }
-        if (!kept.isEmpty()) {
+        if (!retained.isEmpty()) {
             allowed = null;
         }
     }
@@ -94,12 +94,12 @@ public final class DeviceAccounts {
                     : granted.stream()
                             .filter(account -> users.contains(account.login().user()))
                             .toList();
-            kept.clear();
+            retained.clear();
             for (MqttAccounts broker : brokers) {
-                kept.addAll(broker.retain(users, user -> all || mayGo(UserName.of(user))));
+                retained.addAll(broker.retain(users, user -> all || mayGo(UserName.of(user))));
             }
         }
-        kept.removeAll(users);
+        retained.removeAll(users);
         allowed = users;
     }
 
@@ -120,11 +120,11 @@ public final class DeviceAccounts {
         if (!accounts.equals(granted) && (complete || grows)) {
             granted = null;
             refused = new HashMap<>();
-            Set<String> stay = new HashSet<>(kept);
-            stay.addAll(allowed);
-            accounts.forEach(account -> stay.remove(account.login().user()));
+            Set<String> retain = new HashSet<>(retained);
+            retain.addAll(allowed);
+            accounts.forEach(account -> retain.remove(account.login().user()));
             for (MqttAccounts broker : brokers) {
-                refused.putAll(broker.replace(accounts, stay));
+                refused.putAll(broker.replace(accounts, retain));
             }
             granted = accounts;
         }

@@ -27,16 +27,16 @@ final class LoginHistory {
     }
 
     void loggedIn(String user, long now) {
-        update(user, known -> known.loggedIn(now));
+        update(user, entry -> entry.loggedIn(now));
     }
 
     void refused(String user, String reason, long now) {
-        update(user, known -> known.refused(user, reason, now));
+        update(user, entry -> entry.refused(user, reason, now));
     }
 
     void published(String user, String topic, long now) {
         String begin = topic.length() > MAX_TOPIC ? topic.substring(0, MAX_TOPIC) + "…" : topic;
-        update(user, known -> known.published(begin, now));
+        update(user, entry -> entry.published(begin, now));
     }
 
     /** Forgets all others. */

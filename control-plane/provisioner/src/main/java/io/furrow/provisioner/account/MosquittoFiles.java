@@ -32,7 +32,7 @@ import io.furrow.model.device.FarmSecret;
 public final class MosquittoFiles implements MqttAccounts {
     private static final Logger LOG = LoggerFactory.getLogger(MosquittoFiles.class);
     private static final long COMMAND_SECONDS = 10;
-    private static final int MAX_SAID = 1000;
+    private static final int MAX_OUTPUT = 1000;
     /** Mosquitto loses a signal that comes while it reads its files for the one before: 0.4 s with ten thousand accounts. */
     private static final long BETWEEN_RELOADS_NANOS = TimeUnit.SECONDS.toNanos(1);
 
@@ -63,27 +63,28 @@ public final class MosquittoFiles implements MqttAccounts {
     }
 
     @Override
-    public synchronized Map<String, String> replace(List<MqttAccount> accounts, Set<String> kept) throws IOException {
+    public synchronized Map<String, String> replace(List<MqttAccount> accounts, Set<String> preserved)
+            throws IOException {
         List<String> before = passwords.read();
-        Map<String, String> refused = refused(accounts, SectionNotes.of(before));
+        Map<String, String> refused = refused(accounts, SectionComments.of(before));
         List<MqttAccount> own = accounts.stream()
                 .filter(account -> !refused.containsKey(account.login().user()))
                 .toList();
         Set<String> users = own.stream().map(account -> account.login().user()).collect(Collectors.toSet());
-        Predicate<String> stays = user -> kept.contains(user) && !users.contains(user);
-        List<String> nextRules = rulesOf(stays);
+        Predicate<String> retain = user -> preserved.contains(user) && !users.contains(user);
+        List<String> nextRules = rulesOf(retain);
         nextRules.addAll(rules(own));
-        List<String> next = passwordsOf(before, stays);
+        List<String> next = passwordsOf(before, retain);
         next.addAll(passwords(own));
         // The rules first: should only one of both be written, nobody gets in without them.
         reloadIsDue |= write(rules, nextRules);
-        reloadIsDue |= write(passwords, SectionNotes.of(before).with(users).before(next));
+        reloadIsDue |= write(passwords, SectionComments.of(before).with(users).before(next));
         reloadIfDue();
         return refused;
     }
 
     /** A user that stands elsewhere in the files is somebody else's: Mosquitto would take the later line of two. */
-    private Map<String, String> refused(List<MqttAccount> accounts, SectionNotes notes) throws IOException {
+    private Map<String, String> refused(List<MqttAccount> accounts, SectionComments notes) throws IOException {
         Set<String> users = new HashSet<>();
         accounts.forEach(account -> users.add(account.login().user()));
         Map<String, String> refused = new TreeMap<>();
@@ -115,15 +116,15 @@ public final class MosquittoFiles implements MqttAccounts {
         List<String> before = passwords.read();
         Map<String, Integer> desired = new HashMap<>();
         users.stream().map(UserName::of).forEach(name -> desired.merge(name.owner(), name.generation(), Math::max));
-        Predicate<String> stays = user -> {
+        Predicate<String> retain = user -> {
             UserName name = UserName.of(user);
             boolean later = name.generation() > desired.getOrDefault(name.owner(), Integer.MAX_VALUE);
             return users.contains(user) || later || !removable.test(user);
         };
-        List<String> next = passwordsOf(before, stays);
-        List<String> nextRules = rulesOf(stays);
+        List<String> next = passwordsOf(before, retain);
+        List<String> nextRules = rulesOf(retain);
         // The passwords first: should only one of both be written, nobody gets in who shall not.
-        reloadIsDue |= write(passwords, SectionNotes.of(before).with(users).before(next));
+        reloadIsDue |= write(passwords, SectionComments.of(before).with(users).before(next));
         reloadIsDue |= write(rules, nextRules);
         reloadIfDue();
         return next.stream()
@@ -134,7 +135,7 @@ public final class MosquittoFiles implements MqttAccounts {
 
     private static List<String> passwordsOf(List<String> lines, Predicate<String> users) {
         return lines.stream()
-                .filter(line -> !SectionNotes.isNote(line) && users.test(MosquittoPassword.user(line)))
+                .filter(line -> !SectionComments.isNote(line) && users.test(MosquittoPassword.user(line)))
                 .collect(Collectors.toCollection(ArrayList::new));
     }
 
@@ -153,13 +154,13 @@ public final class MosquittoFiles implements MqttAccounts {
 
     @Override
     public synchronized Optional<String> origin() throws IOException {
-        return SectionNotes.of(passwords.read()).origin();
+        return SectionComments.of(passwords.read()).origin();
     }
 
     @Override
     public synchronized void noteOrigin(String topic) throws IOException {
         List<String> before = passwords.read();
-        write(passwords, SectionNotes.of(before).with(topic).before(passwordsOf(before, any -> true)));
+        write(passwords, SectionComments.of(before).with(topic).before(passwordsOf(before, any -> true)));
     }
 
     /** The user with which a line of the rules begins; null if it begins none. */
@@ -185,14 +186,14 @@ public final class MosquittoFiles implements MqttAccounts {
 
     /** Lines that are right already stay as they are; a new one has another salt each time. */
     private List<String> passwords(List<MqttAccount> accounts) throws IOException {
-        Map<String, String> known = new HashMap<>();
-        passwords.read().forEach(line -> known.put(MosquittoPassword.user(line), line));
+        Map<String, String> existing = new HashMap<>();
+        passwords.read().forEach(line -> existing.put(MosquittoPassword.user(line), line));
         Map<FarmSecret.Login, String> next = new LinkedHashMap<>();
         for (MqttAccount account : accounts) {
             FarmSecret.Login login = account.login();
-            String line = known.getOrDefault(login.user(), "");
-            boolean stays = line.equals(checked.get(login)) || MosquittoPassword.isOf(line, login);
-            next.put(login, stays ? line : MosquittoPassword.line(login));
+            String line = existing.getOrDefault(login.user(), "");
+            boolean retain = line.equals(checked.get(login)) || MosquittoPassword.isOf(line, login);
+            next.put(login, retain ? line : MosquittoPassword.line(login));
         }
         checked = next;
         return List.copyOf(next.values());
@@ -239,11 +240,11 @@ public final class MosquittoFiles implements MqttAccounts {
             throw new IOException("interrupted while the command of --mqtt-reload ran", e);
         }
         if (process.exitValue() != 0) {
-            try (InputStream said = Files.newInputStream(output)) {
+            try (InputStream commandOutput = Files.newInputStream(output)) {
                 throw new IOException("the command of --mqtt-reload ended with %d: %s"
                         .formatted(
                                 process.exitValue(),
-                                new String(said.readNBytes(MAX_SAID), StandardCharsets.UTF_8).strip()));
+                                new String(commandOutput.readNBytes(MAX_OUTPUT), StandardCharsets.UTF_8).strip()));
             }
         }
     }

@@ -13,11 +13,11 @@ public interface MqttAccounts {
      * Lets exactly these accounts be known from now on, and those that stay as they are; each user is there once. Called with all of
      * them after every change.
      *
-     * @param kept users that stay if they are there
+     * @param retained users that stay if they are there
      * @return why, by user, of those that are not known because somebody else has a user of that name
      * @throws IOException naming what could not be written or run; it is called again later then
      */
-    Map<String, String> replace(List<MqttAccount> accounts, Set<String> kept) throws IOException;
+    Map<String, String> replace(List<MqttAccount> accounts, Set<String> retained) throws IOException;
 
     /**
      * Removes the accounts of other users, also those that another process or an earlier start has put there.

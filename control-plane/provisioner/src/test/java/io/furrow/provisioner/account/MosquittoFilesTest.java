@@ -13,7 +13,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.model.device.FarmSecret;
-import io.furrow.provisioner.Desired;
+import io.furrow.provisioner.DesiredDeviceFixture;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -22,14 +22,14 @@ class MosquittoFilesTest {
     @TempDir
     Path directory;
 
-    private final MqttAccount device = MqttAccount.device(Desired.SECRET, "hoeing", "d");
-    private final MqttAccount gateway = MqttAccount.gateway(Desired.SECRET, "hoeing");
+    private final MqttAccount device = MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d");
+    private final MqttAccount gateway = MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing");
 
     @Test
     void writesAPasswordAndRulesForEachAccount() throws IOException {
         files(null).replace(List.of(gateway, device), Set.of());
 
-        String key = Desired.SECRET.apiKey("hoeing");
+        String key = DesiredDeviceFixture.SECRET.apiKey("hoeing");
         assertThat(Files.readAllLines(rules()))
                 .contains(
                         "user furrow.m.hoeing.1",
@@ -75,7 +75,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void touchesNothingAndTellsNobodyWhereNothingChanges() throws IOException {
+    void touchesNothingAndNotifiesNobodyWhereNothingChanges() throws IOException {
         MosquittoFiles files = files(count());
         files.replace(List.of(gateway, device), Set.of());
         byte[] before = Files.readAllBytes(passwords());
@@ -91,7 +91,7 @@ class MosquittoFilesTest {
 
     /** As for a rotation, which removes an account and adds one: Mosquitto would lose the second signal, and refuse the new password. */
     @Test
-    void letsTheBrokerReadTheFilesBeforeItTellsItAgain() throws IOException {
+    void letsTheBrokerReadTheFilesBeforeItNotifiesItAgain() throws IOException {
         MosquittoFiles files = files(count());
         files.replace(List.of(gateway, device), Set.of());
         FileTime first = Files.getLastModifiedTime(directory.resolve("calls"));
@@ -104,7 +104,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void tellsTheBrokerOnceAfterAStartWhatAProcessThatDiedMayNotHaveTold() throws IOException {
+    void notifiesTheBrokerOnceAfterAStartWhatAProcessThatDiedMayNotHaveReported() throws IOException {
         files(null).replace(List.of(device), Set.of());
         byte[] before = Files.readAllBytes(passwords());
         MosquittoFiles started = files(count());
@@ -149,7 +149,7 @@ class MosquittoFilesTest {
     }
 
     @Test
-    void refusesAUserThatStandsOutsideOfItsSectionOfEitherFile() throws IOException {
+    void rejectsAUserThatStandsOutsideOfItsSectionOfEitherFile() throws IOException {
         String user = device.login().user();
         Files.write(passwords(), List.of(MosquittoPassword.line(new FarmSecret.Login(user, "plough"))));
         Files.write(rules(), List.of("  user   " + gateway.login().user(), "topic readwrite #"));
@@ -199,7 +199,7 @@ class MosquittoFilesTest {
     }
 
     private static MqttAccount other() {
-        return MqttAccount.device(Desired.SECRET, "weeding", "d");
+        return MqttAccount.device(DesiredDeviceFixture.SECRET, "weeding", "d");
     }
 
     private MosquittoFiles files(String reload) {

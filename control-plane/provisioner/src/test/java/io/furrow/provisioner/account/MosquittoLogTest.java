@@ -28,7 +28,7 @@ class MosquittoLogTest {
     Path directory;
 
     @Test
-    void saysWhoConnectedAndWhoPublishedWhereHeMayNot() throws Exception {
+    void reportsWhoConnectedAndWhoPublishedWhereHeMayNot() throws Exception {
         MosquittoLog log = log(CONNECTED + DENIED + DENIED);
 
         assertThat(log.reports().get(USER))

@@ -6,18 +6,18 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
-import io.furrow.provisioner.Desired;
+import io.furrow.provisioner.DesiredDeviceFixture;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MqttAccountTest {
-    private static final String KEY = "/" + Desired.SECRET.apiKey("hoeing");
+    private static final String KEY = "/" + DesiredDeviceFixture.SECRET.apiKey("hoeing");
 
-    private final MqttAccount device = MqttAccount.device(Desired.SECRET, "hoeing", "d");
-    private final MqttAccount gateway = MqttAccount.gateway(Desired.SECRET, "hoeing");
+    private final MqttAccount device = MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d");
+    private final MqttAccount gateway = MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing");
 
     @Test
-    void letsADeviceSpeakForItselfAndHearItsCommands() {
+    void letsADeviceSpeakForItselfAndReceiveItsCommands() {
         assertThat(device.mayWrite(KEY + "/d/attrs")).isTrue();
         assertThat(device.mayWrite("/json" + KEY + "/d/cmdexe")).isTrue();
         assertThat(device.mayRead(KEY + "/d/cmd")).isTrue();
@@ -33,7 +33,7 @@ class MqttAccountTest {
         assertThat(gateway.mayRead(KEY + "/+/cmd")).isTrue();
         assertThat(gateway.mayRead(KEY + "/d/cmd")).isTrue();
 
-        assertThat(gateway.mayWrite("/" + Desired.SECRET.apiKey("weeding") + "/d/attrs"))
+        assertThat(gateway.mayWrite("/" + DesiredDeviceFixture.SECRET.apiKey("weeding") + "/d/attrs"))
                 .isFalse();
     }
 

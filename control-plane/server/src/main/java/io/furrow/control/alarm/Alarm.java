@@ -40,7 +40,7 @@ public record Alarm(
         AlarmState state,
         Change change,
         String text,
-        List<Cause.Device> devices,
+        List<Cause.AffectedDevice> devices,
         long raised,
         long changed,
         int count,
@@ -67,19 +67,19 @@ public record Alarm(
 
         /** The value in records. */
         @JsonValue
-        public String word() {
+        public String code() {
             return name().toLowerCase(Locale.ROOT);
         }
 
         @JsonCreator
-        static Change of(String word) {
-            return valueOf(word.toUpperCase(Locale.ROOT));
+        static Change of(String code) {
+            return valueOf(code.toUpperCase(Locale.ROOT));
         }
     }
 
     /** @param mutedUntil null if it is not muted */
     public static Alarm raised(Cause cause, Long mutedUntil, long sequence, long now) {
-        AlarmDraft draft = new AlarmDraft();
+        AlarmBuilder draft = new AlarmBuilder();
         draft.alarm = cause.kind().code() + "-" + sequence;
         draft.kind = cause.kind();
         draft.subject = cause.subject();
@@ -122,14 +122,14 @@ public record Alarm(
     }
 
     public Alarm numbered(long newSequence) {
-        AlarmDraft draft = new AlarmDraft(this);
+        AlarmBuilder draft = new AlarmBuilder(this);
         draft.sequence = newSequence;
         return draft.build();
     }
 
     /** Returns the alarm in another state; the reason is null unless it is closed. */
     public Alarm become(AlarmState newState, String by, String why, long now) {
-        AlarmDraft draft = new AlarmDraft(this);
+        AlarmBuilder draft = new AlarmBuilder(this);
         draft.state = newState;
         draft.change = newState == AlarmState.CLOSED ? Change.CLOSED : Change.ACKNOWLEDGED;
         draft.changed = now;
@@ -141,7 +141,7 @@ public record Alarm(
 
     /** @param newMutedUntil null to unmute */
     public Alarm muted(Long newMutedUntil, long now) {
-        AlarmDraft draft = new AlarmDraft(this);
+        AlarmBuilder draft = new AlarmBuilder(this);
         draft.change = newMutedUntil == null ? Change.UNMUTED : Change.MUTED;
         draft.changed = now;
         draft.mutedUntil = newMutedUntil;
@@ -150,7 +150,7 @@ public record Alarm(
 
     /** Counts another observation of the cause; text and extent stay unchanged. */
     Alarm repeated(Long newUntil, long now) {
-        AlarmDraft draft = new AlarmDraft(this);
+        AlarmBuilder draft = new AlarmBuilder(this);
         draft.count = count == Integer.MAX_VALUE ? count : count + 1;
         draft.until = newUntil;
         draft.seen = now;
@@ -159,7 +159,7 @@ public record Alarm(
 
     /** The cause goes on; it is not counted again. */
     Alarm lasting(Long newUntil, long now) {
-        AlarmDraft draft = new AlarmDraft(this);
+        AlarmBuilder draft = new AlarmBuilder(this);
         draft.until = newUntil;
         draft.seen = now;
         return draft.build();
@@ -167,14 +167,14 @@ public record Alarm(
 
     /** Whoever was notified of it need not know that it will end. */
     Alarm ending(long newUntil) {
-        AlarmDraft draft = new AlarmDraft(this);
+        AlarmBuilder draft = new AlarmBuilder(this);
         draft.until = newUntil;
         return draft.build();
     }
 
     /** Copies text, devices and extent from the cause. */
     Alarm updated(Cause cause, long now) {
-        AlarmDraft draft = new AlarmDraft(this);
+        AlarmBuilder draft = new AlarmBuilder(this);
         draft.describe(cause);
         draft.change = Change.UPDATED;
         draft.changed = now;
@@ -183,14 +183,14 @@ public record Alarm(
 
     /** Copies the text alone from the cause: that is no change, so nobody is notified of it. */
     Alarm reworded(Cause cause) {
-        AlarmDraft draft = new AlarmDraft(this);
+        AlarmBuilder draft = new AlarmBuilder(this);
         draft.text = cause.text();
         return draft.build();
     }
 
     /** @param by id of the inhibiting alarm; null if no longer inhibited */
     public Alarm inhibited(String by, long now) {
-        AlarmDraft draft = new AlarmDraft(this);
+        AlarmBuilder draft = new AlarmBuilder(this);
         draft.inhibitedBy = by;
         draft.change = Change.UPDATED;
         draft.changed = now;
@@ -199,7 +199,7 @@ public record Alarm(
 
     /** Returns the alarm as inhibited when it was raised, without a further change. */
     public Alarm inhibitedFromStart(String by) {
-        AlarmDraft draft = new AlarmDraft(this);
+        AlarmBuilder draft = new AlarmBuilder(this);
         draft.inhibitedBy = by;
         return draft.build();
     }

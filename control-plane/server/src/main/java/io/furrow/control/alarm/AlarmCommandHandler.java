@@ -32,59 +32,59 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
      */
     public static final Duration COLLISION_HOLDS = Duration.ofHours(1);
 
-    static final Duration CLOSED_KEPT = Duration.ofDays(1);
+    static final Duration CLOSED_RETENTION = Duration.ofDays(1);
     static final int MAX_CLOSED = 10_000;
 
-    private static final long CLEARING_EVERY = Duration.ofMinutes(1).toMillis();
+    private static final long CLEARING_INTERVAL = Duration.ofMinutes(1).toMillis();
     private static final String ALL = "";
 
-    private final AlarmRecords records;
+    private final AlarmTables tables;
     private final Sequence sequence;
-    private final EventPublisher outbox;
+    private final EventPublisher publisher;
     private final AlarmLimit limit;
     private long nextClearing;
 
-    AlarmCommandHandler(AlarmRecords records, Sequence sequence, EventPublisher outbox) {
-        this.records = records;
+    AlarmCommandHandler(AlarmTables tables, Sequence sequence, EventPublisher publisher) {
+        this.tables = tables;
         this.sequence = sequence;
-        this.outbox = outbox;
-        this.limit = new AlarmLimit(records.groups(), records.counted());
+        this.publisher = publisher;
+        this.limit = new AlarmLimit(tables.groups(), tables.counted());
     }
 
     /** Raises an alarm, or refreshes the existing one. If its group has reached the limit, the cause is only counted. */
     public void raise(Cause cause, long now) {
-        Alarm known = current(cause.kind(), cause.identity());
-        if (known != null) {
-            records.alarms().put(known.alarm(), sure(known, new AlarmEvent.Repeated(cause.until(now)), now));
+        Alarm existing = current(cause.kind(), cause.identity());
+        if (existing != null) {
+            tables.alarms().put(existing.alarm(), sure(existing, new AlarmEvent.Repeated(cause.until(now)), now));
         } else if (!limit.take(cause, now)) {
-            keep(Alarm.raised(cause, mutedUntil(cause, now), sequence.next(), now));
+            store(Alarm.raised(cause, mutedUntil(cause, now), sequence.next(), now));
         }
     }
 
     /** As {@link #raise}; an existing alarm does not count a cause that goes on. */
     public void raiseOrExtend(Cause cause, long now) {
-        Alarm known = current(cause.kind(), cause.identity());
-        if (known == null) {
+        Alarm existing = current(cause.kind(), cause.identity());
+        if (existing == null) {
             raise(cause, now);
         } else {
-            records.alarms().put(known.alarm(), known.lasting(cause.until(now), now));
+            tables.alarms().put(existing.alarm(), existing.lasting(cause.until(now), now));
         }
     }
 
     /** As {@link #raise}; an existing alarm gets the words of the cause. */
     public void raiseReworded(Cause cause, long now) {
-        Alarm known = current(cause.kind(), cause.identity());
-        if (known != null) {
-            reworded(known, cause);
+        Alarm existing = current(cause.kind(), cause.identity());
+        if (existing != null) {
+            reworded(existing, cause);
         }
         raise(cause, now);
     }
 
     /** Closes the alarm of a kind and identity, if there is one. */
     public void end(AlarmKind kind, String identity, String reason, long now) {
-        Alarm known = current(kind, identity);
-        if (known != null) {
-            change(known, new AlarmEvent.Ended(reason), now);
+        Alarm existing = current(kind, identity);
+        if (existing != null) {
+            change(existing, new AlarmEvent.Ended(reason), now);
         } else {
             limit.end(kind, identity);
         }
@@ -92,18 +92,18 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
 
     /** The same of a cause that began anew: the count of its alarm is published. */
     public void raiseAnew(Cause cause, long now) {
-        boolean isKnown = current(cause.kind(), cause.identity()) != null;
+        boolean exists = current(cause.kind(), cause.identity()) != null;
         raise(cause, now);
-        if (isKnown) {
-            keep(current(cause.kind(), cause.identity()));
+        if (exists) {
+            store(current(cause.kind(), cause.identity()));
         }
     }
 
     /** Lets the alarm of a kind and identity, if there is one, end at a time, unless it is raised again until then. */
     public void endAt(AlarmKind kind, String identity, long until) {
-        Alarm known = current(kind, identity);
-        if (known != null) {
-            records.alarms().put(known.alarm(), known.ending(until));
+        Alarm existing = current(kind, identity);
+        if (existing != null) {
+            tables.alarms().put(existing.alarm(), existing.ending(until));
         } else {
             limit.endAt(kind, identity, until);
         }
@@ -116,23 +116,23 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
      * @param inhibitor cause, reported before, whose alarm inhibits the delivery of this one; null if none
      */
     public void report(Cause cause, Cause inhibitor, long now) {
-        String by = inhibitor == null ? null : records.current().get(inhibitor.key());
-        Alarm known = current(cause.kind(), cause.identity());
-        if (known == null) {
+        String by = inhibitor == null ? null : tables.current().get(inhibitor.key());
+        Alarm existing = current(cause.kind(), cause.identity());
+        if (existing == null) {
             Long muted = mutedUntil(cause, now);
             Alarm raised = Alarm.raised(cause, muted, sequence.next(), now);
-            keep(by == null ? raised : raised.inhibitedFromStart(by));
+            store(by == null ? raised : raised.inhibitedFromStart(by));
         } else {
-            change(reworded(known, cause), new AlarmEvent.Reported(cause, by), now);
+            change(reworded(existing, cause), new AlarmEvent.Reported(cause, by), now);
         }
     }
 
-    private Alarm reworded(Alarm known, Cause cause) {
-        if (!known.concerns(cause) || known.text().equals(cause.text())) {
-            return known;
+    private Alarm reworded(Alarm existing, Cause cause) {
+        if (!existing.concerns(cause) || existing.text().equals(cause.text())) {
+            return existing;
         }
-        Alarm reworded = known.reworded(cause);
-        keep(reworded);
+        Alarm reworded = existing.reworded(cause);
+        store(reworded);
         return reworded;
     }
 
@@ -158,7 +158,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
 
     /** Whether a kind is muted for one subject or identity. */
     public boolean isMuted(AlarmKind kind, String subject, long now) {
-        AlarmRecords.Mute mute = records.mutes().get(Cause.key(kind, subject));
+        AlarmTables.Mute mute = tables.mutes().get(Cause.key(kind, subject));
         return mute != null && mute.until() > now;
     }
 
@@ -176,24 +176,24 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     }
 
     private AlarmEvent dismissal(AlarmCommand.Close close, long now) {
-        Alarm alarm = records.alarms().get(close.alarm());
+        Alarm alarm = tables.alarms().get(close.alarm());
         boolean isOver = alarm != null
                 && alarm.isOfGroup()
                 && alarm.state() != AlarmState.CLOSED
                 && AlarmLimit.KINDS.contains(alarm.kind())
-                && limit.dismiss(alarm.kind(), alarm.subject(), now);
-        return new AlarmEvent.Dismissed(close.user(), isOver);
+                && limit.clear(alarm.kind(), alarm.subject(), now);
+        return new AlarmEvent.ManuallyClosed(close.user(), isOver);
     }
 
     private CommandResult answer(String id, AlarmEvent event, String status, long now) throws RefusedException {
-        Alarm alarm = records.alarms().get(id);
+        Alarm alarm = tables.alarms().get(id);
         if (alarm == null) {
             throw new RefusedException(
                     ErrorCode.UNKNOWN_ALARM, "there is no alarm '%s', or it was closed long ago".formatted(id));
         }
-        Alarm next = AlarmLife.next(alarm, event, now);
+        Alarm next = AlarmStateMachine.next(alarm, event, now);
         if (next != alarm) {
-            keep(next.numbered(sequence.next()));
+            store(next.numbered(sequence.next()));
         }
         return CommandResult.of(status).with(AlarmCommand.ALARM, id);
     }
@@ -208,7 +208,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         AlarmCommand.OfKind of = (AlarmCommand.OfKind) target;
         String key = Cause.key(of.kind(), of.subject() == null ? ALL : of.subject());
         requireRoomFor(key, until);
-        records.mutes().put(key, until == null ? null : new AlarmRecords.Mute(key, until));
+        tables.mutes().put(key, until == null ? null : new AlarmTables.Mute(key, until));
         for (Alarm alarm : current()) {
             if (alarm.kind() == of.kind()
                     && (of.subject() == null
@@ -221,11 +221,11 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     }
 
     private void requireRoomFor(String key, Long until) throws RefusedException {
-        if (until == null || records.mutes().contains(key)) {
+        if (until == null || tables.mutes().contains(key)) {
             return;
         }
         AtomicInteger count = new AtomicInteger();
-        records.mutes().forEach(mute -> count.incrementAndGet());
+        tables.mutes().forEach(mute -> count.incrementAndGet());
         if (count.get() >= Limits.MUTES) {
             throw new RefusedException(
                     ErrorCode.QUOTA_EXCEEDED,
@@ -236,7 +236,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     private Long mutedUntil(Cause cause, long now) {
         Long until = null;
         for (String each : List.of(cause.identity(), cause.subject(), ALL)) {
-            AlarmRecords.Mute mute = records.mutes().get(Cause.key(cause.kind(), each));
+            AlarmTables.Mute mute = tables.mutes().get(Cause.key(cause.kind(), each));
             if (mute != null && mute.until() > now && (until == null || mute.until() > until)) {
                 until = mute.until();
             }
@@ -257,71 +257,71 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
                 "no causes beyond the limit",
                 now);
         if (now >= nextClearing) {
-            nextClearing = now + CLEARING_EVERY;
+            nextClearing = now + CLEARING_INTERVAL;
             clear(now);
         }
     }
 
     private void clear(long now) {
         List<Alarm> closed = new ArrayList<>();
-        records.alarms().forEach(alarm -> {
+        tables.alarms().forEach(alarm -> {
             if (alarm.state() == AlarmState.CLOSED) {
                 closed.add(alarm);
             }
         });
         closed.sort(Comparator.comparingLong(Alarm::changed).reversed());
         for (int i = 0; i < closed.size(); i++) {
-            if (i >= MAX_CLOSED || closed.get(i).changed() + CLOSED_KEPT.toMillis() <= now) {
-                records.alarms().put(closed.get(i).alarm(), null);
-                outbox.put(Topics.ALARMS, closed.get(i).alarm(), null);
+            if (i >= MAX_CLOSED || closed.get(i).changed() + CLOSED_RETENTION.toMillis() <= now) {
+                tables.alarms().put(closed.get(i).alarm(), null);
+                publisher.put(Topics.ALARMS, closed.get(i).alarm(), null);
             }
         }
         List<String> passed = new ArrayList<>();
-        records.mutes().forEach(mute -> {
+        tables.mutes().forEach(mute -> {
             if (mute.until() <= now) {
                 passed.add(mute.key());
             }
         });
-        passed.forEach(key -> records.mutes().put(key, null));
+        passed.forEach(key -> tables.mutes().put(key, null));
     }
 
     /** Returns the alarm that is not closed; null if none. */
     private Alarm current(AlarmKind kind, String identity) {
-        String known = AlarmLimit.find(records.current(), kind, identity);
-        return known == null ? null : records.alarms().get(known);
+        String existing = AlarmLimit.find(tables.current(), kind, identity);
+        return existing == null ? null : tables.alarms().get(existing);
     }
 
     /** Returns a copy, because the store changes during the iteration. */
     private List<Alarm> current() {
         List<Alarm> current = new ArrayList<>();
-        records.current().forEach(id -> current.add(records.alarms().get(id)));
+        tables.current().forEach(id -> current.add(tables.alarms().get(id)));
         return current;
     }
 
     private void change(Alarm alarm, AlarmEvent event, long now) {
         Alarm next = sure(alarm, event, now);
         if (next != alarm) {
-            keep(next.numbered(sequence.next()));
+            store(next.numbered(sequence.next()));
         }
     }
 
     private static Alarm sure(Alarm alarm, AlarmEvent event, long now) {
         try {
-            return AlarmLife.next(alarm, event, now);
+            return AlarmStateMachine.next(alarm, event, now);
         } catch (RefusedException e) {
             throw new IllegalStateException(
                     "an alarm that is not closed accepts every event except commands of users", e);
         }
     }
 
-    private void keep(Alarm alarm) {
-        boolean known = records.alarms().get(alarm.alarm()) != null;
+    private void store(Alarm alarm) {
+        boolean existing = tables.alarms().get(alarm.alarm()) != null;
         boolean closed = alarm.state() == AlarmState.CLOSED;
-        if (!known || closed) {
+        if (!existing || closed) {
             limit.changed(alarm, closed ? -1 : 1);
         }
-        records.alarms().put(alarm.alarm(), alarm);
-        records.current().put(alarm.key(), closed ? null : alarm.alarm());
-        outbox.put(Topics.ALARMS, alarm.alarm(), alarm.toBytes());
+        tables.alarms().put(alarm.alarm(), alarm);
+        tables.current().put(alarm.key(), closed ? null : alarm.alarm());
+        publisher.put(Topics.ALARMS, alarm.alarm(), alarm.toBytes());
     }
 }

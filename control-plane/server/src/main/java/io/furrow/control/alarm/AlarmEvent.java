@@ -25,7 +25,7 @@ sealed interface AlarmEvent {
      * @param user null if not named
      * @param isOver of a group alarm, whether none of its causes was reported lately
      */
-    record Dismissed(String user, boolean isOver) implements AlarmEvent {}
+    record ManuallyClosed(String user, boolean isOver) implements AlarmEvent {}
 
     /** @param user null if not named */
     record Acknowledged(String user) implements AlarmEvent {}

@@ -10,7 +10,7 @@ import java.util.Objects;
 import java.util.Set;
 import java.util.TreeMap;
 
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.Table;
 import io.furrow.model.control.AlarmKind;
 
 /**
@@ -27,13 +27,13 @@ final class AlarmLimit {
     static final Set<AlarmKind> KINDS = EnumSet.of(
             AlarmKind.COLLISION, AlarmKind.PREDICTED_ENCOUNTER, AlarmKind.SUSPECT_SENSOR, AlarmKind.CLOCK_BEHIND);
 
-    private static final long RECOUNT_EVERY = Duration.ofSeconds(10).toMillis();
+    private static final long RECOUNT_INTERVAL = Duration.ofSeconds(10).toMillis();
     private static final long SEEN_INTERVAL = Duration.ofSeconds(10).toMillis();
     /** A validity to which {@link #SEEN_INTERVAL} does not matter. */
     private static final long LONG = Duration.ofMinutes(30).toMillis();
 
-    private final Records<Group> groups;
-    private final Records<Counted> counted;
+    private final Table<Group> groups;
+    private final Table<Overflow> counted;
     private long recounted;
 
     /**
@@ -44,7 +44,8 @@ final class AlarmLimit {
      * @param counted number of causes without an alarm
      * @param devices some of the devices concerned
      */
-    record Group(String key, AlarmKind kind, String group, int alarms, int counted, List<Cause.Device> devices) {
+    record Group(
+            String key, AlarmKind kind, String group, int alarms, int counted, List<Cause.AffectedDevice> devices) {
         Group with(int newAlarms, int newCounted) {
             return new Group(key, kind, group, newAlarms, newCounted, devices);
         }
@@ -57,9 +58,10 @@ final class AlarmLimit {
      * @param until end of validity, epoch ms; null if it lasts until ended explicitly
      * @param seen when it was last reported, epoch ms, to {@link #SEEN_INTERVAL}
      */
-    record Counted(String key, AlarmKind kind, String group, List<Cause.Device> devices, Long until, long seen) {}
+    record Overflow(
+            String key, AlarmKind kind, String group, List<Cause.AffectedDevice> devices, Long until, long seen) {}
 
-    AlarmLimit(Records<Group> groups, Records<Counted> counted) {
+    AlarmLimit(Table<Group> groups, Table<Overflow> counted) {
         this.groups = groups;
         this.counted = counted;
     }
@@ -68,7 +70,7 @@ final class AlarmLimit {
      * Returns what is stored of a kind and identity; null if nothing is. What a result reported that named no types has an identity
      * without them.
      */
-    static <T> T find(Records<T> records, AlarmKind kind, String identity) {
+    static <T> T find(Table<T> records, AlarmKind kind, String identity) {
         T found = records.get(Cause.key(kind, identity));
         String[] parts = identity.split("\\|", 4);
         if (found == null && parts.length == 4 && KINDS.contains(kind)) {
@@ -87,18 +89,18 @@ final class AlarmLimit {
             return false;
         }
         Group group = group(cause.kind(), cause.group());
-        Counted before = find(counted, cause.kind(), cause.identity());
-        boolean known = before != null;
-        if (!known && group.alarms() < MAX_ALARMS) {
+        Overflow before = find(counted, cause.kind(), cause.identity());
+        boolean existing = before != null;
+        if (!existing && group.alarms() < MAX_ALARMS) {
             return false;
         }
         boolean hasRoom = group.counted() < MAX_COUNTED;
-        String key = known ? before.key() : cause.key();
-        Counted counting = new Counted(key, cause.kind(), cause.group(), cause.devices(), cause.until(now), now);
-        if (known ? isNews(before, counting) : hasRoom) {
+        String key = existing ? before.key() : cause.key();
+        Overflow counting = new Overflow(key, cause.kind(), cause.group(), cause.devices(), cause.until(now), now);
+        if (existing ? isNews(before, counting) : hasRoom) {
             counted.put(key, counting);
         }
-        if (!known && hasRoom) {
+        if (!existing && hasRoom) {
             store(new Group(
                     group.key(),
                     group.kind(),
@@ -110,12 +112,12 @@ final class AlarmLimit {
         return true;
     }
 
-    private static boolean isNews(Counted before, Counted now) {
+    private static boolean isNews(Overflow before, Overflow now) {
         boolean lastsOtherwise = !(lastsLong(before) && lastsLong(now)) && !Objects.equals(before.until(), now.until());
         return lastsOtherwise || now.seen() - before.seen() >= SEEN_INTERVAL;
     }
 
-    private static boolean lastsLong(Counted cause) {
+    private static boolean lastsLong(Overflow cause) {
         return cause.until() != null && cause.until() - cause.seen() >= LONG;
     }
 
@@ -124,13 +126,13 @@ final class AlarmLimit {
      *
      * @return whether they were removed
      */
-    boolean dismiss(AlarmKind kind, String group, long now) {
+    boolean clear(AlarmKind kind, String group, long now) {
         List<String> members = new ArrayList<>();
         boolean[] lasts = new boolean[1];
         counted.forEach(each -> {
             if (each.kind() == kind && each.group().equals(group)) {
                 members.add(each.key());
-                lasts[0] |= now - each.seen() < AlarmLife.CAUSE_LASTS.toMillis();
+                lasts[0] |= now - each.seen() < AlarmStateMachine.CAUSE_LASTS.toMillis();
             }
         });
         if (lasts[0]) {
@@ -143,20 +145,21 @@ final class AlarmLimit {
 
     /** Removes the counted cause of a kind and identity, if there is one. */
     void end(AlarmKind kind, String identity) {
-        Counted known = find(counted, kind, identity);
-        if (known != null) {
-            counted.put(known.key(), null);
-            Group group = group(kind, known.group());
+        Overflow existing = find(counted, kind, identity);
+        if (existing != null) {
+            counted.put(existing.key(), null);
+            Group group = group(kind, existing.group());
             store(group.with(group.alarms(), Math.max(0, group.counted() - 1)));
         }
     }
 
     /** Lets the counted cause of a kind and identity, if there is one, end at a time. */
     void endAt(AlarmKind kind, String identity, long until) {
-        Counted known = find(counted, kind, identity);
-        if (known != null) {
+        Overflow existing = find(counted, kind, identity);
+        if (existing != null) {
             counted.put(
-                    known.key(), new Counted(known.key(), kind, known.group(), known.devices(), until, known.seen()));
+                    existing.key(),
+                    new Overflow(existing.key(), kind, existing.group(), existing.devices(), until, existing.seen()));
         }
     }
 
@@ -170,7 +173,7 @@ final class AlarmLimit {
 
     /** Removes expired causes and returns the causes of the group alarms. */
     List<Cause> causes(long now) {
-        if (now - recounted >= RECOUNT_EVERY) {
+        if (now - recounted >= RECOUNT_INTERVAL) {
             recounted = now;
             recount(now);
         }
@@ -190,7 +193,7 @@ final class AlarmLimit {
 
     private void recount(long now) {
         List<String> over = new ArrayList<>();
-        Map<String, List<Counted>> lasting = new TreeMap<>();
+        Map<String, List<Overflow>> lasting = new TreeMap<>();
         counted.forEach(each -> {
             if (each.until() != null && each.until() <= now) {
                 over.add(each.key());
@@ -203,28 +206,29 @@ final class AlarmLimit {
         List<Group> all = new ArrayList<>();
         groups.forEach(all::add);
         for (Group group : all) {
-            List<Counted> members = lasting.getOrDefault(group.key(), List.of());
-            List<Cause.Device> devices = List.of();
-            for (Counted each : members) {
+            List<Overflow> members = lasting.getOrDefault(group.key(), List.of());
+            List<Cause.AffectedDevice> devices = List.of();
+            for (Overflow each : members) {
                 devices = joined(devices, each.devices());
             }
             store(new Group(group.key(), group.kind(), group.group(), group.alarms(), members.size(), devices));
         }
     }
 
-    private static List<Cause.Device> joined(List<Cause.Device> some, List<Cause.Device> others) {
+    private static List<Cause.AffectedDevice> joined(
+            List<Cause.AffectedDevice> some, List<Cause.AffectedDevice> others) {
         if (some.size() >= Cause.MAX_DEVICES) {
             return some;
         }
-        Set<Cause.Device> joined = new LinkedHashSet<>(some);
+        Set<Cause.AffectedDevice> joined = new LinkedHashSet<>(some);
         joined.addAll(others);
         return joined.stream().limit(Cause.MAX_DEVICES).toList();
     }
 
     private Group group(AlarmKind kind, String group) {
         String key = Cause.key(kind, group);
-        Group known = groups.get(key);
-        return known == null ? new Group(key, kind, group, 0, 0, List.of()) : known;
+        Group existing = groups.get(key);
+        return existing == null ? new Group(key, kind, group, 0, 0, List.of()) : existing;
     }
 
     private void store(Group group) {

@@ -17,7 +17,7 @@ import io.furrow.control.manager.ManagerTopic;
 import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.RequestLog;
 import io.furrow.control.manager.Sequence;
-import io.furrow.control.manager.StoredRecords;
+import io.furrow.control.manager.StoreTable;
 import io.furrow.model.control.AlarmCommand;
 
 /**
@@ -41,19 +41,19 @@ public final class AlarmManager {
     }
 
     /** Creates a handler on the stores of a processor. */
-    public static AlarmCommandHandler handler(ProcessorContext<?, ?> context, EventPublisher outbox) {
-        AlarmRecords records = new AlarmRecords(
-                StoredRecords.of(context, ALARMS, Alarm.class),
-                StoredRecords.of(context, CURRENT, String.class),
-                StoredRecords.of(context, MUTES, AlarmRecords.Mute.class),
-                StoredRecords.of(context, GROUPS, AlarmLimit.Group.class),
-                StoredRecords.of(context, COUNTED, AlarmLimit.Counted.class));
-        return new AlarmCommandHandler(records, new Sequence(StoredRecords.of(context, SEQUENCE, Long.class)), outbox);
+    public static AlarmCommandHandler handler(ProcessorContext<?, ?> context, EventPublisher publisher) {
+        AlarmTables tables = new AlarmTables(
+                StoreTable.of(context, ALARMS, Alarm.class),
+                StoreTable.of(context, CURRENT, String.class),
+                StoreTable.of(context, MUTES, AlarmTables.Mute.class),
+                StoreTable.of(context, GROUPS, AlarmLimit.Group.class),
+                StoreTable.of(context, COUNTED, AlarmLimit.Overflow.class));
+        return new AlarmCommandHandler(tables, new Sequence(StoreTable.of(context, SEQUENCE, Long.class)), publisher);
     }
 
     /** @param remembered how long ids of requests are remembered */
     public static void add(StreamsBuilder builder, Duration remembered) {
-        stores().forEach(store -> builder.addStateStore(StoredRecords.builder(store)));
+        stores().forEach(store -> builder.addStateStore(StoreTable.builder(store)));
         builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
         BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<AlarmCommand>> opening =
                 AlarmManager::handler;

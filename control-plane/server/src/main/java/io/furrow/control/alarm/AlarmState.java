@@ -20,12 +20,12 @@ public enum AlarmState {
 
     /** The value in records. */
     @JsonValue
-    public String word() {
+    public String code() {
         return name().toLowerCase(Locale.ROOT);
     }
 
     @JsonCreator
-    static AlarmState of(String word) {
-        return valueOf(word.toUpperCase(Locale.ROOT));
+    static AlarmState of(String code) {
+        return valueOf(code.toUpperCase(Locale.ROOT));
     }
 }

@@ -23,7 +23,7 @@ public record Cause(
         String subject,
         String identity,
         String text,
-        List<Device> devices,
+        List<AffectedDevice> devices,
         Duration holds,
         String group,
         Extent extent) {
@@ -36,11 +36,11 @@ public record Cause(
      * @param service its tenant; null for the default one
      * @param servicePath null for the root
      */
-    public record Device(String id, String type, String service, String servicePath) {
+    public record AffectedDevice(String id, String type, String service, String servicePath) {
         /** @param type null if unknown */
-        public static Device of(String id, String type, FiwareScope scope) {
+        public static AffectedDevice of(String id, String type, FiwareScope scope) {
             FiwareScope usual = FiwareScope.DEFAULT;
-            return new Device(
+            return new AffectedDevice(
                     id,
                     type,
                     scope.service().equals(usual.service()) ? null : scope.service(),
@@ -60,7 +60,7 @@ public record Cause(
     }
 
     /** Creates an individual cause without a group. */
-    public Cause(AlarmKind kind, String subject, String text, List<Device> devices, Duration holds) {
+    public Cause(AlarmKind kind, String subject, String text, List<AffectedDevice> devices, Duration holds) {
         this(kind, subject, subject, text, devices, holds, null, null);
     }
 
@@ -74,7 +74,7 @@ public record Cause(
     }
 
     /** Creates a group cause that lasts until it is ended explicitly. */
-    public static Cause ofMany(AlarmKind kind, String group, String text, List<Device> devices, Extent extent) {
+    public static Cause ofMany(AlarmKind kind, String group, String text, List<AffectedDevice> devices, Extent extent) {
         return new Cause(kind, group, group, text, devices, null, group, extent);
     }
 

@@ -25,12 +25,12 @@ public enum Severity {
 
     /** The value in records. */
     @JsonValue
-    public String word() {
+    public String code() {
         return name().toLowerCase(Locale.ROOT);
     }
 
     @JsonCreator
-    static Severity ofWord(String word) {
-        return valueOf(word.toUpperCase(Locale.ROOT));
+    static Severity ofCode(String code) {
+        return valueOf(code.toUpperCase(Locale.ROOT));
     }
 }

@@ -66,11 +66,11 @@ final class ContextEntity {
     }
 
     /** @param status null if not known yet */
-    static EntityBuilder of(Mission mission, MissionStatus status, MissionTally tally) {
+    static EntityBuilder of(Mission mission, MissionStatus status, MissionCounts tally) {
         EntityBuilder entity = Entity.builder(missionId(mission.mission()), MISSION)
                 .text("name", mission.mission())
                 .text("domain", mission.domain())
-                .text("status", status == null ? "created" : status.state().word())
+                .text("status", status == null ? "created" : status.state().code())
                 .number("progress", status == null ? 0 : progress(status));
         entity.integer("deviceCount", mission.deviceCount()).integer("missingCount", missing(status));
         entity.freeText("reason", status == null ? null : status.reason());

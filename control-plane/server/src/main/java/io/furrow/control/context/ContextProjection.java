@@ -8,7 +8,7 @@ import java.util.Objects;
 import java.util.TreeSet;
 import java.util.concurrent.atomic.AtomicInteger;
 
-import io.furrow.control.alarm.watch.Encounter;
+import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.control.alarm.watch.FieldWindow;
 import io.furrow.control.domain.Domain;
 import io.furrow.control.mission.Mission;
@@ -25,9 +25,9 @@ final class ContextProjection {
 
     private static final Duration FIELDS_POLL_INTERVAL = Duration.ofMinutes(1);
 
-    private final ContextRecords records;
-    private final PublicationListener told;
-    private long fieldsLookedAt;
+    private final ContextTables tables;
+    private final PublicationListener listener;
+    private long fieldsReadAt;
 
     /** Receives the changes to publish to the context broker. */
     interface PublicationListener {
@@ -36,26 +36,26 @@ final class ContextProjection {
         void deleted(String type, String entityId);
     }
 
-    ContextProjection(ContextRecords records, PublicationListener told) {
-        this.records = records;
-        this.told = told;
+    ContextProjection(ContextTables tables, PublicationListener listener) {
+        this.tables = tables;
+        this.listener = listener;
     }
 
     /** @param domain null if it was deleted */
     void domain(String name, Domain domain) {
-        records.domains().put(name, domain == null ? null : domain.withoutArea());
+        tables.domains().put(name, domain == null ? null : domain.withoutArea());
         outdate(ContextEntity.domainId(name));
     }
 
     /** @param mission null if it was deleted */
     void mission(String name, Mission mission) {
-        Mission before = records.missions().get(name);
-        records.missions().put(name, mission);
-        MissionTally tally = records.tallies().get(name);
+        Mission before = tables.missions().get(name);
+        tables.missions().put(name, mission);
+        MissionCounts tally = tables.tallies().get(name);
         if (mission == null) {
-            records.tallies().put(name, null);
+            tables.tallies().put(name, null);
         } else if (tally == null || mission.running() && !Objects.equals(mission.start(), tally.start())) {
-            records.tallies().put(name, MissionTally.of(name, mission.start()));
+            tables.tallies().put(name, MissionCounts.of(name, mission.start()));
         }
         outdate(ContextEntity.missionId(name));
         Mission either = mission == null ? before : mission;
@@ -66,19 +66,19 @@ final class ContextProjection {
 
     /** @param status null if the mission was deleted */
     void status(String mission, MissionStatus status) {
-        records.statuses().put(mission, status);
+        tables.statuses().put(mission, status);
         outdate(ContextEntity.missionId(mission));
     }
 
     /** Counts an encounter for the missions of both devices, if these are known. */
-    void encounter(Encounter encounter) {
+    void encounter(EncounterReport encounter) {
         TreeSet<String> missions = new TreeSet<>();
         encounter.members().forEach(member -> missions.add(member.mission()));
         for (String mission : missions) {
-            MissionTally before = mission.isEmpty() ? null : records.tallies().get(mission);
-            MissionTally after = before == null ? null : before.with(encounter);
+            MissionCounts before = mission.isEmpty() ? null : tables.tallies().get(mission);
+            MissionCounts after = before == null ? null : before.with(encounter);
             if (after != null && !after.equals(before)) {
-                records.tallies().put(mission, after);
+                tables.tallies().put(mission, after);
                 outdate(ContextEntity.missionId(mission));
             }
         }
@@ -86,64 +86,64 @@ final class ContextProjection {
 
     /** @param now epoch ms */
     void window(FieldWindow window, long now) {
-        FieldState before = records.fields().get(window.field());
+        FieldState before = tables.fields().get(window.field());
         if (before == null || before.windowEnd() <= window.windowEnd()) {
             FieldState state = FieldState.of(window, now);
-            records.fields().put(window.field(), state);
+            tables.fields().put(window.field(), state);
             outdateDomainsOf(state);
         }
     }
 
     /** Called about once a second, on one projection only. */
     void passTime(long now) {
-        if (now - fieldsLookedAt >= FIELDS_POLL_INTERVAL.toMillis()) {
-            fieldsLookedAt = now;
+        if (now - fieldsReadAt >= FIELDS_POLL_INTERVAL.toMillis()) {
+            fieldsReadAt = now;
             forgetOldFields(now);
         }
         List<String> outdated = new ArrayList<>();
-        records.outdated().forEach(outdated::add);
+        tables.outdated().forEach(outdated::add);
         if (outdated.isEmpty()) {
             return;
         }
         TreeSet<String> ids = new TreeSet<>(outdated);
-        records.domains().forEach(domain -> {
+        tables.domains().forEach(domain -> {
             if (ids.remove(ContextEntity.domainId(domain.domain()))) {
-                tell(entity(domain));
+                publish(entity(domain));
             }
         });
-        records.missions().forEach(mission -> {
+        tables.missions().forEach(mission -> {
             if (ids.remove(ContextEntity.missionId(mission.mission()))) {
                 String name = mission.mission();
-                tell(ContextEntity.of(
-                        mission, records.statuses().get(name), records.tallies().get(name)));
+                publish(ContextEntity.of(
+                        mission, tables.statuses().get(name), tables.tallies().get(name)));
             }
         });
-        ids.forEach(this::tellDeleted);
-        outdated.forEach(id -> records.outdated().put(id, null));
+        ids.forEach(this::publishDeleted);
+        outdated.forEach(id -> tables.outdated().put(id, null));
     }
 
     private void forgetOldFields(long now) {
         List<FieldState> old = new ArrayList<>();
-        records.fields().forEach(field -> {
+        tables.fields().forEach(field -> {
             if (field.known() + FIELD_HOLDS.toMillis() <= now) {
                 old.add(field);
             }
         });
         for (FieldState field : old) {
-            records.fields().put(field.field(), null);
+            tables.fields().put(field.field(), null);
             outdateDomainsOf(field);
         }
     }
 
     private EntityBuilder entity(Domain domain) {
         AtomicInteger missions = new AtomicInteger();
-        records.missions().forEach(mission -> {
+        tables.missions().forEach(mission -> {
             if (mission.domain().equals(domain.domain())) {
                 missions.incrementAndGet();
             }
         });
         List<FieldState> fields = new ArrayList<>();
-        records.fields().forEach(field -> {
+        tables.fields().forEach(field -> {
             if (isOf(field, domain)) {
                 fields.add(field);
             }
@@ -158,7 +158,7 @@ final class ContextProjection {
     }
 
     private void outdateDomainsOf(FieldState field) {
-        records.domains().forEach(domain -> {
+        tables.domains().forEach(domain -> {
             if (isOf(field, domain)) {
                 outdate(ContextEntity.domainId(domain.domain()));
             }
@@ -166,23 +166,23 @@ final class ContextProjection {
     }
 
     private void outdate(String entityId) {
-        if (records.outdated().get(entityId) == null) {
-            records.outdated().put(entityId, entityId);
+        if (tables.outdated().get(entityId) == null) {
+            tables.outdated().put(entityId, entityId);
         }
     }
 
-    private void tell(EntityBuilder entity) {
+    private void publish(EntityBuilder entity) {
         byte[] json = entity.toBytes();
-        if (!Arrays.equals(json, records.told().get(entity.id()))) {
-            records.told().put(entity.id(), json);
-            told.changed(entity);
+        if (!Arrays.equals(json, tables.publishedEntities().get(entity.id()))) {
+            tables.publishedEntities().put(entity.id(), json);
+            listener.changed(entity);
         }
     }
 
-    private void tellDeleted(String entityId) {
-        if (records.told().get(entityId) != null) {
-            records.told().put(entityId, null);
-            told.deleted(ContextEntity.typeOf(entityId), entityId);
+    private void publishDeleted(String entityId) {
+        if (tables.publishedEntities().get(entityId) != null) {
+            tables.publishedEntities().put(entityId, null);
+            listener.deleted(ContextEntity.typeOf(entityId), entityId);
         }
     }
 }

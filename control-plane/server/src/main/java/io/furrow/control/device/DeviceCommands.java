@@ -91,7 +91,7 @@ public final class DeviceCommands implements CommandSender {
         try {
             answer = client.send(request(order), HttpResponse.BodyHandlers.ofByteArray());
         } catch (IOException e) {
-            throw away(e);
+            throw unavailable(e);
         }
         check(order, answer);
     }
@@ -113,7 +113,7 @@ public final class DeviceCommands implements CommandSender {
                 .handle((answer, failure) -> {
                     try {
                         if (failure != null) {
-                            throw away(failure instanceof CompletionException ? failure.getCause() : failure);
+                            throw unavailable(failure instanceof CompletionException ? failure.getCause() : failure);
                         }
                         check(order, answer);
                         return null;
@@ -123,7 +123,7 @@ public final class DeviceCommands implements CommandSender {
                 });
     }
 
-    private IOException away(Throwable failure) {
+    private IOException unavailable(Throwable failure) {
         return new IOException(
                 "The context broker at %s does not respond (%s). Check that it runs, and whether the device obeyed."
                         .formatted(contextBroker, FailureText.of(failure)),
@@ -134,20 +134,20 @@ public final class DeviceCommands implements CommandSender {
         if (answer.statusCode() / 100 == 2) {
             return;
         }
-        Optional<String> said = said(answer.body());
+        Optional<String> message = message(answer.body());
         String rejected = "The context broker at %s rejected '%s' for %s with %d: %s"
                 .formatted(
                         contextBroker,
                         order.command(),
                         order.deviceId(),
                         answer.statusCode(),
-                        said.orElseGet(() -> quoted(new String(answer.body(), StandardCharsets.UTF_8))));
-        if (said.isEmpty() || !REFUSALS.contains(answer.statusCode())) {
+                        message.orElseGet(() -> quoted(new String(answer.body(), StandardCharsets.UTF_8))));
+        if (message.isEmpty() || !REFUSALS.contains(answer.statusCode())) {
             throw new IOException(rejected);
         }
         throw answer.statusCode() != NOT_FOUND
-                ? new RefusedCommandException(answer.statusCode(), rejected)
-                : new RefusedCommandException(
+                ? new RejectedCommandException(answer.statusCode(), rejected)
+                : new RejectedCommandException(
                         NOT_FOUND,
                         "The context broker at %s has no entity %s of type %s, so '%s' cannot be sent; a device accepts commands once it has reported. Check that it reports."
                                 .formatted(contextBroker, order.deviceId(), order.type(), order.command()));
@@ -193,7 +193,7 @@ public final class DeviceCommands implements CommandSender {
     }
 
     /** The {@code description} of an NGSI error; empty of an answer that is none, as the page of a proxy. */
-    private static Optional<String> said(byte[] body) {
+    private static Optional<String> message(byte[] body) {
         if (body.length == 0) {
             return Optional.of("it does not say why");
         }

@@ -101,16 +101,16 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
     }
 
     private String example(String topic, FarmSecret.Login login, List<MeasuredAttribute> attributes) {
-        List<String> words = new ArrayList<>(List.of("mosquitto_pub"));
+        List<String> arguments = new ArrayList<>(List.of("mosquitto_pub"));
         if (broker != null) {
-            words.addAll(List.of("-h", broker.getHost(), "-p", Integer.toString(port())));
+            arguments.addAll(List.of("-h", broker.getHost(), "-p", Integer.toString(port())));
             if (isTls()) {
-                words.add("--tls-use-os-certs");
+                arguments.add("--tls-use-os-certs");
             }
         }
-        words.addAll(List.of("-u", quoted(login.user()), "-P", quoted(login.password()), "-q", "1"));
-        words.addAll(List.of("-t", quoted(topic), "-m", quoted(measure(attributes))));
-        return String.join(" ", words);
+        arguments.addAll(List.of("-u", quoted(login.user()), "-P", quoted(login.password()), "-q", "1"));
+        arguments.addAll(List.of("-t", quoted(topic), "-m", quoted(measure(attributes))));
+        return String.join(" ", arguments);
     }
 
     /** Its first attribute, which is what it measures. */
@@ -125,7 +125,7 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
         return new String(NgsiJson.write(measure), StandardCharsets.UTF_8);
     }
 
-    private static String quoted(String word) {
-        return "'" + word.replace("'", "'\\''") + "'";
+    private static String quoted(String argument) {
+        return "'" + argument.replace("'", "'\\''") + "'";
     }
 }

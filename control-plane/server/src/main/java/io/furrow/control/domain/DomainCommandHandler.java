@@ -5,8 +5,8 @@ import java.util.function.Supplier;
 
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.Records;
 import io.furrow.control.manager.Sequence;
+import io.furrow.control.manager.Table;
 import io.furrow.kafka.field.FieldEdit;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
@@ -20,12 +20,12 @@ import io.furrow.model.topic.Topics;
 public final class DomainCommandHandler {
     private static final int MAX_NAMED = 100;
 
-    private final Records<Domain> domains;
+    private final Table<Domain> domains;
     private final DomainMissions missions;
     private final Supplier<List<FieldVersion>> fields;
     private final Sequence sequence;
     private final Quota quota;
-    private final EventPublisher outbox;
+    private final EventPublisher publisher;
 
     /**
      * Resources shared with missions.
@@ -34,15 +34,16 @@ public final class DomainCommandHandler {
      * @param quota for the size of all definitions
      * @param fields every version of {@code service.fields}
      */
-    record Means(Sequence sequence, Quota quota, Supplier<List<FieldVersion>> fields) {}
+    record Dependencies(Sequence sequence, Quota quota, Supplier<List<FieldVersion>> fields) {}
 
-    DomainCommandHandler(Records<Domain> domains, DomainMissions missions, Means means, EventPublisher outbox) {
+    DomainCommandHandler(
+            Table<Domain> domains, DomainMissions missions, Dependencies dependencies, EventPublisher publisher) {
         this.domains = domains;
         this.missions = missions;
-        this.sequence = means.sequence();
-        this.quota = means.quota();
-        this.fields = means.fields();
-        this.outbox = outbox;
+        this.sequence = dependencies.sequence();
+        this.quota = dependencies.quota();
+        this.fields = dependencies.fields();
+        this.publisher = publisher;
     }
 
     /** @param now epoch ms */
@@ -50,15 +51,15 @@ public final class DomainCommandHandler {
         if (command instanceof DomainCommand.Create create) {
             return create(create, now);
         }
-        Domain known = domains.get(command.domain());
-        if (known == null) {
+        Domain existing = domains.get(command.domain());
+        if (existing == null) {
             throw new RefusedException(ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + command.domain() + "'");
         }
         if (command instanceof DomainCommand.Change change) {
-            keep(known, known.changed(change.details(), now, sequence.next()));
-            return about(known.domain(), "changed");
+            store(existing, existing.changed(change.details(), now, sequence.next()));
+            return about(existing.domain(), "changed");
         }
-        return delete(known, ((DomainCommand.Delete) command).force(), now);
+        return delete(existing, ((DomainCommand.Delete) command).force(), now);
     }
 
     private CommandResult create(DomainCommand.Create create, long now) throws RefusedException {
@@ -67,13 +68,13 @@ public final class DomainCommandHandler {
                     ErrorCode.DOMAIN_EXISTS,
                     "domain '%s' exists already; use 'change' to change it".formatted(create.domain()));
         }
-        keep(null, Domain.of(create.domain(), create.details(), now, sequence.next()));
+        store(null, Domain.of(create.domain(), create.details(), now, sequence.next()));
         return about(create.domain(), "created");
     }
 
     /** With its missions; its fields end. What is stored of them stays. */
-    private CommandResult delete(Domain known, boolean force, long now) throws RefusedException {
-        String domain = known.domain();
+    private CommandResult delete(Domain existing, boolean force, long now) throws RefusedException {
+        String domain = existing.domain();
         List<String> active = missions.activeIn(domain);
         if (!active.isEmpty() && !force) {
             throw new RefusedException(
@@ -81,18 +82,18 @@ public final class DomainCommandHandler {
                     "%s running in domain '%s', '%s' among them; stop them first, or delete with force"
                             .formatted(Counts.are(active.size(), "mission"), domain, active.get(0)));
         }
-        List<String> gone = missions.in(domain);
-        gone.forEach(missions::remove);
+        List<String> removed = missions.in(domain);
+        removed.forEach(missions::remove);
         FieldEdit ends = FieldEdit.endOfDomain(domain, now, fields.get());
-        ends.written().forEach(end -> outbox.put(Topics.FIELDS, end.key(), end.toBytes()));
-        ends.removed().forEach(key -> outbox.put(Topics.FIELDS, key, null));
-        quota.use(-known.toBytes().length);
+        ends.written().forEach(end -> publisher.put(Topics.FIELDS, end.key(), end.toBytes()));
+        ends.removed().forEach(key -> publisher.put(Topics.FIELDS, key, null));
+        quota.use(-existing.toBytes().length);
         domains.put(domain, null);
-        outbox.put(Topics.DOMAINS, domain, null);
+        publisher.put(Topics.DOMAINS, domain, null);
         return CommandResult.of("deleted")
                 .with("domain", domain)
-                .with("missionCount", gone.size())
-                .with("missions", named(gone))
+                .with("missionCount", removed.size())
+                .with("missions", named(removed))
                 .with("stopped", named(active))
                 .with("fieldCount", ends.ids().size())
                 .with("fields", named(ends.ids()));
@@ -104,11 +105,11 @@ public final class DomainCommandHandler {
     }
 
     /** @param before null if there was none */
-    private void keep(Domain before, Domain domain) throws RefusedException {
+    private void store(Domain before, Domain domain) throws RefusedException {
         byte[] value = domain.toBytes();
         quota.replace(before == null ? null : before.toBytes(), value);
         domains.put(domain.domain(), domain);
-        outbox.put(Topics.DOMAINS, domain.domain(), value);
+        publisher.put(Topics.DOMAINS, domain.domain(), value);
     }
 
     private static CommandResult about(String domain, String status) {

@@ -20,10 +20,10 @@ import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ManagerTopic;
 import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.Records;
 import io.furrow.control.manager.RequestLog;
 import io.furrow.control.manager.Sequence;
-import io.furrow.control.manager.StoredRecords;
+import io.furrow.control.manager.StoreTable;
+import io.furrow.control.manager.Table;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.Limits;
 import io.furrow.model.field.FieldVersion;
@@ -46,15 +46,14 @@ public final class DomainManager {
 
     /** Creates a handler on the stores of a processor. */
     public static DomainCommandHandler handler(
-            ProcessorContext<?, ?> context, DomainMissions missions, EventPublisher outbox) {
-        Records<FieldVersion> fields =
-                StoredRecords.of(context, FIELDS, FieldVersion::toBytes, DomainManager::readable);
-        DomainCommandHandler.Means means =
-                new DomainCommandHandler.Means(sequence(context), quota(context), () -> all(fields));
-        return new DomainCommandHandler(domains(context), missions, means, outbox);
+            ProcessorContext<?, ?> context, DomainMissions missions, EventPublisher publisher) {
+        Table<FieldVersion> fields = StoreTable.of(context, FIELDS, FieldVersion::toBytes, DomainManager::readable);
+        DomainCommandHandler.Dependencies dependencies =
+                new DomainCommandHandler.Dependencies(sequence(context), quota(context), () -> all(fields));
+        return new DomainCommandHandler(domains(context), missions, dependencies, publisher);
     }
 
-    private static List<FieldVersion> all(Records<FieldVersion> fields) {
+    private static List<FieldVersion> all(Table<FieldVersion> fields) {
         List<FieldVersion> all = new ArrayList<>();
         fields.forEach(field -> {
             if (field != null) {
@@ -79,18 +78,18 @@ public final class DomainManager {
     }
 
     /** Returns the stored domains, for a processor connected to {@link #stores()}. */
-    public static Records<Domain> domains(ProcessorContext<?, ?> context) {
-        return StoredRecords.of(context, DOMAINS, Domain.class);
+    public static Table<Domain> domains(ProcessorContext<?, ?> context) {
+        return StoreTable.of(context, DOMAINS, Domain.class);
     }
 
     /** Returns the shared sequence of the desired state of domains, missions and devices. */
     public static Sequence sequence(ProcessorContext<?, ?> context) {
-        return new Sequence(StoredRecords.of(context, SEQUENCE, Long.class));
+        return new Sequence(StoreTable.of(context, SEQUENCE, Long.class));
     }
 
     /** Returns the quota shared by all definitions of domains, missions and templates. */
     public static Quota quota(ProcessorContext<?, ?> context) {
-        return new Quota(StoredRecords.of(context, SEQUENCE, Long.class), Limits.DEFINITIONS_BYTES);
+        return new Quota(StoreTable.of(context, SEQUENCE, Long.class), Limits.DEFINITIONS_BYTES);
     }
 
     /**
@@ -104,13 +103,13 @@ public final class DomainManager {
             BiFunction<ProcessorContext<?, ?>, EventPublisher, DomainMissions> missions,
             List<String> storesOfMissions) {
         builder.addGlobalStore(
-                StoredRecords.builder(FIELDS).withLoggingDisabled(),
+                StoreTable.builder(FIELDS).withLoggingDisabled(),
                 Topics.FIELDS,
                 Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("fields-in"),
                 () -> new GlobalStoreProcessor(FIELDS));
         builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
         BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<DomainCommand>> opening =
-                (context, outbox) -> handler(context, missions.apply(context, outbox), outbox)::answer;
+                (context, publisher) -> handler(context, missions.apply(context, publisher), publisher)::answer;
         String[] stores = Stream.of(stores(), storesOfMissions, List.of(TOPIC.answers()))
                 .flatMap(List::stream)
                 .toArray(String[]::new);

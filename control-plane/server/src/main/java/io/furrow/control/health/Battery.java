@@ -34,22 +34,22 @@ final class Battery {
         String attribute = attributeOf(entity);
         Optional<Double> number = entity.number(attribute);
         Optional<Double> charge = number.isEmpty()
-                ? entity.text(attribute).map(Battery::ofRobot).map(said -> share(said, said > 1))
+                ? entity.text(attribute).map(Battery::ofRobot).map(value -> share(value, value > 1))
                 : Quantity.unitOf(entity, attribute).isEmpty()
-                        ? number.map(said -> share(said, said > 1 || percent))
+                        ? number.map(value -> share(value, value > 1 || percent))
                         : Quantity.SHARE.of(entity, attribute);
         return charge.filter(share -> share >= 0 && share <= 1).orElse(null);
     }
 
-    private static double share(double said, boolean percent) {
-        return percent ? said / PERCENT : said;
+    private static double share(double value, boolean percent) {
+        return percent ? value / PERCENT : value;
     }
 
     /** Whether the entity shows that its device reports in percent where it names no unit. */
     static boolean isPercent(Entity entity) {
         String attribute = attributeOf(entity);
         return Quantity.unitOf(entity, attribute).isEmpty()
-                && entity.number(attribute).filter(said -> said > 1).isPresent();
+                && entity.number(attribute).filter(value -> value > 1).isPresent();
     }
 
     private static String attributeOf(Entity entity) {

@@ -55,21 +55,21 @@ public record DeviceHealth(
                 false);
     }
 
-    DeviceHealth heard(Heartbeat sign, long now) {
+    DeviceHealth heard(Heartbeat heartbeat, long now) {
         return new DeviceHealth(
                 id,
                 service,
                 servicePath,
-                sign.type(),
+                heartbeat.type(),
                 domain,
                 mission,
                 false,
                 silent ? now : since,
-                sign.reported(),
-                sign.heard(),
-                sign.deviceTime(),
-                sign.battery() == null ? battery : sign.battery(),
-                sign.off());
+                heartbeat.reported(),
+                heartbeat.heard(),
+                heartbeat.deviceTime(),
+                heartbeat.battery() == null ? battery : heartbeat.battery(),
+                heartbeat.off());
     }
 
     DeviceHealth silent(long now) {

@@ -8,12 +8,12 @@ import java.util.Optional;
 import java.util.Set;
 
 import io.furrow.control.manager.EventPublisher;
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.Table;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.topic.Topics;
 
 /**
- * Maintains {@code service.devices.health}, and lets {@link Silence} reconcile the alarms with it about once a second.
+ * Maintains {@code service.devices.health}, and lets {@link SilenceAlarmReconciler} reconcile the alarms with it about once a second.
  * {@link SilenceDetector} reports silence. Periodic polling of all devices finds those that never reported or whose
  * detector died with its process.
  */
@@ -23,31 +23,31 @@ final class DeviceHealthTracker {
 
     private static final Duration POLL_INTERVAL = Duration.ofSeconds(10);
 
-    private final Records<DeviceHealth> health;
-    private final DesiredDevices desired;
+    private final Table<DeviceHealth> health;
+    private final MonitoredDevices desired;
     private final HealthOptions options;
-    private final Silence silence;
-    private final EventPublisher outbox;
-    private long lookedAt;
+    private final SilenceAlarmReconciler silence;
+    private final EventPublisher publisher;
+    private long checkedAt;
     private Long began;
 
     DeviceHealthTracker(
-            Records<DeviceHealth> health,
-            DesiredDevices desired,
+            Table<DeviceHealth> health,
+            MonitoredDevices desired,
             HealthOptions options,
-            Silence silence,
-            EventPublisher outbox) {
+            SilenceAlarmReconciler silence,
+            EventPublisher publisher) {
         this.health = health;
         this.desired = desired;
         this.options = options;
         this.silence = silence;
-        this.outbox = outbox;
+        this.publisher = publisher;
     }
 
     /** Processes a heartbeat of the device of a key. */
-    void take(String key, Heartbeat sign, long now) {
-        if (sign.isPulse()) {
-            silence.reported(sign.heard());
+    void take(String key, Heartbeat heartbeat, long now) {
+        if (heartbeat.isPulse()) {
+            silence.reported(heartbeat.heard());
             return;
         }
         Optional<DesiredDevice> device = desired.of(key);
@@ -55,17 +55,18 @@ final class DeviceHealthTracker {
             return; // the device was stopped meanwhile
         }
         DeviceHealth remembered = health.get(key);
-        DeviceHealth known = remembered == null ? DeviceHealth.unheard(device.get(), now) : remembered.of(device.get());
-        boolean outdated = known.heard() != null && sign.heard() < known.heard();
+        DeviceHealth existing =
+                remembered == null ? DeviceHealth.unheard(device.get(), now) : remembered.of(device.get());
+        boolean outdated = existing.heard() != null && heartbeat.heard() < existing.heard();
         if (outdated) {
             return; // another detector has a newer report
         }
-        DeviceHealth heard = known.silent() && sign.silent() ? known : known.heard(sign, now);
-        DeviceHealth judged = sign.silent() && !heard.silent() ? heard.silent(now) : heard;
-        keep(key, judged);
+        DeviceHealth heard = existing.silent() && heartbeat.silent() ? existing : existing.heard(heartbeat, now);
+        DeviceHealth judged = heartbeat.silent() && !heard.silent() ? heard.silent(now) : heard;
+        store(key, judged);
         watch(key, judged, device.get());
-        if (!sign.silent()) {
-            silence.reported(sign.heard());
+        if (!heartbeat.silent()) {
+            silence.reported(heartbeat.heard());
         }
     }
 
@@ -74,51 +75,51 @@ final class DeviceHealthTracker {
         if (began == null) {
             began = now;
         }
-        if (now - lookedAt >= POLL_INTERVAL.toMillis()) {
-            lookedAt = now;
+        if (now - checkedAt >= POLL_INTERVAL.toMillis()) {
+            checkedAt = now;
             Set<String> running = new HashSet<>();
             desired.forEach(device -> {
                 running.add(device.version().key());
-                lookAt(device, now);
+                check(device, now);
             });
             forgetAllBut(running);
         }
         silence.reconcile(began, now);
     }
 
-    private void lookAt(DesiredDevice device, long now) {
+    private void check(DesiredDevice device, long now) {
         String key = device.version().key();
         DeviceHealth remembered = health.get(key);
-        DeviceHealth known = remembered == null ? DeviceHealth.unheard(device, now) : remembered.of(device);
-        long quietSince = Math.max(device.version().from(), known.heard() == null ? 0 : known.heard());
+        DeviceHealth existing = remembered == null ? DeviceHealth.unheard(device, now) : remembered.of(device);
+        long quietSince = Math.max(device.version().from(), existing.heard() == null ? 0 : existing.heard());
         boolean quiet = now - Math.max(quietSince, began) > options.silentAfter(device) + TIMEOUT.toMillis();
-        DeviceHealth judged = quiet && !known.off() && !known.silent() ? known.silent(now) : known;
+        DeviceHealth judged = quiet && !existing.off() && !existing.silent() ? existing.silent(now) : existing;
         if (!judged.equals(remembered)) {
-            keep(key, judged);
+            store(key, judged);
         }
         watch(key, judged, device);
     }
 
     private void forgetAllBut(Set<String> running) {
-        List<DeviceHealth> gone = new ArrayList<>();
+        List<DeviceHealth> removed = new ArrayList<>();
         health.forEach(each -> {
             if (!running.contains(each.key())) {
-                gone.add(each);
+                removed.add(each);
             }
         });
-        for (DeviceHealth each : gone) {
+        for (DeviceHealth each : removed) {
             health.put(each.key(), null);
-            outbox.put(Topics.DEVICES_HEALTH, each.key(), null);
+            publisher.put(Topics.DEVICES_HEALTH, each.key(), null);
             silence.remove(each.key());
         }
     }
 
     private void watch(String key, DeviceHealth device, DesiredDevice desiredDevice) {
-        silence.put(key, Silence.Device.of(device, options.silentAfter(desiredDevice)));
+        silence.put(key, SilenceAlarmReconciler.MonitoredDevice.of(device, options.silentAfter(desiredDevice)));
     }
 
-    private void keep(String key, DeviceHealth device) {
+    private void store(String key, DeviceHealth device) {
         health.put(key, device);
-        outbox.put(Topics.DEVICES_HEALTH, key, device.toBytes());
+        publisher.put(Topics.DEVICES_HEALTH, key, device.toBytes());
     }
 }

@@ -24,9 +24,9 @@ import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ObserverProcessor;
 import io.furrow.control.manager.ObserverProcessor.Observer;
 import io.furrow.control.manager.OutputRecord;
-import io.furrow.control.manager.Records;
 import io.furrow.control.manager.StateJson;
-import io.furrow.control.manager.StoredRecords;
+import io.furrow.control.manager.StoreTable;
+import io.furrow.control.manager.Table;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -44,8 +44,8 @@ public final class HealthWatch {
     private HealthWatch() {}
 
     /** Returns the desired devices from a global store, which every instance and any processor can read. */
-    public static DesiredDevices desired(ProcessorContext<?, ?> context) {
-        return new DesiredDevices(StoredRecords.of(context, WANTED, Function.identity(), Function.identity()));
+    public static MonitoredDevices desired(ProcessorContext<?, ?> context) {
+        return new MonitoredDevices(StoreTable.of(context, WANTED, Function.identity(), Function.identity()));
     }
 
     /** Names of the stores that users of {@link #typeOf} need. */
@@ -55,12 +55,12 @@ public final class HealthWatch {
 
     /** Returns a lookup of a device's entity type: the reported type, else the desired type, else null. */
     public static Function<String, String> typeOf(ProcessorContext<?, ?> context) {
-        Records<DeviceHealth> health = StoredRecords.of(context, HEALTH, DeviceHealth.class);
-        DesiredDevices desired = desired(context);
+        Table<DeviceHealth> health = StoreTable.of(context, HEALTH, DeviceHealth.class);
+        MonitoredDevices desired = desired(context);
         return identity -> {
-            DeviceHealth known = health.get(identity);
-            return known != null && known.type() != null
-                    ? known.type()
+            DeviceHealth existing = health.get(identity);
+            return existing != null && existing.type() != null
+                    ? existing.type()
                     : desired.of(identity).map(device -> device.type()).orElse(null);
         };
     }
@@ -68,23 +68,24 @@ public final class HealthWatch {
     /** Adds the processors. The stores of alarms must exist already. */
     public static void add(StreamsBuilder builder, HealthOptions options) {
         builder.addGlobalStore(
-                StoredRecords.builder(WANTED).withLoggingDisabled(),
+                StoreTable.builder(WANTED).withLoggingDisabled(),
                 Topics.DEVICES,
                 Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("wanted-devices-in"),
                 () -> new GlobalStoreProcessor(WANTED));
         builder.addGlobalStore(
-                StoredRecords.builder(CONNECTIONS).withLoggingDisabled(),
+                StoreTable.builder(CONNECTIONS).withLoggingDisabled(),
                 Topics.DEVICES_CONNECTION,
                 Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("device-connections-in"),
                 () -> new GlobalStoreProcessor(CONNECTIONS));
-        builder.addStateStore(StoredRecords.builder(HEALTH));
+        builder.addStateStore(StoreTable.builder(HEALTH));
         BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening =
-                (context, outbox) -> observer(new DeviceHealthTracker(
-                        StoredRecords.of(context, HEALTH, DeviceHealth.class),
+                (context, publisher) -> observer(new DeviceHealthTracker(
+                        StoreTable.of(context, HEALTH, DeviceHealth.class),
                         desired(context),
                         options,
-                        new Silence(options, AlarmManager.handler(context, outbox), connections(context)),
-                        outbox));
+                        new SilenceAlarmReconciler(
+                                options, AlarmManager.handler(context, publisher), connections(context)),
+                        publisher));
 
         KStream<String, byte[]> signs = builder.stream(
                         Topics.RAW,
@@ -103,7 +104,7 @@ public final class HealthWatch {
     }
 
     private static Function<String, Optional<DeviceConnection>> connections(ProcessorContext<?, ?> context) {
-        Records<byte[]> records = StoredRecords.of(context, CONNECTIONS, Function.identity(), Function.identity());
+        Table<byte[]> records = StoreTable.of(context, CONNECTIONS, Function.identity(), Function.identity());
         return key -> {
             try {
                 byte[] value = records.get(key);
@@ -118,8 +119,8 @@ public final class HealthWatch {
     private static Observer observer(DeviceHealthTracker tracker) {
         return new Observer() {
             @Override
-            public void take(Record<String, byte[]> sign, long now) {
-                tracker.take(sign.key(), StateJson.read(sign.value(), Heartbeat.class), now);
+            public void take(Record<String, byte[]> heartbeat, long now) {
+                tracker.take(heartbeat.key(), StateJson.read(heartbeat.value(), Heartbeat.class), now);
             }
 
             @Override

@@ -31,7 +31,7 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
     private static final Duration PULSE = Duration.ofSeconds(5);
 
     private final HealthOptions options;
-    private SilenceDetector listener;
+    private SilenceDetector detector;
     private long pulsed;
 
     HeartbeatProcessor(HealthOptions options) {
@@ -41,24 +41,24 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
     @Override
     public void init(ProcessorContext<String, byte[]> context) {
         super.init(context);
-        listener = new SilenceDetector(options, HealthWatch.desired(context), this::forward);
-        context.schedule(TICK, PunctuationType.WALL_CLOCK_TIME, listener::passTime);
+        detector = new SilenceDetector(options, HealthWatch.desired(context), this::forward);
+        context.schedule(TICK, PunctuationType.WALL_CLOCK_TIME, detector::passTime);
     }
 
     @Override
     public void process(Record<String, byte[]> record) {
-        boolean mended = Origin.REPAIR.code().equals(RecordScope.header(record, HeaderNames.ORIGIN));
-        if (record.key() == null || record.value() == null || mended) {
+        boolean repaired = Origin.REPAIR.code().equals(RecordScope.header(record, HeaderNames.ORIGIN));
+        if (record.key() == null || record.value() == null || repaired) {
             return;
         }
         String key = RecordScope.of(record).identity(record.key());
-        if (!listener.listensTo(key)) {
+        if (!detector.isMonitored(key)) {
             return;
         }
         try {
             Entity entity = Entity.parse(record.value());
             long now = context().currentSystemTimeMs();
-            if (listener.hear(key, entity, record.timestamp(), now) && now - pulsed >= PULSE.toMillis()) {
+            if (detector.process(key, entity, record.timestamp(), now) && now - pulsed >= PULSE.toMillis()) {
                 pulsed = now;
                 forward(Heartbeat.PULSE_KEY, Heartbeat.pulse(now));
             }
@@ -67,7 +67,8 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
         }
     }
 
-    private void forward(String key, Heartbeat sign) {
-        context().forward(new Record<>(key, StateJson.write(sign), context().currentSystemTimeMs()));
+    private void forward(String key, Heartbeat heartbeat) {
+        context()
+                .forward(new Record<>(key, StateJson.write(heartbeat), context().currentSystemTimeMs()));
     }
 }

@@ -39,7 +39,7 @@ public record SilenceCause(String code, String text, long time) {
             return new SilenceCause("not-provisioned", failure, 0);
         }
         return Optional.ofNullable(connection)
-                .flatMap(known -> of(known, null))
+                .flatMap(existing -> of(existing, null))
                 .filter(cause -> !cause.code().equals(NO_MEASURE) || cause.time() >= from)
                 .orElseGet(() -> new SilenceCause("no-report", "it has not reported yet", 0));
     }
@@ -111,7 +111,7 @@ public record SilenceCause(String code, String text, long time) {
         return at(Counts.times(count) + (count == 1 ? ", at" : ", last at"), last);
     }
 
-    private static String at(String words, long ms) {
-        return words + " " + Instant.ofEpochMilli(ms).truncatedTo(ChronoUnit.SECONDS);
+    private static String at(String prefix, long ms) {
+        return prefix + " " + Instant.ofEpochMilli(ms).truncatedTo(ChronoUnit.SECONDS);
     }
 }

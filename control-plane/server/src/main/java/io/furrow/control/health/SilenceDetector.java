@@ -21,7 +21,7 @@ import io.furrow.model.ngsi.Entity;
  * <p>What the context broker notifies about when a command is sent to the device is no report of it, see {@link ReportedState}.
  */
 final class SilenceDetector {
-    static final Duration SIGN_EVERY = Duration.ofSeconds(30);
+    static final Duration HEARTBEAT_INTERVAL = Duration.ofSeconds(30);
 
     /** Boolean; false if the device is switched off. */
     static final String STATUS = "Status";
@@ -30,26 +30,26 @@ final class SilenceDetector {
     private static final Duration LOOKUP_INTERVAL = Duration.ofSeconds(5);
 
     private final HealthOptions options;
-    private final DesiredDevices desired;
-    private final SilenceListener told;
-    private final Map<String, Heard> devices = new HashMap<>();
+    private final MonitoredDevices desired;
+    private final HeartbeatListener listener;
+    private final Map<String, TrackedDevice> devices = new HashMap<>();
     private long lookedUp;
     private long passed;
 
     /** Receives the heartbeats. */
-    interface SilenceListener {
+    interface HeartbeatListener {
         /** @param key of {@code service.devices} */
-        void tell(String key, Heartbeat sign);
+        void emit(String key, Heartbeat heartbeat);
     }
 
     /** Mutable state of one device. */
-    private static final class Heard {
+    private static final class TrackedDevice {
         /** Null until the device reports. */
         private Heartbeat newest;
 
         private ReportedState state;
         private boolean percent;
-        private long told;
+        private long emittedAt;
         /** The newest report was not emitted. */
         private boolean pending;
 
@@ -58,7 +58,7 @@ final class SilenceDetector {
         private long from;
 
         boolean isDue(long now) {
-            return now - told >= SIGN_EVERY.toMillis();
+            return now - emittedAt >= HEARTBEAT_INTERVAL.toMillis();
         }
 
         /** After a new start of its mission the next report is emitted at once. */
@@ -66,27 +66,27 @@ final class SilenceDetector {
             silentAfter = after;
             if (from != device.version().from()) {
                 from = device.version().from();
-                told = 0;
+                emittedAt = 0;
                 pending = false;
             }
         }
     }
 
-    SilenceDetector(HealthOptions options, DesiredDevices desired, SilenceListener told) {
+    SilenceDetector(HealthOptions options, MonitoredDevices desired, HeartbeatListener listener) {
         this.options = options;
         this.desired = desired;
-        this.told = told;
+        this.listener = listener;
     }
 
     /** Whether the device is desired, so that its reports are parsed. */
-    boolean listensTo(String key) {
+    boolean isMonitored(String key) {
         if (devices.containsKey(key)) {
             return true;
         }
-        Heard unheard = new Heard();
-        boolean listens = isDesiredStill(key, unheard);
+        TrackedDevice untracked = new TrackedDevice();
+        boolean listens = isDesiredStill(key, untracked);
         if (listens) {
-            devices.put(key, unheard);
+            devices.put(key, untracked);
         }
         return listens;
     }
@@ -98,41 +98,41 @@ final class SilenceDetector {
      * @param now epoch ms
      * @return whether the report counts as a heartbeat
      */
-    boolean hear(String key, Entity entity, long reported, long now) {
-        Heard known = devices.get(key);
-        boolean first = known.newest == null;
+    boolean process(String key, Entity entity, long reported, long now) {
+        TrackedDevice tracked = devices.get(key);
+        boolean first = tracked.newest == null;
         if (first && !isMeasured(entity)) {
             return false;
         }
-        ReportedState before = known.state;
-        known.state = ReportedState.of(entity);
-        if (!first && !known.state.isReportAfter(before, known.newest.reported() != reported)) {
+        ReportedState before = tracked.state;
+        tracked.state = ReportedState.of(entity);
+        if (!first && !tracked.state.isReportAfter(before, tracked.newest.reported() != reported)) {
             return false;
         }
         Long deviceTime = EventTimeRule.Source.DEVICE
                 .read(entity)
                 .map(Instant::toEpochMilli)
                 .orElse(null);
-        known.percent |= Battery.isPercent(entity);
-        Double battery = Battery.chargeOf(entity, known.percent);
+        tracked.percent |= Battery.isPercent(entity);
+        Double battery = Battery.chargeOf(entity, tracked.percent);
         boolean off = entity.value(STATUS)
                 .filter(status -> status.isBoolean() && !status.booleanValue())
                 .isPresent();
-        boolean switched = !first && off != known.newest.off();
-        Double newest = battery == null && !first ? known.newest.battery() : battery;
-        known.newest = new Heartbeat(entity.id(), entity.type(), false, now, reported, deviceTime, newest, off);
-        known.pending = true;
-        if (first || known.silent || switched || known.isDue(now)) {
-            known.silent = false;
-            emit(key, known, now);
+        boolean switched = !first && off != tracked.newest.off();
+        Double newest = battery == null && !first ? tracked.newest.battery() : battery;
+        tracked.newest = new Heartbeat(entity.id(), entity.type(), false, now, reported, deviceTime, newest, off);
+        tracked.pending = true;
+        if (first || tracked.silent || switched || tracked.isDue(now)) {
+            tracked.silent = false;
+            emit(key, tracked, now);
         }
         return true;
     }
 
-    private void emit(String key, Heard heard, long now) {
-        heard.told = now;
-        heard.pending = false;
-        told.tell(key, heard.newest);
+    private void emit(String key, TrackedDevice tracked, long now) {
+        tracked.emittedAt = now;
+        tracked.pending = false;
+        listener.emit(key, tracked.newest);
     }
 
     /** Whether the context broker notified about something else than what was assigned to the device or asked of it. */
@@ -160,28 +160,28 @@ final class SilenceDetector {
             devices.entrySet().removeIf(entry -> !isDesiredStill(entry.getKey(), entry.getValue()));
         }
         if (!paused) {
-            tellSilent(now);
+            emitSilent(now);
         }
     }
 
-    private void tellSilent(long now) {
-        devices.forEach((key, heard) -> {
-            if (!heard.silent
-                    && heard.newest != null
-                    && !heard.newest.off()
-                    && now - heard.newest.heard() > heard.silentAfter) {
-                heard.silent = true;
-                heard.pending = false;
-                told.tell(key, silence(heard.newest));
-            } else if (heard.pending && heard.isDue(now)) { // the next report may be hours away
-                emit(key, heard, now);
+    private void emitSilent(long now) {
+        devices.forEach((key, tracked) -> {
+            if (!tracked.silent
+                    && tracked.newest != null
+                    && !tracked.newest.off()
+                    && now - tracked.newest.heard() > tracked.silentAfter) {
+                tracked.silent = true;
+                tracked.pending = false;
+                listener.emit(key, silence(tracked.newest));
+            } else if (tracked.pending && tracked.isDue(now)) { // the next report may be hours away
+                emit(key, tracked, now);
             }
         });
     }
 
-    private boolean isDesiredStill(String key, Heard heard) {
+    private boolean isDesiredStill(String key, TrackedDevice tracked) {
         Optional<DesiredDevice> device = desired.of(key);
-        device.ifPresent(found -> heard.take(found, options.silentAfter(found)));
+        device.ifPresent(found -> tracked.take(found, options.silentAfter(found)));
         return device.isPresent();
     }
 

@@ -47,7 +47,7 @@ public final class CommandProcessor<C extends Command>
     private final Duration remembered;
     private final BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<C>> opening;
     private RequestLog answered;
-    private AtomicContext atomic;
+    private UnitOfWork unitOfWork;
     private Punctuations punctuations;
     private CommandHandler<C> handler;
     private boolean opened;
@@ -69,16 +69,16 @@ public final class CommandProcessor<C extends Command>
     public void init(ProcessorContext<String, OutputRecord> context) {
         super.init(context);
         answered = new RequestLog(context, manager.answers(), remembered);
-        atomic = new AtomicContext(context);
-        handler = opening.apply(atomic, outbox(atomic));
+        unitOfWork = new UnitOfWork(context);
+        handler = opening.apply(unitOfWork, publisher(unitOfWork));
         opened = false;
-        punctuations = new Punctuations(atomic);
+        punctuations = new Punctuations(unitOfWork);
         context.schedule(TICK, PunctuationType.WALL_CLOCK_TIME, now -> punctuations.run(handler.due(now)));
         context.schedule(STEP, PunctuationType.WALL_CLOCK_TIME, now -> punctuations.run(handler.pending(now)));
     }
 
     /** Where handlers write to: on to the next node, under the time of the control plane's clock. */
-    public static EventPublisher outbox(ProcessorContext<String, OutputRecord> context) {
+    public static EventPublisher publisher(ProcessorContext<String, OutputRecord> context) {
         return (topic, key, value) ->
                 context.forward(new Record<>(key, new OutputRecord(topic, value), context.currentSystemTimeMs()));
     }
@@ -97,43 +97,49 @@ public final class CommandProcessor<C extends Command>
         }
         Received<C> received = manager.read(record.value());
         if (received instanceof Received.Request<C> request) {
-            answerOnce(Asked.of(record, request.requestId()), () -> answer(record, request.command(), now), now);
+            answerOnce(
+                    IdentifiedRequest.of(record, request.requestId()),
+                    () -> answer(record, request.command(), now),
+                    now);
         } else if (received instanceof Received.Refused<C> refused) {
-            answerOnce(Asked.of(record, refused.requestId()), refused::answer, now);
+            answerOnce(IdentifiedRequest.of(record, refused.requestId()), refused::answer, now);
         }
     }
 
     /** A request as a record, its id, which may be null, and what it asks for. */
-    private record Asked(Record<String, byte[]> record, String id, String fingerprint) {
-        static Asked of(Record<String, byte[]> record, String id) {
-            return new Asked(record, id, id == null ? "" : RequestFingerprint.of(record.value()));
+    private record IdentifiedRequest(Record<String, byte[]> record, String id, String fingerprint) {
+        static IdentifiedRequest of(Record<String, byte[]> record, String id) {
+            return new IdentifiedRequest(record, id, id == null ? "" : RequestFingerprint.of(record.value()));
         }
     }
 
-    private interface Answering {
+    private interface ResponseSupplier {
         CommandResult answer();
     }
 
-    private void answerOnce(Asked asked, Answering answering, long now) {
-        String id = asked.id();
-        Optional<String> known = id == null ? Optional.empty() : answered.fingerprint(id, now);
-        if (known.isPresent()) {
-            if (!known.get().equals(asked.fingerprint())) {
-                send(asked, refusal(asked, ErrorCode.REQUEST_ID_REUSED, "this id was given to another request"), now);
+    private void answerOnce(IdentifiedRequest requested, ResponseSupplier answering, long now) {
+        String id = requested.id();
+        Optional<String> existing = id == null ? Optional.empty() : answered.fingerprint(id, now);
+        if (existing.isPresent()) {
+            if (!existing.get().equals(requested.fingerprint())) {
+                send(
+                        requested,
+                        refusal(requested, ErrorCode.REQUEST_ID_REUSED, "this id was given to another request"),
+                        now);
             }
             return;
         }
         if (id != null && answered.isFull(now)) {
             String reason = "%d requests of the last %d min are remembered, which is the most; ask again later"
                     .formatted(Limits.REMEMBERED_REQUESTS, remembered.toMinutes());
-            send(asked, refusal(asked, ErrorCode.OVERLOADED, reason), now);
+            send(requested, refusal(requested, ErrorCode.OVERLOADED, reason), now);
             return;
         }
         CommandResult given = answering.answer();
         if (id != null) {
-            answered.add(id, asked.fingerprint(), now);
+            answered.add(id, requested.fingerprint(), now);
         }
-        send(asked, given, now);
+        send(requested, given, now);
     }
 
     private void refuseOversized(Record<String, byte[]> record, long bytes, long now) {
@@ -141,18 +147,22 @@ public final class CommandProcessor<C extends Command>
         String reason =
                 "the request has %d bytes, and may have %d; send a long list of devices in several with 'add-devices'"
                         .formatted(bytes, Limits.REQUEST_BYTES);
-        answerOnce(Asked.of(record, excerpt.requestId()), () -> excerpt.refusal(ErrorCode.TOO_LARGE, reason), now);
+        answerOnce(
+                IdentifiedRequest.of(record, excerpt.requestId()),
+                () -> excerpt.refusal(ErrorCode.TOO_LARGE, reason),
+                now);
     }
 
-    private static CommandResult refusal(Asked asked, ErrorCode code, String reason) {
-        return RequestExcerpt.of(asked.record().value()).refusal(code, reason);
+    private static CommandResult refusal(IdentifiedRequest requested, ErrorCode code, String reason) {
+        return RequestExcerpt.of(requested.record().value()).refusal(code, reason);
     }
 
-    private void send(Asked asked, CommandResult given, long now) {
-        String id = asked.id();
-        String ownKey = asked.record().key() == null || asked.record().key().isEmpty()
-                ? null
-                : asked.record().key();
+    private void send(IdentifiedRequest requested, CommandResult given, long now) {
+        String id = requested.id();
+        String ownKey =
+                requested.record().key() == null || requested.record().key().isEmpty()
+                        ? null
+                        : requested.record().key();
         String key = id == null ? ownKey : id;
         CommandResult answer = given.to(id);
         Record<String, OutputRecord> response = new Record<>(
@@ -161,16 +171,16 @@ public final class CommandProcessor<C extends Command>
                 context().currentSystemTimeMs());
         if (id != null) {
             response.headers()
-                    .add(RequestFingerprint.HEADER, asked.fingerprint().getBytes(StandardCharsets.UTF_8));
+                    .add(RequestFingerprint.HEADER, requested.fingerprint().getBytes(StandardCharsets.UTF_8));
         }
         context().forward(response);
-        AuditEntry entry = AuditEntry.of(manager.topic(), asked.record().value(), answer, now);
-        outbox(context()).put(Topics.AUDIT, key, entry.toBytes());
+        AuditEntry entry = AuditEntry.of(manager.topic(), requested.record().value(), answer, now);
+        publisher(context()).put(Topics.AUDIT, key, entry.toBytes());
     }
 
     private CommandResult answer(Record<String, byte[]> record, C command, long now) {
         try {
-            return atomic.call(() -> handler.answer(command, now));
+            return unitOfWork.call(() -> handler.answer(command, now));
         } catch (RefusedException e) {
             return Requests.refusal(e, command);
         } catch (OversizedRecordException e) {
@@ -178,7 +188,7 @@ public final class CommandProcessor<C extends Command>
         } catch (RuntimeException e) { // a fault of ours, which must not keep the other requests from being answered
             RecordOrigin origin = RecordOrigin.of(record).orElseThrow();
             LOG.error("the request {} failed and changed nothing; it is a dead letter", origin, e);
-            context().forward(DeadLetters.of(record, origin, Reason.FAILED, FailureText.of(e)));
+            context().forward(DeadLetterRecords.of(record, origin, Reason.FAILED, FailureText.of(e)));
             return Requests.refusal(
                     new RefusedException(
                             ErrorCode.INTERNAL_ERROR, "the manager failed at it and changed nothing; its log says why"),

@@ -26,7 +26,7 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
     /** Partitions of which the last record was skipped, so that the log reports it once. */
     private final Set<String> readAgain = new HashSet<>();
 
-    private Records<Position> positions;
+    private Table<Position> positions;
 
     /**
      * How far a partition was read.
@@ -51,7 +51,7 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
     @Override
     public void init(ProcessorContext<String, byte[]> context) {
         super.init(context);
-        positions = StoredRecords.of(context, store, Position.class);
+        positions = StoreTable.of(context, store, Position.class);
     }
 
     @Override
@@ -60,16 +60,16 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
                 .orElseThrow(() -> new IllegalStateException(
                         "a record has no origin; RequestProcessor or SourcePositionProcessor adds it"));
         String partition = origin.topicPartition();
-        Position known = positions.get(partition);
-        if (known != null && known.covers(origin.offset(), record.timestamp())) {
+        Position existing = positions.get(partition);
+        if (existing != null && existing.covers(origin.offset(), record.timestamp())) {
             if (readAgain.add(partition)) {
-                LOG.warn("{} is read again; records up to {}@{} are passed over", origin, partition, known.offset());
+                LOG.warn("{} is read again; records up to {}@{} are passed over", origin, partition, existing.offset());
             }
             return;
         }
         readAgain.remove(partition);
         Position now = new Position(origin.offset(), record.timestamp());
-        positions.put(partition, known == null ? now : known.with(origin.offset(), record.timestamp()));
+        positions.put(partition, existing == null ? now : existing.with(origin.offset(), record.timestamp()));
         context().forward(record);
     }
 }

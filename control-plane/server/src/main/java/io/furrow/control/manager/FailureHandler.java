@@ -41,12 +41,12 @@ public final class FailureHandler
             ErrorHandlerContext context, ConsumerRecord<byte[], byte[]> record, Exception failure) {
         String source = record.topic() + "-" + record.partition() + "@" + record.offset();
         LOG.error("{} cannot be deserialized and is a dead letter", source, failure);
-        return DeserializationExceptionHandler.Response.resume(List.of(letter(
+        return DeserializationExceptionHandler.Response.resume(List.of(deadLetter(
                 record.topic(),
                 record.key(),
                 record.value(),
                 record.headers(),
-                new DeadLetter(Reason.NOT_AN_EVENT, FailureText.of(failure), DeadLetters.STAGE, source))));
+                new DeadLetter(Reason.NOT_AN_EVENT, FailureText.of(failure), DeadLetterRecords.STAGE, source))));
     }
 
     @Override
@@ -58,7 +58,7 @@ public final class FailureHandler
             return ProcessingExceptionHandler.Response.fail();
         }
         LOG.error("{} failed at {} and is a dead letter", context.processorNodeId(), source(context), failure);
-        return ProcessingExceptionHandler.Response.resume(letters(context, failure));
+        return ProcessingExceptionHandler.Response.resume(deadLetters(context, failure));
     }
 
     @Override
@@ -79,7 +79,7 @@ public final class FailureHandler
             Exception failure,
             SerializationExceptionOrigin origin) {
         LOG.error("a record for {} made of {} cannot be serialized", record.topic(), source(context), failure);
-        return ProductionExceptionHandler.Response.resume(letters(context, failure));
+        return ProductionExceptionHandler.Response.resume(deadLetters(context, failure));
     }
 
     @Override
@@ -101,20 +101,20 @@ public final class FailureHandler
     }
 
     /** The dead letter, and the answer where the record is a request; of a punctuation, which has no record, there is neither. */
-    private static List<ProducerRecord<byte[], byte[]>> letters(ErrorHandlerContext context, Exception failure) {
+    private static List<ProducerRecord<byte[], byte[]>> deadLetters(ErrorHandlerContext context, Exception failure) {
         RecordOrigin origin = origin(context);
         if (origin == null || context.sourceRawValue() == null) {
             return List.of();
         }
-        List<ProducerRecord<byte[], byte[]>> letters = new ArrayList<>();
-        DeadLetter letter =
-                new DeadLetter(Reason.FAILED, FailureText.of(failure), DeadLetters.STAGE, origin.toString());
-        letters.add(
-                letter(origin.topic(), context.sourceRawKey(), context.sourceRawValue(), context.headers(), letter));
+        List<ProducerRecord<byte[], byte[]>> deadLetters = new ArrayList<>();
+        DeadLetter deadLetter =
+                new DeadLetter(Reason.FAILED, FailureText.of(failure), DeadLetterRecords.STAGE, origin.toString());
+        deadLetters.add(deadLetter(
+                origin.topic(), context.sourceRawKey(), context.sourceRawValue(), context.headers(), deadLetter));
         if (ManagerTopic.isManager(origin.topic())) {
-            letters.add(answer(origin.topic(), context));
+            deadLetters.add(answer(origin.topic(), context));
         }
-        return letters;
+        return deadLetters;
     }
 
     private static ProducerRecord<byte[], byte[]> answer(String topic, ErrorHandlerContext context) {
@@ -138,10 +138,10 @@ public final class FailureHandler
         return String.valueOf(origin(context));
     }
 
-    private static ProducerRecord<byte[], byte[]> letter(
-            String topic, byte[] key, byte[] value, Headers original, DeadLetter letter) {
+    private static ProducerRecord<byte[], byte[]> deadLetter(
+            String topic, byte[] key, byte[] value, Headers original, DeadLetter deadLetter) {
         Headers headers = new RecordHeaders(original);
-        letter.headers().forEach((name, text) -> headers.add(name, text.getBytes(StandardCharsets.UTF_8)));
+        deadLetter.headers().forEach((name, text) -> headers.add(name, text.getBytes(StandardCharsets.UTF_8)));
         return new ProducerRecord<>(Topics.dead(topic), null, null, key, value, headers);
     }
 }

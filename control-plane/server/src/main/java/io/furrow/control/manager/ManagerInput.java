@@ -34,7 +34,7 @@ public final class ManagerInput {
 
     /** A topic on which executors say what is. */
     public static KStream<String, byte[]> statuses(StreamsBuilder builder, String topic, String name) {
-        return noted(builder, builder.stream(topic, from(name + "-in")), name);
+        return withOrigin(builder, builder.stream(topic, from(name + "-in")), name);
     }
 
     /**
@@ -44,10 +44,11 @@ public final class ManagerInput {
      */
     public static KStream<String, byte[]> observed(
             StreamsBuilder builder, String topic, String name, AutoOffsetReset start) {
-        return noted(builder, builder.stream(topic, from(name + "-in").withOffsetResetPolicy(start)), name);
+        return withOrigin(builder, builder.stream(topic, from(name + "-in").withOffsetResetPolicy(start)), name);
     }
 
-    private static KStream<String, byte[]> noted(StreamsBuilder builder, KStream<String, byte[]> stream, String name) {
+    private static KStream<String, byte[]> withOrigin(
+            StreamsBuilder builder, KStream<String, byte[]> stream, String name) {
         return once(
                 builder,
                 toSinglePartition(stream.process(SourcePositionProcessor::new, Named.as(name + "-note-origin")), name),
@@ -57,7 +58,7 @@ public final class ManagerInput {
     /** Positions are written to the changelog once per commit, not once per record. */
     private static KStream<String, byte[]> once(StreamsBuilder builder, KStream<String, byte[]> line, String name) {
         String positions = name + "-positions";
-        builder.addStateStore(StoredRecords.builder(positions).withCachingEnabled());
+        builder.addStateStore(StoreTable.builder(positions).withCachingEnabled());
         return line.process(() -> new DeduplicationProcessor(positions), Named.as(name + "-take-once"), positions);
     }
 
@@ -67,7 +68,7 @@ public final class ManagerInput {
                 .branch(ManagerInput::fits, Branched.as(FITS))
                 .defaultBranch(Branched.as(OVERSIZED));
         OutputRecord.send(
-                bySize.get(name + OVERSIZED).process(RefuseOversized::new, Named.as(name + "-refuse-oversized")),
+                bySize.get(name + OVERSIZED).process(RejectOversized::new, Named.as(name + "-refuse-oversized")),
                 name + "-oversized-out");
         return bySize.get(name + FITS)
                 .repartition(Repartitioned.with(Serdes.String(), Serdes.ByteArray())
@@ -84,14 +85,15 @@ public final class ManagerInput {
     }
 
     /** Makes a dead letter of a record that is too large to be handled. */
-    private static final class RefuseOversized
+    private static final class RejectOversized
             extends org.apache.kafka.streams.processor.api.ContextualProcessor<String, byte[], String, OutputRecord> {
         @Override
         public void process(org.apache.kafka.streams.processor.api.Record<String, byte[]> record) {
             String message = "a record of %d bytes; the control plane handles at most %d"
                     .formatted(OversizedRecordException.size(record.key(), record.value()), Limits.RECORD_BYTES);
             RecordOrigin.of(record)
-                    .ifPresent(origin -> context().forward(DeadLetters.of(record, origin, Reason.TOO_LARGE, message)));
+                    .ifPresent(origin ->
+                            context().forward(DeadLetterRecords.of(record, origin, Reason.TOO_LARGE, message)));
         }
     }
 }

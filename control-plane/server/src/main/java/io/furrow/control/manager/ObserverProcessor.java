@@ -20,7 +20,7 @@ public final class ObserverProcessor extends ContextualProcessor<String, byte[],
 
     private final BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening;
     private final boolean first;
-    private GuardedWork work;
+    private AtomicHandler atomic;
     private Observer observer;
 
     /** Who is shown them. */
@@ -55,15 +55,15 @@ public final class ObserverProcessor extends ContextualProcessor<String, byte[],
     @Override
     public void init(ProcessorContext<String, OutputRecord> context) {
         super.init(context);
-        work = new GuardedWork(first, context);
-        observer = opening.apply(work.context(), CommandProcessor.outbox(work.context()));
-        Punctuations punctuations = new Punctuations(work.context());
+        atomic = new AtomicHandler(first, context);
+        observer = opening.apply(atomic.context(), CommandProcessor.publisher(atomic.context()));
+        Punctuations punctuations = new Punctuations(atomic.context());
         context.schedule(
                 TICK, PunctuationType.WALL_CLOCK_TIME, now -> punctuations.run(List.of(() -> observer.passTime(now))));
     }
 
     @Override
     public void process(Record<String, byte[]> record) {
-        work.run(record, () -> observer.take(record, context().currentSystemTimeMs()));
+        atomic.run(record, () -> observer.take(record, context().currentSystemTimeMs()));
     }
 }

@@ -12,19 +12,19 @@ import org.slf4j.LoggerFactory;
  */
 final class Punctuations {
     private static final Logger LOG = LoggerFactory.getLogger(Punctuations.class);
-    private static final long LOGGED_EVERY = Duration.ofMinutes(1).toNanos();
+    private static final long LOG_INTERVAL = Duration.ofMinutes(1).toNanos();
 
-    private final AtomicContext atomic;
+    private final UnitOfWork unitOfWork;
     private long nextLog = System.nanoTime();
 
-    Punctuations(AtomicContext atomic) {
-        this.atomic = atomic;
+    Punctuations(UnitOfWork unitOfWork) {
+        this.unitOfWork = unitOfWork;
     }
 
     void run(List<Runnable> steps) {
         for (Runnable step : steps) {
             try {
-                atomic.call(() -> {
+                unitOfWork.call(() -> {
                     step.run();
                     return null;
                 });
@@ -36,9 +36,11 @@ final class Punctuations {
 
     private void log(RuntimeException failure) {
         if (System.nanoTime() - nextLog >= 0) {
-            nextLog = System.nanoTime() + LOGGED_EVERY;
+            nextLog = System.nanoTime() + LOG_INTERVAL;
             LOG.error(
-                    "a punctuation of task {} failed and changed nothing; it is tried again", atomic.taskId(), failure);
+                    "a punctuation of task {} failed and changed nothing; it is tried again",
+                    unitOfWork.taskId(),
+                    failure);
         }
     }
 }

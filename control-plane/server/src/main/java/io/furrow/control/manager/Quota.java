@@ -7,11 +7,11 @@ import io.furrow.model.control.RefusedException;
 public final class Quota {
     private static final String USED = "used-bytes";
 
-    private final Records<Long> used;
+    private final Table<Long> used;
     private final long bytes;
 
     /** @param used where it is remembered how much is used, under a key of its own */
-    public Quota(Records<Long> used, long bytes) {
+    public Quota(Table<Long> used, long bytes) {
         this.used = used;
         this.bytes = bytes;
     }
@@ -43,7 +43,7 @@ public final class Quota {
     }
 
     private long used() {
-        Long known = used.get(USED);
-        return known == null ? 0 : known;
+        Long existing = used.get(USED);
+        return existing == null ? 0 : existing;
     }
 }

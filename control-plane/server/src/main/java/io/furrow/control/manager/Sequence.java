@@ -4,10 +4,10 @@ package io.furrow.control.manager;
 public final class Sequence {
     private static final String LAST = "last";
 
-    private final Records<Long> last;
+    private final Table<Long> last;
 
     /** @param last where the last number is remembered; not shared with others */
-    public Sequence(Records<Long> last) {
+    public Sequence(Table<Long> last) {
         this.last = last;
     }
 

@@ -13,32 +13,32 @@ import io.furrow.model.ngsi.UnreadableException;
  * dead letter; a record without a value says nothing.
  */
 public final class StatusProcessor extends ContextualProcessor<String, byte[], String, OutputRecord> {
-    private final BiFunction<ProcessorContext<?, ?>, EventPublisher, Reports> opening;
-    private GuardedWork work;
-    private Reports reports;
+    private final BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusHandler> opening;
+    private AtomicHandler atomic;
+    private StatusHandler reports;
 
     /** Who takes them. */
-    public interface Reports {
+    public interface StatusHandler {
         /** @param now epoch ms */
         void take(String key, byte[] value, long now) throws UnreadableException;
     }
 
     /** @param opening makes who takes them, whose stores are those of the context */
-    public StatusProcessor(BiFunction<ProcessorContext<?, ?>, EventPublisher, Reports> opening) {
+    public StatusProcessor(BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusHandler> opening) {
         this.opening = opening;
     }
 
     @Override
     public void init(ProcessorContext<String, OutputRecord> context) {
         super.init(context);
-        work = new GuardedWork(true, context);
-        reports = opening.apply(work.context(), CommandProcessor.outbox(work.context()));
+        atomic = new AtomicHandler(true, context);
+        reports = opening.apply(atomic.context(), CommandProcessor.publisher(atomic.context()));
     }
 
     @Override
     public void process(Record<String, byte[]> record) {
         if (record.value() != null && record.key() != null) {
-            work.run(
+            atomic.run(
                     record,
                     () -> reports.take(record.key(), record.value(), context().currentSystemTimeMs()));
         }

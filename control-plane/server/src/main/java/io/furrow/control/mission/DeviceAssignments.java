@@ -14,53 +14,53 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
 /**
- * Writes the devices of missions to {@code service.devices}, a bounded number at a time: what is left is a {@link Rollout}. A device is
+ * Writes the devices of missions to {@code service.devices}, a bounded number at a time: what is left is a {@link PendingAssignment}. A device is
  * on one mission at a time, also while that is still being written.
  */
 final class DeviceAssignments {
-    private final MissionRecords records;
-    private final MissionLists lists;
-    private final MissionOptions options;
-    private final FarmContext farm;
-    private final EventPublisher outbox;
+    private final MissionTables tables;
+    private final DeviceListStore lists;
+    private final MissionSettings options;
+    private final SharedStores farm;
+    private final EventPublisher publisher;
 
     DeviceAssignments(
-            MissionRecords records,
-            MissionLists lists,
-            MissionOptions options,
-            FarmContext farm,
-            EventPublisher outbox) {
-        this.records = records;
+            MissionTables tables,
+            DeviceListStore lists,
+            MissionSettings options,
+            SharedStores farm,
+            EventPublisher publisher) {
+        this.tables = tables;
         this.lists = lists;
         this.options = options;
         this.farm = farm;
-        this.outbox = outbox;
+        this.publisher = publisher;
     }
 
     /** Begins to ask for all devices of a mission, or for none of them where one is another's. Answers how many there are. */
-    int ask(Mission mission, long now) throws RefusedException {
-        List<DesiredDevice> roster = roster(mission, now);
+    int assign(Mission mission, long now) throws RefusedException {
+        List<DesiredDevice> planned = planned(mission, now);
         Set<String> beingWritten = beingWrittenFor(mission);
-        checkFree(mission, roster, beingWritten);
-        checkRoom(roster, beingWritten);
-        advance(mission, new Rollout(mission.mission(), Rollout.Kind.START, 0, now));
-        return roster.size();
+        checkFree(mission, planned, beingWritten);
+        checkRoom(planned, beingWritten);
+        advance(mission, new PendingAssignment(mission.mission(), PendingAssignment.Kind.START, 0, now));
+        return planned.size();
     }
 
-    private void checkFree(Mission mission, List<DesiredDevice> roster, Set<String> beingWritten)
+    private void checkFree(Mission mission, List<DesiredDevice> planned, Set<String> beingWritten)
             throws RefusedException {
         Set<String> keys = new HashSet<>();
-        for (DesiredDevice desired : roster) {
+        for (DesiredDevice desired : planned) {
             String key = desired.version().key();
             String id = desired.version().id();
-            DeviceState known = records.devices().get(key);
-            boolean taken = known != null
-                    && known.device().running()
-                    && !known.mission().equals(mission.mission());
+            DeviceState existing = tables.devices().get(key);
+            boolean taken = existing != null
+                    && existing.device().running()
+                    && !existing.mission().equals(mission.mission());
             if (taken) {
                 throw new RefusedException(
                         ErrorCode.DEVICE_TAKEN,
-                        "device '%s' is on mission '%s'; stop that first".formatted(id, known.mission()));
+                        "device '%s' is on mission '%s'; stop that first".formatted(id, existing.mission()));
             }
             if (beingWritten.contains(key)) {
                 throw new RefusedException(
@@ -72,13 +72,13 @@ final class DeviceAssignments {
         }
     }
 
-    private void checkRoom(List<DesiredDevice> roster, Set<String> beingWritten) throws RefusedException {
-        long fresh = roster.stream()
+    private void checkRoom(List<DesiredDevice> planned, Set<String> beingWritten) throws RefusedException {
+        long fresh = planned.stream()
                 .map(desired -> desired.version().key())
-                .filter(key -> !records.devices().contains(key))
+                .filter(key -> !tables.devices().contains(key))
                 .count();
         long unwritten = beingWritten.stream()
-                .filter(key -> !records.devices().contains(key))
+                .filter(key -> !tables.devices().contains(key))
                 .count();
         farm.quota().require((fresh + unwritten) * Limits.DEVICE_BYTES);
     }
@@ -86,10 +86,11 @@ final class DeviceAssignments {
     /** The devices of other missions that have begun to start, of which some are not written yet. */
     private Set<String> beingWrittenFor(Mission mission) {
         Set<String> keys = new HashSet<>();
-        records.rollouts().forEach(rollout -> {
-            if (rollout.kind() == Rollout.Kind.START && !rollout.mission().equals(mission.mission())) {
-                Mission other = records.missions().get(rollout.mission());
-                roster(other, 0).forEach(device -> keys.add(device.version().key()));
+        tables.pending().forEach(pending -> {
+            if (pending.kind() == PendingAssignment.Kind.START
+                    && !pending.mission().equals(mission.mission())) {
+                Mission other = tables.missions().get(pending.mission());
+                planned(other, 0).forEach(device -> keys.add(device.version().key()));
             }
         });
         return keys;
@@ -99,43 +100,43 @@ final class DeviceAssignments {
      * Begins to want none of its devices any more. Their records stay, so that jobs know to whom their past belongs. Answers how
      * many are simulated and have to go: of a real device only the login ends.
      */
-    int dismiss(Mission mission, long now) {
+    int release(Mission mission, long now) {
         int simulated = 0;
-        for (DeviceState known : of(mission)) {
-            simulated += known.device().running() && known.device().simulated() ? 1 : 0;
+        for (DeviceState existing : of(mission)) {
+            simulated += existing.device().running() && existing.device().simulated() ? 1 : 0;
         }
-        advance(mission, new Rollout(mission.mission(), Rollout.Kind.STOP, 0, now));
+        advance(mission, new PendingAssignment(mission.mission(), PendingAssignment.Kind.STOP, 0, now));
         return simulated;
     }
 
     /** Whether devices of a mission are still to be written. */
     boolean isBeingWritten(String mission) {
-        return records.rollouts().get(mission) != null;
+        return tables.pending().get(mission) != null;
     }
 
-    /** Writes the next devices of a rollout. Answers whether it is done. */
-    boolean advance(Mission mission, Rollout rollout) {
-        List<DesiredDevice> roster = roster(mission, rollout.time());
-        int end = Math.min(roster.size(), rollout.next() + options.devicesPerStep());
-        for (DesiredDevice desired : roster.subList(Math.min(rollout.next(), end), end)) {
-            if (rollout.kind() == Rollout.Kind.START) {
+    /** Writes the next devices of an assignment. Answers whether it is done. */
+    boolean advance(Mission mission, PendingAssignment pending) {
+        List<DesiredDevice> planned = planned(mission, pending.time());
+        int end = Math.min(planned.size(), pending.next() + options.devicesPerStep());
+        for (DesiredDevice desired : planned.subList(Math.min(pending.next(), end), end)) {
+            if (pending.kind() == PendingAssignment.Kind.START) {
                 put(desired);
             } else {
-                stop(mission, desired.version().key(), rollout.time());
+                stop(mission, desired.version().key(), pending.time());
             }
         }
-        boolean done = end == roster.size();
-        records.rollouts().put(mission.mission(), done ? null : rollout.at(end));
+        boolean done = end == planned.size();
+        tables.pending().put(mission.mission(), done ? null : pending.at(end));
         return done;
     }
 
     private void stop(Mission mission, String key, long time) {
-        DeviceState known = records.devices().get(key);
-        if (known != null
-                && known.mission().equals(mission.mission())
-                && known.device().running()) {
-            DeviceVersion version = known.device().version();
-            put(known.device().with(version.endingAt(Math.max(time, version.from())), false));
+        DeviceState existing = tables.devices().get(key);
+        if (existing != null
+                && existing.mission().equals(mission.mission())
+                && existing.device().running()) {
+            DeviceVersion version = existing.device().version();
+            put(existing.device().with(version.endingAt(Math.max(time, version.from())), false));
         }
     }
 
@@ -146,26 +147,27 @@ final class DeviceAssignments {
      * @return how often that was done
      */
     int rotateCredentials(String id) throws RefusedException {
-        DeviceState known = records.devices().get(options.scope().identity(id));
-        if (known == null || known.forgotten()) {
+        DeviceState existing = tables.devices().get(options.scope().identity(id));
+        if (existing == null || existing.forgotten()) {
             throw new RefusedException(ErrorCode.UNKNOWN_DEVICE, "there is no device '%s'".formatted(id));
         }
-        if (known.device().device() == null) {
+        if (existing.device().device() == null) {
             throw new RefusedException(
                     ErrorCode.NO_CREDENTIALS,
                     "device '%s' has a login of its own, which is not known here; list it as an object with a 'type' to give it one"
                             .formatted(id));
         }
-        DesiredDevice rotated = known.device().withGeneration(known.device().generation() + 1);
+        DesiredDevice rotated =
+                existing.device().withGeneration(existing.device().generation() + 1);
         String key = rotated.version().key();
         put(rotated);
-        records.devices().put(key, records.devices().get(key).reported(known.confirmed(), known.reason()));
+        tables.devices().put(key, tables.devices().get(key).reported(existing.confirmed(), existing.reason()));
         return rotated.generation();
     }
 
     /** Forgets its devices, their past too. */
     void forget(Mission mission) {
-        records.rollouts().put(mission.mission(), null);
+        tables.pending().put(mission.mission(), null);
         forget(mission, Set.of());
     }
 
@@ -174,28 +176,28 @@ final class DeviceAssignments {
      * reached yet.
      */
     void forgetAllBut(List<DeviceState> before, Mission now) {
-        Set<String> kept = new HashSet<>();
-        roster(now, 0).forEach(device -> kept.add(device.version().key()));
-        forget(before, kept);
-        Rollout rollout = records.rollouts().get(now.mission());
-        if (rollout != null && rollout.kind() == Rollout.Kind.STOP) {
-            kept.forEach(key -> stop(now, key, rollout.time()));
-            records.rollouts().put(now.mission(), null);
+        Set<String> retained = new HashSet<>();
+        planned(now, 0).forEach(device -> retained.add(device.version().key()));
+        forget(before, retained);
+        PendingAssignment pending = tables.pending().get(now.mission());
+        if (pending != null && pending.kind() == PendingAssignment.Kind.STOP) {
+            retained.forEach(key -> stop(now, key, pending.time()));
+            tables.pending().put(now.mission(), null);
         }
     }
 
-    private void forget(Mission mission, Set<String> kept) {
-        forget(of(mission), kept);
+    private void forget(Mission mission, Set<String> retained) {
+        forget(of(mission), retained);
     }
 
-    private void forget(List<DeviceState> devices, Set<String> kept) {
-        for (DeviceState known : devices) {
-            String key = known.device().version().key();
-            if (!kept.contains(key)) {
+    private void forget(List<DeviceState> devices, Set<String> retained) {
+        for (DeviceState existing : devices) {
+            String key = existing.device().version().key();
+            if (!retained.contains(key)) {
                 // Else a device of the same name would let the stolen password in again.
-                records.devices().put(key, known.generation() == 0 ? null : known.asForgotten());
-                farm.quota().use(known.generation() == 0 ? -Limits.DEVICE_BYTES : 0);
-                outbox.put(Topics.DEVICES, key, null);
+                tables.devices().put(key, existing.generation() == 0 ? null : existing.asForgotten());
+                farm.quota().use(existing.generation() == 0 ? -Limits.DEVICE_BYTES : 0);
+                publisher.put(Topics.DEVICES, key, null);
             }
         }
     }
@@ -203,8 +205,8 @@ final class DeviceAssignments {
     /** Some of its devices that are not up, or, if it shall not run, that are still simulated, and why. */
     List<MissionStatus.Missing> missing(Mission mission) {
         return of(mission).stream()
-                .filter(known -> !known.confirmed()
-                        && (mission.running() || known.device().simulated()))
+                .filter(existing -> !existing.confirmed()
+                        && (mission.running() || existing.device().simulated()))
                 .limit(MissionStatus.MAX_NAMED)
                 .map(DeviceState::missing)
                 .toList();
@@ -213,28 +215,28 @@ final class DeviceAssignments {
     /** Those of its devices that are still its own. */
     List<DeviceState> of(Mission mission) {
         List<DeviceState> own = new ArrayList<>();
-        for (DesiredDevice each : roster(mission, 0)) {
-            DeviceState known = records.devices().get(each.version().key());
-            if (known != null && !known.forgotten() && known.mission().equals(mission.mission())) {
-                own.add(known);
+        for (DesiredDevice each : planned(mission, 0)) {
+            DeviceState existing = tables.devices().get(each.version().key());
+            if (existing != null && !existing.forgotten() && existing.mission().equals(mission.mission())) {
+                own.add(existing);
             }
         }
         return own;
     }
 
-    private List<DesiredDevice> roster(Mission mission, long from) {
+    private List<DesiredDevice> planned(Mission mission, long from) {
         return PlannedDevices.of(mission, lists.groups(mission), options, from);
     }
 
     private void put(DesiredDevice device) {
         DeviceVersion version = device.version();
-        DeviceState known = records.devices().get(version.key());
+        DeviceState existing = tables.devices().get(version.key());
         DesiredDevice numbered = device.with(version.numbered(farm.sequence().next()), device.running())
-                .withGeneration(Math.max(device.generation(), known == null ? 0 : known.generation()));
-        if (known == null) {
+                .withGeneration(Math.max(device.generation(), existing == null ? 0 : existing.generation()));
+        if (existing == null) {
             farm.quota().use(Limits.DEVICE_BYTES);
         }
-        records.devices().put(version.key(), DeviceState.asked(numbered, known));
-        outbox.put(Topics.DEVICES, version.key(), numbered.toBytes());
+        tables.devices().put(version.key(), DeviceState.requested(numbered, existing));
+        publisher.put(Topics.DEVICES, version.key(), numbered.toBytes());
     }
 }

@@ -25,7 +25,7 @@ record DeviceState(
         boolean forgotten,
         DeviceConnection connection) {
     /** @param before null if it was never asked for */
-    static DeviceState asked(DesiredDevice device, DeviceState before) {
+    static DeviceState requested(DesiredDevice device, DeviceState before) {
         try {
             DeviceConnection connection = before == null ? null : before.connection();
             return new DeviceState(NgsiJson.read(device.toBytes()), false, null, false, connection);

@@ -4,7 +4,7 @@ import io.furrow.control.manager.StateJson;
 
 /**
  * What is requested of a mission: remembered, and a record of {@code service.missions} under its name. Its devices are listed on {@code
- * service.missions.devices}, see {@link MissionLists}.
+ * service.missions.devices}, see {@link DeviceListStore}.
  *
  * @param domain that it belongs to for good
  * @param template {@code <name>@<version>} that its devices were taken from; null if they were listed

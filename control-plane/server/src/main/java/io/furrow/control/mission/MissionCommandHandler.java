@@ -22,29 +22,29 @@ import io.furrow.model.topic.Topics;
 
 /** Grants or refuses what is asked of missions, and takes them through their life. What is refused has changed nothing. */
 final class MissionCommandHandler implements DomainMissions {
-    private final MissionRecords records;
+    private final MissionTables tables;
     private final Predicate<String> isDomain;
     private final TemplateStore templates;
-    private final MissionLists lists;
+    private final DeviceListStore lists;
     private final MissionPlanner planner;
     private final DeviceAssignments devices;
     private final Sequence sequence;
     private final Quota quota;
     private final long timeout;
-    private final EventPublisher outbox;
+    private final EventPublisher publisher;
 
     /** @param farm what there is besides missions */
-    MissionCommandHandler(MissionRecords records, FarmContext farm, MissionOptions options, EventPublisher outbox) {
-        this.records = records;
+    MissionCommandHandler(MissionTables tables, SharedStores farm, MissionSettings options, EventPublisher publisher) {
+        this.tables = tables;
         this.isDomain = farm.isDomain();
         this.sequence = farm.sequence();
         this.quota = farm.quota();
-        this.templates = new TemplateStore(records.templates(), records.versions(), farm.quota(), outbox);
-        this.lists = new MissionLists(records.lists(), sequence, farm.quota(), outbox);
-        this.devices = new DeviceAssignments(records, lists, options, farm, outbox);
+        this.templates = new TemplateStore(tables.templates(), tables.versions(), farm.quota(), publisher);
+        this.lists = new DeviceListStore(tables.lists(), sequence, farm.quota(), publisher);
+        this.devices = new DeviceAssignments(tables, lists, options, farm, publisher);
         this.planner = new MissionPlanner(farm, templates, lists, devices);
         this.timeout = options.timeout().toMillis();
-        this.outbox = outbox;
+        this.publisher = publisher;
     }
 
     TemplateStore templates() {
@@ -76,39 +76,39 @@ final class MissionCommandHandler implements DomainMissions {
     }
 
     private CommandResult create(MissionCommand.Create create, long now) throws RefusedException {
-        if (records.missions().get(create.mission()) != null) {
+        if (tables.missions().get(create.mission()) != null) {
             throw new RefusedException(
                     ErrorCode.MISSION_EXISTS, "there is a mission '" + create.mission() + "' already");
         }
         Mission mission = planner.plan(null, create.mission(), create.domain(), create.plan(), now)
                 .undesired(sequence.next());
-        keep(mission, MissionStatus.created(mission, now));
+        store(mission, MissionStatus.created(mission, now));
         return created(mission);
     }
 
     private CommandResult start(MissionCommand.Start start, long now) throws RefusedException {
-        Mission known = records.missions().get(start.mission());
-        MissionStatus status = records.statuses().get(start.mission());
+        Mission existing = tables.missions().get(start.mission());
+        MissionStatus status = tables.statuses().get(start.mission());
         if (status != null && status.state().isActive()) {
             throw new RefusedException(
                     ErrorCode.MISSION_RUNNING,
                     "mission '%s' is %s already"
-                            .formatted(start.mission(), status.state().word()));
+                            .formatted(start.mission(), status.state().code()));
         }
-        String domain = start.domain() == null && known != null ? known.domain() : start.domain();
-        Mission planned = planner.plan(known, start.mission(), domain, start.plan(), now);
+        String domain = start.domain() == null && existing != null ? existing.domain() : start.domain();
+        Mission planned = planner.plan(existing, start.mission(), domain, start.plan(), now);
         long begin = start.start() == null ? now : Math.max(now, start.start().toEpochMilli());
         Long duration =
                 start.duration() == null ? null : Long.valueOf(start.duration().toMillis());
         Mission mission = planned.desired(begin, duration, sequence.next());
-        int desired = begin > now ? 0 : devices.ask(mission, now);
+        int desired = begin > now ? 0 : devices.assign(mission, now);
         MissionStatus before = status == null ? MissionStatus.created(mission, now) : status;
-        keep(mission, begin > now ? before.scheduled(mission, now) : before.started(mission, desired, timeout, now));
+        store(mission, begin > now ? before.scheduled(mission, now) : before.started(mission, desired, timeout, now));
         return created(mission);
     }
 
     private CommandResult addDevices(MissionCommand.AddDevices add) throws RefusedException {
-        MissionStatus status = records.statuses().get(add.mission());
+        MissionStatus status = tables.statuses().get(add.mission());
         if (status == null) {
             throw unknown(add.mission());
         }
@@ -116,15 +116,15 @@ final class MissionCommandHandler implements DomainMissions {
             throw new RefusedException(
                     ErrorCode.MISSION_RUNNING,
                     "mission '%s' is %s; stop it before devices are added"
-                            .formatted(add.mission(), status.state().word()));
+                            .formatted(add.mission(), status.state().code()));
         }
-        Mission mission = lists.append(records.missions().get(add.mission()), add.devices());
-        keep(mission);
+        Mission mission = lists.append(tables.missions().get(add.mission()), add.devices());
+        store(mission);
         return CommandResult.of("changed").with("mission", mission.mission()).with("devices", mission.deviceCount());
     }
 
     private CommandResult stop(MissionCommand.Stop stop, long now) throws RefusedException {
-        MissionStatus status = records.statuses().get(stop.mission());
+        MissionStatus status = tables.statuses().get(stop.mission());
         if (status == null) {
             throw unknown(stop.mission());
         }
@@ -134,18 +134,18 @@ final class MissionCommandHandler implements DomainMissions {
             throw new RefusedException(
                     ErrorCode.MISSION_NOT_RUNNING,
                     "mission '%s' does not run, it is %s"
-                            .formatted(stop.mission(), status.state().word()));
+                            .formatted(stop.mission(), status.state().code()));
         }
         stop(stop.mission(), now);
         return CommandResult.of("deleted").with("mission", stop.mission());
     }
 
     private void stop(String name, long now) {
-        MissionStatus status = records.statuses().get(name);
+        MissionStatus status = tables.statuses().get(name);
         if (status.state() != MissionState.STOPPING) {
-            Mission mission = records.missions().get(name).undesired(sequence.next());
-            int simulated = devices.dismiss(mission, now);
-            keep(mission, status.stopped(mission, simulated, timeout, now));
+            Mission mission = tables.missions().get(name).undesired(sequence.next());
+            int simulated = devices.release(mission, now);
+            store(mission, status.stopped(mission, simulated, timeout, now));
         }
     }
 
@@ -162,7 +162,7 @@ final class MissionCommandHandler implements DomainMissions {
 
     private List<String> missions(Predicate<MissionStatus> which) {
         List<String> missions = new ArrayList<>();
-        records.statuses().forEach(status -> {
+        tables.statuses().forEach(status -> {
             if (which.test(status)) {
                 missions.add(status.mission());
             }
@@ -171,7 +171,7 @@ final class MissionCommandHandler implements DomainMissions {
     }
 
     private CommandResult delete(MissionCommand.Delete delete) throws RefusedException {
-        MissionStatus status = records.statuses().get(delete.mission());
+        MissionStatus status = tables.statuses().get(delete.mission());
         if (status == null) {
             throw unknown(delete.mission());
         }
@@ -179,7 +179,7 @@ final class MissionCommandHandler implements DomainMissions {
             throw new RefusedException(
                     ErrorCode.MISSION_RUNNING,
                     "mission '%s' is %s; stop it first"
-                            .formatted(delete.mission(), status.state().word()));
+                            .formatted(delete.mission(), status.state().code()));
         }
         remove(delete.mission());
         return CommandResult.of("deleted").with("mission", delete.mission());
@@ -187,53 +187,54 @@ final class MissionCommandHandler implements DomainMissions {
 
     @Override
     public void remove(String name) {
-        Mission mission = records.missions().get(name);
+        Mission mission = tables.missions().get(name);
         devices.forget(mission);
         lists.forget(mission);
         quota.use(-Limits.MISSION_OVERHEAD_BYTES);
-        records.missions().put(name, null);
-        records.statuses().put(name, null);
-        outbox.put(Topics.MISSIONS, name, null);
-        outbox.put(Topics.MISSIONS_STATUS, name, null);
+        tables.missions().put(name, null);
+        tables.statuses().put(name, null);
+        publisher.put(Topics.MISSIONS, name, null);
+        publisher.put(Topics.MISSIONS_STATUS, name, null);
     }
 
     /**
      * Takes the status of a device from its host or the provisioner, unless the device or the state is no longer desired. A real
      * device has no host, and one that reports is up whatever else is said.
      */
-    void reported(String key, DeviceStatus told, long now) {
-        DeviceState known = records.devices().get(key);
-        if (known == null || told.sequence() < known.device().version().sequence()) {
+    void reported(String key, DeviceStatus report, long now) {
+        DeviceState existing = tables.devices().get(key);
+        if (existing == null || report.sequence() < existing.device().version().sequence()) {
             return;
         }
-        DeviceStatus.State desired = known.device().running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED;
-        boolean simulated = known.device().simulated();
-        if (simulated || told.state() == DeviceStatus.State.FAILED && !known.confirmed()) {
-            changed(known, known.reported(simulated && told.state() == desired, told.reason()), now);
+        DeviceStatus.State desired =
+                existing.device().running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED;
+        boolean simulated = existing.device().simulated();
+        if (simulated || report.state() == DeviceStatus.State.FAILED && !existing.confirmed()) {
+            changed(existing, existing.reported(simulated && report.state() == desired, report.reason()), now);
         }
     }
 
     /** Takes the health of a device: a real one is up by its first report since it was asked for. */
     void reported(String key, DeviceHealth health, long now) {
-        DeviceState known = records.devices().get(key);
-        boolean isUp = known != null
-                && !known.confirmed()
-                && !known.device().simulated()
-                && known.device().running()
+        DeviceState existing = tables.devices().get(key);
+        boolean isUp = existing != null
+                && !existing.confirmed()
+                && !existing.device().simulated()
+                && existing.device().running()
                 && health.heard() != null
-                && health.heard() >= known.device().version().from();
+                && health.heard() >= existing.device().version().from();
         if (isUp) {
-            changed(known, known.reported(true, null), now);
+            changed(existing, existing.reported(true, null), now);
         }
     }
 
     /** Takes what is known of the connection of a device: why a real one has not reported yet. */
     void reported(String key, DeviceConnection connection, long now) {
-        DeviceState known = records.devices().get(key);
-        if (known != null && !known.device().simulated()) {
-            DeviceState next = known.connected(connection);
-            if (next != known) {
-                changed(known, next, now);
+        DeviceState existing = tables.devices().get(key);
+        if (existing != null && !existing.device().simulated()) {
+            DeviceState next = existing.connected(connection);
+            if (next != existing) {
+                changed(existing, next, now);
             }
         }
     }
@@ -244,15 +245,15 @@ final class MissionCommandHandler implements DomainMissions {
      */
     private void changed(DeviceState before, DeviceState after, long now) {
         DeviceVersion version = after.device().version();
-        records.devices().put(version.key(), after);
-        MissionStatus status = records.statuses().get(after.mission());
+        tables.devices().put(version.key(), after);
+        MissionStatus status = tables.statuses().get(after.mission());
         boolean counts = status != null && status.state().isActive() && version.sequence() > status.sequence();
         if (counts) {
             MissionStatus next = after.confirmed() == before.confirmed()
                     ? status.explained(after.missing())
                     : status.reported(after.missing(), after.confirmed(), now);
             if (!next.equals(status)) {
-                keep(next);
+                store(next);
             }
         }
     }
@@ -260,7 +261,7 @@ final class MissionCommandHandler implements DomainMissions {
     /** What waits for no one but the time, mission by mission: start dates, durations, devices that are late. */
     List<Runnable> due(long now) {
         List<Runnable> steps = new ArrayList<>();
-        records.statuses().forEach(status -> {
+        tables.statuses().forEach(status -> {
             boolean ends = status.ends() != null && status.ends() <= now;
             if (status.isDue(now) && (ends || !devices.isBeingWritten(status.mission()))) {
                 steps.add(() -> goOn(status, now));
@@ -272,29 +273,29 @@ final class MissionCommandHandler implements DomainMissions {
     /** The next devices of each mission of which some are still to be written. */
     List<Runnable> pending(long now) {
         List<Runnable> steps = new ArrayList<>();
-        records.rollouts().forEach(rollout -> steps.add(() -> advance(rollout, now)));
+        tables.pending().forEach(pending -> steps.add(() -> advance(pending, now)));
         return steps;
     }
 
     /** The time for coming up or going counts from the last device on. */
-    private void advance(Rollout rollout, long now) {
-        if (devices.advance(records.missions().get(rollout.mission()), rollout)) {
-            MissionStatus status = records.statuses().get(rollout.mission());
+    private void advance(PendingAssignment pending, long now) {
+        if (devices.advance(tables.missions().get(pending.mission()), pending)) {
+            MissionStatus status = tables.statuses().get(pending.mission());
             MissionStatus after = status.written(timeout, now);
             if (!after.equals(status)) {
-                keep(after);
+                store(after);
             }
         }
     }
 
     private void goOn(MissionStatus status, long now) {
-        Mission mission = records.missions().get(status.mission());
+        Mission mission = tables.missions().get(status.mission());
         if (status.ends() != null && status.ends() <= now) {
             stop(mission.mission(), now);
         } else if (status.state() == MissionState.CREATED) {
             begin(mission, status, now);
         } else {
-            keep(status.without(devices.missing(mission), now));
+            store(status.without(devices.missing(mission), now));
         }
     }
 
@@ -304,7 +305,7 @@ final class MissionCommandHandler implements DomainMissions {
                 throw new RefusedException(
                         ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + mission.domain() + "' any more");
             }
-            keep(status.started(mission, devices.ask(mission, now), timeout, now));
+            store(status.started(mission, devices.assign(mission, now), timeout, now));
         } catch (RefusedException e) {
             fail(mission, status, "at the start date: " + e.getMessage(), now);
         }
@@ -312,22 +313,22 @@ final class MissionCommandHandler implements DomainMissions {
 
     private void fail(Mission mission, MissionStatus status, String reason, long now) {
         Mission undesired = mission.undesired(sequence.next());
-        keep(undesired, status.failed(undesired, reason, now));
+        store(undesired, status.failed(undesired, reason, now));
     }
 
-    private void keep(Mission mission, MissionStatus status) {
-        keep(mission);
-        keep(status);
+    private void store(Mission mission, MissionStatus status) {
+        store(mission);
+        store(status);
     }
 
-    private void keep(Mission mission) {
-        records.missions().put(mission.mission(), mission);
-        outbox.put(Topics.MISSIONS, mission.mission(), mission.toBytes());
+    private void store(Mission mission) {
+        tables.missions().put(mission.mission(), mission);
+        publisher.put(Topics.MISSIONS, mission.mission(), mission.toBytes());
     }
 
-    private void keep(MissionStatus status) {
-        records.statuses().put(status.mission(), status);
-        outbox.put(Topics.MISSIONS_STATUS, status.mission(), status.toBytes());
+    private void store(MissionStatus status) {
+        tables.statuses().put(status.mission(), status);
+        publisher.put(Topics.MISSIONS_STATUS, status.mission(), status.toBytes());
     }
 
     private static CommandResult created(Mission mission) {

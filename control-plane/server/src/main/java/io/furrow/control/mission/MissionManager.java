@@ -21,11 +21,11 @@ import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ManagerTopic;
 import io.furrow.control.manager.OutputRecord;
-import io.furrow.control.manager.Records;
 import io.furrow.control.manager.RequestLog;
 import io.furrow.control.manager.StateJson;
 import io.furrow.control.manager.StatusProcessor;
-import io.furrow.control.manager.StoredRecords;
+import io.furrow.control.manager.StoreTable;
+import io.furrow.control.manager.Table;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionTemplate;
@@ -57,38 +57,42 @@ public final class MissionManager {
 
     /** Missions as they are in the stores of a processor. */
     public static MissionCommandHandler handler(
-            ProcessorContext<?, ?> context, EventPublisher outbox, MissionOptions options) {
-        Records<Domain> domains = DomainManager.domains(context);
-        MissionRecords records = new MissionRecords(
-                StoredRecords.of(context, MISSIONS, Mission.class),
-                StoredRecords.of(context, STATUSES, MissionStatus.class),
-                StoredRecords.of(context, LISTS, Function.identity(), Function.identity()),
-                StoredRecords.of(context, ROLLOUTS, Rollout.class),
-                StoredRecords.of(context, DEVICES, DeviceState.class),
-                StoredRecords.of(context, TEMPLATES, MissionTemplate::toBytes, MissionManager::template),
-                StoredRecords.of(context, VERSIONS, TemplateStore.Versions.class));
-        FarmContext farm =
-                new FarmContext(domains::contains, DomainManager.sequence(context), DomainManager.quota(context));
-        return new MissionCommandHandler(records, farm, options, outbox);
+            ProcessorContext<?, ?> context, EventPublisher publisher, MissionSettings options) {
+        Table<Domain> domains = DomainManager.domains(context);
+        MissionTables tables = new MissionTables(
+                StoreTable.of(context, MISSIONS, Mission.class),
+                StoreTable.of(context, STATUSES, MissionStatus.class),
+                StoreTable.of(context, LISTS, Function.identity(), Function.identity()),
+                StoreTable.of(context, ROLLOUTS, PendingAssignment.class),
+                StoreTable.of(context, DEVICES, DeviceState.class),
+                StoreTable.of(context, TEMPLATES, MissionTemplate::toBytes, MissionManager::template),
+                StoreTable.of(context, VERSIONS, TemplateStore.Versions.class));
+        SharedStores farm =
+                new SharedStores(domains::contains, DomainManager.sequence(context), DomainManager.quota(context));
+        return new MissionCommandHandler(tables, farm, options, publisher);
     }
 
     /** Its stores and those of domains are there already. @param remembered how long ids of requests are */
-    public static void add(StreamsBuilder builder, Duration remembered, MissionOptions options) {
+    public static void add(StreamsBuilder builder, Duration remembered, MissionSettings options) {
         builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
         BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<MissionCommand>> opening =
-                (context, outbox) -> new InTime(handler(context, outbox, options));
-        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.Reports> reports = (context, outbox) -> {
-            MissionCommandHandler handler = handler(context, outbox, options);
-            return (key, value, now) -> handler.reported(key, DeviceStatus.read(value), now);
-        };
-        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.Reports> healths = (context, outbox) -> {
-            MissionCommandHandler handler = handler(context, outbox, options);
-            return (key, value, now) -> handler.reported(key, StateJson.readRecord(value, DeviceHealth.class), now);
-        };
-        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.Reports> connections = (context, outbox) -> {
-            MissionCommandHandler handler = handler(context, outbox, options);
-            return (key, value, now) -> handler.reported(key, DeviceConnection.read(value), now);
-        };
+                (context, publisher) -> new TimedMissionHandler(handler(context, publisher, options));
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.StatusHandler> reports =
+                (context, publisher) -> {
+                    MissionCommandHandler handler = handler(context, publisher, options);
+                    return (key, value, now) -> handler.reported(key, DeviceStatus.read(value), now);
+                };
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.StatusHandler> healths =
+                (context, publisher) -> {
+                    MissionCommandHandler handler = handler(context, publisher, options);
+                    return (key, value, now) ->
+                            handler.reported(key, StateJson.readRecord(value, DeviceHealth.class), now);
+                };
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.StatusHandler> connections =
+                (context, publisher) -> {
+                    MissionCommandHandler handler = handler(context, publisher, options);
+                    return (key, value, now) -> handler.reported(key, DeviceConnection.read(value), now);
+                };
 
         OutputRecord.send(
                 ManagerInput.requests(builder, TOPIC)
@@ -133,7 +137,7 @@ public final class MissionManager {
     }
 
     /** Missions as time passes; the packaged template is there from the start. */
-    private record InTime(MissionCommandHandler missions) implements CommandHandler<MissionCommand> {
+    private record TimedMissionHandler(MissionCommandHandler missions) implements CommandHandler<MissionCommand> {
         @Override
         public CommandResult answer(MissionCommand command, long now) throws RefusedException {
             return missions.answer(command, now);
@@ -142,7 +146,7 @@ public final class MissionManager {
         @Override
         public List<Runnable> due(long now) {
             List<Runnable> steps = new ArrayList<>(missions.due(now));
-            steps.add(0, missions.templates()::stock);
+            steps.add(0, missions.templates()::installBuiltIn);
             return steps;
         }
 

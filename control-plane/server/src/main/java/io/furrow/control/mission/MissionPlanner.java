@@ -15,12 +15,12 @@ import io.furrow.model.control.RefusedException;
 final class MissionPlanner {
     private final Predicate<String> isDomain;
     private final TemplateStore templates;
-    private final MissionLists lists;
+    private final DeviceListStore lists;
     private final DeviceAssignments devices;
     private final Quota quota;
 
     /** @param farm what there is besides missions */
-    MissionPlanner(FarmContext farm, TemplateStore templates, MissionLists lists, DeviceAssignments devices) {
+    MissionPlanner(SharedStores farm, TemplateStore templates, DeviceListStore lists, DeviceAssignments devices) {
         this.isDomain = farm.isDomain();
         this.quota = farm.quota();
         this.templates = templates;
@@ -29,20 +29,20 @@ final class MissionPlanner {
     }
 
     /** The mission with the devices that are asked for; those of a template as it is now. */
-    Mission plan(Mission known, String name, String domain, MissionPlan plan, long now) throws RefusedException {
+    Mission plan(Mission existing, String name, String domain, MissionPlan plan, long now) throws RefusedException {
         if (domain == null) {
             throw new RefusedException(ErrorCode.MISSING_MEMBER, "a new mission needs a member 'domain'");
         }
-        if (known != null && !known.domain().equals(domain)) {
+        if (existing != null && !existing.domain().equals(domain)) {
             throw new RefusedException(
                     ErrorCode.NAME_TAKEN,
-                    "mission '%s' belongs to domain '%s'; choose another name".formatted(name, known.domain()));
+                    "mission '%s' belongs to domain '%s'; choose another name".formatted(name, existing.domain()));
         }
         if (!isDomain.test(domain)) {
             throw new RefusedException(
                     ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + domain + "'; create it first");
         }
-        Mission mission = known == null ? fresh(name, domain, now) : known;
+        Mission mission = existing == null ? fresh(name, domain, now) : existing;
         if (plan instanceof MissionPlan.OfDevices of) {
             return listing(mission.from(null), of.devices());
         } else if (plan instanceof MissionPlan.FromTemplate from) {

@@ -36,12 +36,12 @@ public enum MissionState {
 
     /** As records have it. */
     @JsonValue
-    public String word() {
+    public String code() {
         return name().toLowerCase(Locale.ROOT);
     }
 
     @JsonCreator
-    static MissionState of(String word) {
-        return valueOf(word.toUpperCase(Locale.ROOT));
+    static MissionState of(String code) {
+        return valueOf(code.toUpperCase(Locale.ROOT));
     }
 }

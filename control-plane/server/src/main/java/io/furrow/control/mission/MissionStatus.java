@@ -97,7 +97,7 @@ public record MissionStatus(
     MissionStatus reported(Missing device, boolean asDesired, long now) {
         boolean late = state == MissionState.RUNNING || !missing.isEmpty();
         List<Missing> named = new ArrayList<>(missing);
-        named.removeIf(known -> known.id().equals(device.id()));
+        named.removeIf(existing -> existing.id().equals(device.id()));
         if (!asDesired && late && named.size() < MAX_NAMED) {
             named.add(device);
         }
@@ -110,7 +110,7 @@ public record MissionStatus(
     /** One of its devices is still not in the desired state, for another reason than before. */
     MissionStatus explained(Missing device) {
         return naming(missing.stream()
-                .map(known -> known.id().equals(device.id()) ? device : known)
+                .map(existing -> existing.id().equals(device.id()) ? device : existing)
                 .toList());
     }
 
@@ -175,16 +175,16 @@ public record MissionStatus(
     }
 
     private String why(List<Missing> named) {
-        int away = devices - confirmed;
+        int unavailable = devices - confirmed;
         String some = named.stream()
                 .limit(MAX_EXPLAINED)
                 .map(each -> "%s (%s)".formatted(each.id(), each.reason()))
                 .collect(Collectors.joining(", "));
         return "%s not up: %s%s"
                 .formatted(
-                        Counts.areOf(away, devices, "device", ""),
+                        Counts.areOf(unavailable, devices, "device", ""),
                         some,
-                        away > MAX_EXPLAINED ? " and " + (away - MAX_EXPLAINED) + " more" : "");
+                        unavailable > MAX_EXPLAINED ? " and " + (unavailable - MAX_EXPLAINED) + " more" : "");
     }
 
     private static Long earlier(long one, Long other) {

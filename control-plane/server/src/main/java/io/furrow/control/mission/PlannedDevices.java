@@ -28,7 +28,7 @@ final class PlannedDevices {
     private final Map<String, List<String>> idsByLabel = new HashMap<>();
     private final List<DesiredDevice> devices = new ArrayList<>();
 
-    private PlannedDevices(Mission mission, MissionOptions options, long from) {
+    private PlannedDevices(Mission mission, MissionSettings options, long from) {
         this.mission = mission;
         this.scope = options.scope();
         this.simulatedByDefault = options.simulatedByDefault();
@@ -36,14 +36,14 @@ final class PlannedDevices {
     }
 
     /** All of them, wanted from a time on, with the sequence 0. */
-    static List<DesiredDevice> of(Mission mission, List<ListedGroup> groups, MissionOptions options, long from) {
-        PlannedDevices roster = new PlannedDevices(mission, options, from);
+    static List<DesiredDevice> of(Mission mission, List<ListedGroup> groups, MissionSettings options, long from) {
+        PlannedDevices planned = new PlannedDevices(mission, options, from);
         List<List<String>> ids =
-                groups.stream().map(each -> roster.name(each.group())).toList();
+                groups.stream().map(each -> planned.name(each.group())).toList();
         for (int i = 0; i < groups.size(); i++) {
-            roster.add(groups.get(i), ids.get(i));
+            planned.add(groups.get(i), ids.get(i));
         }
-        return roster.devices;
+        return planned.devices;
     }
 
     private List<String> name(DeviceGroup group) {

@@ -8,7 +8,7 @@ import java.util.List;
 
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.Table;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RefusedException;
@@ -19,10 +19,10 @@ final class TemplateStore {
     /** The mission of the thesis: one moving camera, three thermometers and one robot. */
     static final String DEMO = "thesis-demo";
 
-    private final Records<MissionTemplate> templates;
-    private final Records<Versions> versions;
+    private final Table<MissionTemplate> templates;
+    private final Table<Versions> versions;
     private final Quota quota;
-    private final EventPublisher outbox;
+    private final EventPublisher publisher;
 
     /**
      * What there is of a template.
@@ -37,15 +37,15 @@ final class TemplateStore {
      * @param versions by name
      * @param quota room for all definitions
      */
-    TemplateStore(Records<MissionTemplate> templates, Records<Versions> versions, Quota quota, EventPublisher outbox) {
+    TemplateStore(Table<MissionTemplate> templates, Table<Versions> versions, Quota quota, EventPublisher publisher) {
         this.templates = templates;
         this.versions = versions;
         this.quota = quota;
-        this.outbox = outbox;
+        this.publisher = publisher;
     }
 
     /** Puts {@link #DEMO} there where it never was. */
-    void stock() {
+    void installBuiltIn() {
         if (versions.get(DEMO) == null) {
             try {
                 save(demo());
@@ -67,7 +67,7 @@ final class TemplateStore {
 
     /** Keeps it as the next version, which it answers. */
     MissionTemplate save(MissionTemplate template) throws RefusedException {
-        Versions before = known(template.name());
+        Versions before = existing(template.name());
         MissionTemplate saved = template.as(before.last() + 1);
         List<Integer> kept = new ArrayList<>(before.kept());
         kept.add(saved.version());
@@ -75,13 +75,13 @@ final class TemplateStore {
         quota.replace(null, value);
         versions.put(saved.name(), new Versions(saved.version(), kept));
         templates.put(saved.key(), saved);
-        outbox.put(Topics.TEMPLATES, saved.key(), value);
+        publisher.put(Topics.TEMPLATES, saved.key(), value);
         return saved;
     }
 
     /** @param version 0 for the newest */
     MissionTemplate find(String name, int version) throws RefusedException {
-        List<Integer> kept = known(name).kept();
+        List<Integer> kept = existing(name).kept();
         int desired = version == 0 && !kept.isEmpty() ? kept.get(kept.size() - 1) : version;
         if (!kept.contains(desired)) {
             throw unknown(name, version);
@@ -91,7 +91,7 @@ final class TemplateStore {
 
     /** Missions made from it keep their devices. @param version 0 for all */
     void delete(String name, int version) throws RefusedException {
-        Versions before = known(name);
+        Versions before = existing(name);
         if (version == 0 ? before.kept().isEmpty() : !before.kept().contains(version)) {
             throw unknown(name, version);
         }
@@ -101,15 +101,15 @@ final class TemplateStore {
                 kept.remove((Integer) each);
                 quota.use(-templates.get(name + "@" + each).toBytes().length);
                 templates.put(name + "@" + each, null);
-                outbox.put(Topics.TEMPLATES, name + "@" + each, null);
+                publisher.put(Topics.TEMPLATES, name + "@" + each, null);
             }
         }
         versions.put(name, new Versions(before.last(), kept));
     }
 
-    private Versions known(String name) {
-        Versions known = versions.get(name);
-        return known == null ? new Versions(0, List.of()) : known;
+    private Versions existing(String name) {
+        Versions existing = versions.get(name);
+        return existing == null ? new Versions(0, List.of()) : existing;
     }
 
     private static RefusedException unknown(String name, int version) {

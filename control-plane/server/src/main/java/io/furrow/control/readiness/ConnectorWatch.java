@@ -79,12 +79,12 @@ public final class ConnectorWatch implements AutoCloseable {
 
     private void watch(RestartingWorker self) throws InterruptedException {
         while (!self.isClosing()) {
-            ask();
+            poll();
             self.pause(INTERVAL);
         }
     }
 
-    void ask() throws InterruptedException {
+    void poll() throws InterruptedException {
         try {
             HttpResponse<byte[]> answer = http.send(
                     HttpRequest.newBuilder(URI.create(connect + "/connectors?expand=status"))

@@ -27,7 +27,7 @@ import io.furrow.model.text.FailureText;
 public final class Probe implements AutoCloseable {
     private static final Duration INTERVAL = Duration.ofSeconds(2);
     private static final Duration TIMEOUT = Duration.ofSeconds(2);
-    private static final Duration AWAY_AFTER = Duration.ofSeconds(6);
+    private static final Duration UNAVAILABLE_AFTER = Duration.ofSeconds(6);
     private static final int SERVER_ERROR = 500;
 
     private final String name;
@@ -52,7 +52,7 @@ public final class Probe implements AutoCloseable {
             thread.setDaemon(true);
             return thread;
         });
-        executor.scheduleWithFixedDelay(this::ask, 0, INTERVAL.toMillis(), TimeUnit.MILLISECONDS);
+        executor.scheduleWithFixedDelay(this::request, 0, INTERVAL.toMillis(), TimeUnit.MILLISECONDS);
     }
 
     /** Of a Kafka cluster. @param client settings of Kafka clients */
@@ -84,7 +84,7 @@ public final class Probe implements AutoCloseable {
                 () -> {});
     }
 
-    private void ask() {
+    private void request() {
         try {
             check.run();
             lastSuccess = Instant.now();
@@ -98,7 +98,7 @@ public final class Probe implements AutoCloseable {
 
     public PartStatus status() {
         Instant last = lastSuccess;
-        boolean up = last != null && last.plus(AWAY_AFTER).isAfter(Instant.now());
+        boolean up = last != null && last.plus(UNAVAILABLE_AFTER).isAfter(Instant.now());
         return new PartStatus(name, up ? PartStatus.State.UP : PartStatus.State.DOWN, last, failure);
     }
 

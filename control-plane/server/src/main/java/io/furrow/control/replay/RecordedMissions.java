@@ -21,7 +21,7 @@ record RecordedMissions(boolean checked, Function<String, RecordedMission> find)
     /** @throws RefusedException where one of the missions is not stored, as far as that is known */
     void require(List<String> missions) throws RefusedException {
         List<String> unknown =
-                missions.stream().filter(each -> known(each) == null).toList();
+                missions.stream().filter(each -> lookup(each) == null).toList();
         if (checked && !unknown.isEmpty()) {
             throw new RefusedException(
                     ErrorCode.UNKNOWN_MISSION,
@@ -31,7 +31,7 @@ record RecordedMissions(boolean checked, Function<String, RecordedMission> find)
     }
 
     /** Listed by what stands for it in topics, which of nearly every mission is its name. */
-    private RecordedMission known(String mission) {
+    private RecordedMission lookup(String mission) {
         RecordedMission listed = find.apply(mission);
         return listed == null ? find.apply(TopicName.of(mission)) : listed;
     }
@@ -44,7 +44,7 @@ record RecordedMissions(boolean checked, Function<String, RecordedMission> find)
      * @param reported null if nothing was reported of the replay
      */
     void requireWithin(long time, DesiredReplay replay, ReportedReplay reported) throws RefusedException {
-        RecordedMission listed = replay.plan().source() == null ? known(replay.mission()) : null;
+        RecordedMission listed = replay.plan().source() == null ? lookup(replay.mission()) : null;
         boolean isReported = reported != null && reported.first() != null;
         LongStream.Builder firsts = LongStream.builder();
         if (listed != null) {
@@ -75,13 +75,13 @@ record RecordedMissions(boolean checked, Function<String, RecordedMission> find)
      * @return null if nothing is known of one of them
      */
     Span span(List<String> missions) {
-        List<RecordedMission> known =
-                missions.stream().map(this::known).filter(each -> each != null).toList();
-        if (known.size() < missions.size()) {
+        List<RecordedMission> lookup =
+                missions.stream().map(this::lookup).filter(each -> each != null).toList();
+        if (lookup.size() < missions.size()) {
             return null;
         }
-        long first = known.stream().mapToLong(RecordedMission::first).min().orElseThrow();
-        long last = known.stream().mapToLong(RecordedMission::last).max().orElseThrow();
+        long first = lookup.stream().mapToLong(RecordedMission::first).min().orElseThrow();
+        long last = lookup.stream().mapToLong(RecordedMission::last).max().orElseThrow();
         return new Span(first, last + 1);
     }
 

@@ -20,7 +20,7 @@ final class RecordingList {
 
     private final Map<String, RecordedMission> listed = new HashMap<>();
     /** When each mission was looked at last, epoch ms. */
-    private final Map<String, Long> looked = new HashMap<>();
+    private final Map<String, Long> polled = new HashMap<>();
 
     /** The missions that are stored. */
     interface Store {
@@ -35,14 +35,14 @@ final class RecordingList {
     void take(String mission, byte[] value, long timestamp) {
         listed.remove(mission);
         if (value == null) {
-            looked.remove(mission);
+            polled.remove(mission);
             return;
         }
         try {
             listed.put(mission, RecordedMission.read(value));
-            looked.merge(mission, timestamp, Math::max);
+            polled.merge(mission, timestamp, Math::max);
         } catch (UnreadableException e) {
-            looked.remove(mission); // it is written again
+            polled.remove(mission); // it is written again
         }
     }
 
@@ -56,12 +56,12 @@ final class RecordingList {
         List<String> names = store.names();
         Map<String, Optional<RecordedMission>> changes = new LinkedHashMap<>();
         for (String name : names) {
-            if (now - looked.getOrDefault(name, Long.MIN_VALUE / 2) < SPAN_INTERVAL.toMillis()) {
+            if (now - polled.getOrDefault(name, Long.MIN_VALUE / 2) < SPAN_INTERVAL.toMillis()) {
                 continue;
             }
             Optional<RecordedMission> found = store.find(name);
             if (found.isPresent()) {
-                looked.put(name, now);
+                polled.put(name, now);
             }
             if (!found.equals(Optional.ofNullable(listed.get(name)))) {
                 changes.put(name, found);
@@ -70,7 +70,7 @@ final class RecordingList {
         listed.keySet().stream()
                 .filter(name -> !names.contains(name))
                 .forEach(name -> changes.put(name, Optional.empty()));
-        looked.keySet().retainAll(names);
+        polled.keySet().retainAll(names);
         return changes;
     }
 

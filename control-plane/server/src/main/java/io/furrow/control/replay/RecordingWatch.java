@@ -69,20 +69,20 @@ public final class RecordingWatch implements AutoCloseable {
                 CommittedReader<String> topic = CommittedReader.open(client, Topics.RECORDINGS);
                 Producer<String, byte[]> producer =
                         new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
-            boolean away = false;
+            boolean unavailable = false;
             while (!running.isClosing()) {
                 // before the names are asked for, which are newer then
                 topic.readToEnd(record -> list.take(record.key(), record.value(), record.timestamp()));
                 size = list.size();
                 try {
                     write(list, new Catalogued(catalog), producer);
-                    away = false;
+                    unavailable = false;
                     running.succeeded();
                 } catch (IOException e) {
-                    if (!away) {
+                    if (!unavailable) {
                         LOG.warn("{} stays as it is until MongoDB is back", Topics.RECORDINGS, e);
                     }
-                    away = true;
+                    unavailable = true;
                     running.failed(FailureText.of(e));
                 }
                 running.pause(settings.pollInterval());

@@ -12,8 +12,8 @@ import java.util.function.Supplier;
 import io.furrow.control.manager.CommandHandler;
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.Records;
 import io.furrow.control.manager.Sequence;
+import io.furrow.control.manager.Table;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
@@ -37,14 +37,14 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     private static final String REPLAY = "replay";
     private static final String GROUP = "group";
 
-    private final Records<DesiredReplay> replays;
+    private final Table<DesiredReplay> replays;
     private final ReplayReports reports;
     private final RecordedMissions recordings;
     private final ReplayNames names;
     private final Sequence sequence;
     private final Quota quota;
     private final ReplaySettings settings;
-    private final EventPublisher outbox;
+    private final EventPublisher publisher;
 
     /**
      * @param stores of the replays
@@ -55,7 +55,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
             RecordedMissions recordings,
             Supplier<UUID> ids,
             ReplaySettings settings,
-            EventPublisher outbox) {
+            EventPublisher publisher) {
         this.replays = stores.replays();
         this.reports = new ReplayReports(stores.reports());
         this.recordings = recordings;
@@ -63,7 +63,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         this.sequence = new Sequence(stores.counters());
         this.quota = new Quota(stores.counters(), Limits.DEFINITIONS_BYTES);
         this.settings = settings;
-        this.outbox = outbox;
+        this.publisher = publisher;
     }
 
     /**
@@ -71,7 +71,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
      *
      * @param counters of the sequence, and of the room that is used
      */
-    record ReplayStores(Records<DesiredReplay> replays, Records<ReportedReplay> reports, Records<Long> counters) {}
+    record ReplayStores(Table<DesiredReplay> replays, Table<ReportedReplay> reports, Table<Long> counters) {}
 
     @Override
     public CommandResult answer(ReplayCommand command, long now) throws RefusedException {
@@ -112,7 +112,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         String topic = start.topic() == null ? Topics.replay(mission, names.newId(start.missions())) : start.topic();
         DesiredReplay replay = desired(start, mission, topic, start.plan(), now, sequence.next());
         names.require(replay);
-        keep(null, replay);
+        store(null, replay);
         return CommandResult.of("created").with(REPLAY, replay.replay()).with("topic", replay.topic());
     }
 
@@ -128,7 +128,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         }
         List<DesiredReplay> group = ReplayGroup.started(members, id, now);
         for (DesiredReplay member : group) {
-            keep(null, member);
+            store(null, member);
         }
         return about(CommandResult.of("created"), id, group)
                 .with("topics", group.stream().map(DesiredReplay::topic).toList());
@@ -161,41 +161,41 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     }
 
     private CommandResult steer(ReplayCommand.Steering steering) throws RefusedException {
-        DesiredReplay known = replays.get(steering.target().replay());
-        if (known == null) {
+        DesiredReplay existing = replays.get(steering.target().replay());
+        if (existing == null) {
             throw unknown(steering);
         }
-        if (known.group() != null) {
+        if (existing.group() != null) {
             throw new RefusedException(
                     ErrorCode.WRONG_STATE,
                     "replay '%s' follows the clock of group '%s'; steer the group"
-                            .formatted(known.replay(), known.group()));
+                            .formatted(existing.replay(), existing.group()));
         }
-        ReplayStatus.State state = reports.state(known);
+        ReplayStatus.State state = reports.state(existing);
         ReplayReports.check(steering, state);
         if (steering instanceof ReplayCommand.Seek seek) {
-            recordings.requireWithin(seek.to().toEpochMilli(), known, reports.get(known));
+            recordings.requireWithin(seek.to().toEpochMilli(), existing, reports.get(existing));
         }
-        DesiredReplay next = next(steering, known, state);
-        keep(known, next);
-        return CommandResult.of(word(known, state, next)).with(REPLAY, next.replay());
+        DesiredReplay next = next(steering, existing, state);
+        store(existing, next);
+        return CommandResult.of(code(existing, state, next)).with(REPLAY, next.replay());
     }
 
     private CommandResult steerGroup(ReplayCommand.Steering steering, long now) throws RefusedException {
-        List<DesiredReplay> known = members(steering.target().group());
-        if (known.isEmpty()) {
+        List<DesiredReplay> existing = members(steering.target().group());
+        if (existing.isEmpty()) {
             throw unknown(steering);
         }
-        ReplayGroup group = new ReplayGroup(known);
+        ReplayGroup group = new ReplayGroup(existing);
         group.check(steering);
-        ReplayStatus.State state = reports.state(known);
+        ReplayStatus.State state = reports.state(existing);
         ReplayReports.check(steering, state);
         List<DesiredReplay> next = group.steered(steering, now, sequence.next());
         for (int i = 0; i < next.size(); i++) {
-            keep(known.get(i), next.get(i));
+            store(existing.get(i), next.get(i));
         }
         return about(
-                CommandResult.of(word(known.get(0), state, next.get(0))),
+                CommandResult.of(code(existing.get(0), state, next.get(0))),
                 steering.target().group(),
                 next);
     }
@@ -216,11 +216,12 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     }
 
     /** What became of it: a replay that is over is neither running nor paused until it shall play again. */
-    private static String word(DesiredReplay known, ReplayStatus.State state, DesiredReplay next) {
+    private static String code(DesiredReplay existing, ReplayStatus.State state, DesiredReplay next) {
         if (next.desired() == ReplayStatus.State.STOPPED) {
             return "deleted";
         }
-        boolean playsAgain = !Objects.equals(known.seek(), next.seek()) || !Objects.equals(known.step(), next.step());
+        boolean playsAgain =
+                !Objects.equals(existing.seek(), next.seek()) || !Objects.equals(existing.step(), next.step());
         return state.isOver() && !playsAgain ? "changed" : next.desired().word();
     }
 
@@ -230,35 +231,35 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     }
 
     /** @param state in which it is */
-    private DesiredReplay next(ReplayCommand.Steering steering, DesiredReplay known, ReplayStatus.State state) {
+    private DesiredReplay next(ReplayCommand.Steering steering, DesiredReplay existing, ReplayStatus.State state) {
         long number = sequence.next();
         if (steering instanceof ReplayCommand.Seek seek) {
-            return known.seeking(seek.to().toEpochMilli(), number);
+            return existing.seeking(seek.to().toEpochMilli(), number);
         } else if (steering instanceof ReplayCommand.Speed speed) {
-            return known.at(speed.speed(), number);
+            return existing.at(speed.speed(), number);
         } else if (steering instanceof ReplayCommand.Step step) {
-            return known.desired(ReplayStatus.State.PAUSED, number).stepping(step.count(), number);
+            return existing.desired(ReplayStatus.State.PAUSED, number).stepping(step.count(), number);
         } else if (steering instanceof ReplayCommand.Loop loop) {
-            DesiredReplay within = known.within(loop.range(), number);
+            DesiredReplay within = existing.within(loop.range(), number);
             return state.isOver() && loop.range() != null ? within.seeking(within.from(0), number) : within;
         }
         return switch (((ReplayCommand.Simple) steering).what()) {
-            case STOP -> known.desired(ReplayStatus.State.STOPPED, number);
-            case PAUSE -> known.desired(ReplayStatus.State.PAUSED, number);
-            case RESUME -> known.desired(ReplayStatus.State.RUNNING, number);
+            case STOP -> existing.desired(ReplayStatus.State.STOPPED, number);
+            case PAUSE -> existing.desired(ReplayStatus.State.PAUSED, number);
+            case RESUME -> existing.desired(ReplayStatus.State.RUNNING, number);
         };
     }
 
     /** Forgets a replay that was stopped or has failed for good, unless something was asked of it since; one that ended rests. */
-    void reported(String replay, ReplayStatus told, long now) {
+    void reported(String replay, ReplayStatus report, long now) {
         if (!replays.contains(replay)) {
             return;
         }
-        reports.take(replay, told, now);
-        if (told.state().isOver() && told.settled() && told.state() != ReplayStatus.State.ENDED) {
-            DesiredReplay known = replays.get(replay);
-            if (told.sequence() >= known.sequence()) {
-                remove(known);
+        reports.take(replay, report, now);
+        if (report.state().isOver() && report.settled() && report.state() != ReplayStatus.State.ENDED) {
+            DesiredReplay existing = replays.get(replay);
+            if (report.sequence() >= existing.sequence()) {
+                remove(existing);
             }
         }
     }
@@ -266,7 +267,9 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     /** Forgets replays that have rested at their ends for long enough; those of a group together. */
     @Override
     public void passTime(long now) {
-        List<DesiredReplay> rested = reports.endedBy(now - settings.keepEnded().toMillis()).stream()
+        List<DesiredReplay> rested = reports
+                .endedBy(now - settings.endedRetention().toMillis())
+                .stream()
                 .map(replays::get)
                 .filter(each -> reports.state(each).isOver())
                 .toList();
@@ -277,15 +280,15 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         }
     }
 
-    private void remove(DesiredReplay known) {
-        quota.use(-known.toBytes().length);
-        replays.put(known.replay(), null);
-        reports.remove(known.replay());
-        outbox.put(Topics.REPLAYS, known.replay(), null);
+    private void remove(DesiredReplay existing) {
+        quota.use(-existing.toBytes().length);
+        replays.put(existing.replay(), null);
+        reports.remove(existing.replay());
+        publisher.put(Topics.REPLAYS, existing.replay(), null);
     }
 
     /** @param before null if there was none */
-    private void keep(DesiredReplay before, DesiredReplay replay) throws RefusedException {
+    private void store(DesiredReplay before, DesiredReplay replay) throws RefusedException {
         byte[] value = replay.toBytes();
         if (before == null) {
             quota.replace(null, value);
@@ -294,6 +297,6 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
                     value.length - before.toBytes().length); // whoever steers a replay is not refused for want of room
         }
         replays.put(replay.replay(), replay);
-        outbox.put(Topics.REPLAYS, replay.replay(), value);
+        publisher.put(Topics.REPLAYS, replay.replay(), value);
     }
 }

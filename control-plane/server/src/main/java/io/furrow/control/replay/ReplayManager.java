@@ -20,10 +20,10 @@ import io.furrow.control.manager.GlobalStoreProcessor;
 import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ManagerTopic;
 import io.furrow.control.manager.OutputRecord;
-import io.furrow.control.manager.Records;
 import io.furrow.control.manager.RequestLog;
 import io.furrow.control.manager.StatusProcessor;
-import io.furrow.control.manager.StoredRecords;
+import io.furrow.control.manager.StoreTable;
+import io.furrow.control.manager.Table;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.RecordedMission;
 import io.furrow.model.control.ReplayCommand;
@@ -49,20 +49,21 @@ public final class ReplayManager {
      */
     public static void add(StreamsBuilder builder, Duration remembered, Supplier<UUID> ids, ReplaySettings settings) {
         builder.addGlobalStore(
-                StoredRecords.builder(RECORDINGS).withLoggingDisabled(),
+                StoreTable.builder(RECORDINGS).withLoggingDisabled(),
                 Topics.RECORDINGS,
                 Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("recordings-in"),
                 () -> new GlobalStoreProcessor(RECORDINGS));
-        builder.addStateStore(StoredRecords.builder(REPLAYS));
-        builder.addStateStore(StoredRecords.builder(REPORTS));
-        builder.addStateStore(StoredRecords.builder(SEQUENCE));
+        builder.addStateStore(StoreTable.builder(REPLAYS));
+        builder.addStateStore(StoreTable.builder(REPORTS));
+        builder.addStateStore(StoreTable.builder(SEQUENCE));
         builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
         BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<ReplayCommand>> opening =
-                (context, outbox) -> handler(context, outbox, ids, settings);
-        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.Reports> reports = (context, outbox) -> {
-            ReplayCommandHandler handler = handler(context, outbox, ids, settings);
-            return (key, value, now) -> handler.reported(key, ReplayStatus.read(value), now);
-        };
+                (context, publisher) -> handler(context, publisher, ids, settings);
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.StatusHandler> reports =
+                (context, publisher) -> {
+                    ReplayCommandHandler handler = handler(context, publisher, ids, settings);
+                    return (key, value, now) -> handler.reported(key, ReplayStatus.read(value), now);
+                };
 
         OutputRecord.send(
                 ManagerInput.requests(builder, TOPIC)
@@ -96,7 +97,7 @@ public final class ReplayManager {
         }
     }
 
-    private static DesiredReplay kept(byte[] value) {
+    private static DesiredReplay stored(byte[] value) {
         try {
             return DesiredReplay.read(value);
         } catch (UnreadableException e) {
@@ -105,14 +106,14 @@ public final class ReplayManager {
     }
 
     private static ReplayCommandHandler handler(
-            ProcessorContext<?, ?> context, EventPublisher outbox, Supplier<UUID> ids, ReplaySettings settings) {
-        Records<RecordedMission> recordings =
-                StoredRecords.of(context, RECORDINGS, RecordedMission::toBytes, ReplayManager::listed);
+            ProcessorContext<?, ?> context, EventPublisher publisher, Supplier<UUID> ids, ReplaySettings settings) {
+        Table<RecordedMission> recordings =
+                StoreTable.of(context, RECORDINGS, RecordedMission::toBytes, ReplayManager::listed);
         ReplayCommandHandler.ReplayStores stores = new ReplayCommandHandler.ReplayStores(
-                StoredRecords.of(context, REPLAYS, DesiredReplay::toBytes, ReplayManager::kept),
-                StoredRecords.of(context, REPORTS, ReportedReplay.class),
-                StoredRecords.of(context, SEQUENCE, Long.class));
+                StoreTable.of(context, REPLAYS, DesiredReplay::toBytes, ReplayManager::stored),
+                StoreTable.of(context, REPORTS, ReportedReplay.class),
+                StoreTable.of(context, SEQUENCE, Long.class));
         return new ReplayCommandHandler(
-                stores, new RecordedMissions(settings.knowsRecordings(), recordings::get), ids, settings, outbox);
+                stores, new RecordedMissions(settings.hasRecordings(), recordings::get), ids, settings, publisher);
     }
 }

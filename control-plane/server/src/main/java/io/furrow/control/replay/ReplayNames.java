@@ -4,7 +4,7 @@ import java.util.List;
 import java.util.UUID;
 import java.util.function.Supplier;
 
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.Table;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
@@ -14,10 +14,10 @@ import io.furrow.model.topic.Topics;
 final class ReplayNames {
     private static final int ID_DIGITS = 8;
 
-    private final Records<DesiredReplay> replays;
+    private final Table<DesiredReplay> replays;
     private final Supplier<UUID> ids;
 
-    ReplayNames(Records<DesiredReplay> replays, Supplier<UUID> ids) {
+    ReplayNames(Table<DesiredReplay> replays, Supplier<UUID> ids) {
         this.replays = replays;
         this.ids = ids;
     }

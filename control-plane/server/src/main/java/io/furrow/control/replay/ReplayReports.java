@@ -3,7 +3,7 @@ package io.furrow.control.replay;
 import java.util.ArrayList;
 import java.util.List;
 
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.Table;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
@@ -13,16 +13,16 @@ import io.furrow.model.control.ReplayStatus.State;
 
 /** The actual state of desired replays, as reported, and what of a command fits it. */
 final class ReplayReports {
-    private final Records<ReportedReplay> reports;
+    private final Table<ReportedReplay> reports;
 
-    ReplayReports(Records<ReportedReplay> reports) {
+    ReplayReports(Table<ReportedReplay> reports) {
         this.reports = reports;
     }
 
     /** Stores what is different from the report before. @param now epoch ms */
-    void take(String replay, ReplayStatus told, long now) {
+    void take(String replay, ReplayStatus report, long now) {
         ReportedReplay before = reports.get(replay);
-        ReportedReplay next = ReportedReplay.of(replay, told, before, now);
+        ReportedReplay next = ReportedReplay.of(replay, report, before, now);
         if (!next.equals(before)) {
             reports.put(replay, next);
         }
@@ -39,9 +39,9 @@ final class ReplayReports {
 
     /** What was reported, where nothing more comes of what is desired; else what is desired. */
     State state(DesiredReplay replay) {
-        ReportedReplay told = get(replay);
-        return told != null && told.isOver(replay.sequence()) && replay.desired() != State.STOPPED
-                ? told.state()
+        ReportedReplay report = get(replay);
+        return report != null && report.isOver(replay.sequence()) && replay.desired() != State.STOPPED
+                ? report.state()
                 : replay.desired();
     }
 

@@ -10,11 +10,11 @@ import java.util.Objects;
  * @param database of the missions
  * @param pollInterval between two looks at the names of the stored missions
  * @param grace how long topics of a replay are kept after it was over
- * @param keepEnded how long a replay that came to its end can be played again
+ * @param endedRetention how long a replay that came to its end can be played again
  * @param max replays that are not over, at one time
  */
 public record ReplaySettings(
-        String mongo, String database, Duration pollInterval, Duration grace, Duration keepEnded, int max) {
+        String mongo, String database, Duration pollInterval, Duration grace, Duration endedRetention, int max) {
     private static final int MAX = 256;
 
     /** No MongoDB; topics and replays that ended are kept for an hour; 256 replays. */
@@ -25,36 +25,36 @@ public record ReplaySettings(
         Objects.requireNonNull(database);
         Objects.requireNonNull(pollInterval);
         Objects.requireNonNull(grace);
-        Objects.requireNonNull(keepEnded);
+        Objects.requireNonNull(endedRetention);
     }
 
     /** @param uri null for none */
     public ReplaySettings withMongo(String uri) {
-        return new ReplaySettings(uri, database, pollInterval, grace, keepEnded, max);
+        return new ReplaySettings(uri, database, pollInterval, grace, endedRetention, max);
     }
 
     public ReplaySettings withDatabase(String name) {
-        return new ReplaySettings(mongo, name, pollInterval, grace, keepEnded, max);
+        return new ReplaySettings(mongo, name, pollInterval, grace, endedRetention, max);
     }
 
     public ReplaySettings withPollInterval(Duration interval) {
-        return new ReplaySettings(mongo, database, interval, grace, keepEnded, max);
+        return new ReplaySettings(mongo, database, interval, grace, endedRetention, max);
     }
 
     public ReplaySettings withGrace(Duration time) {
-        return new ReplaySettings(mongo, database, pollInterval, time, keepEnded, max);
+        return new ReplaySettings(mongo, database, pollInterval, time, endedRetention, max);
     }
 
-    public ReplaySettings withKeepEnded(Duration time) {
+    public ReplaySettings withEndedRetention(Duration time) {
         return new ReplaySettings(mongo, database, pollInterval, grace, time, max);
     }
 
     public ReplaySettings withMax(int replays) {
-        return new ReplaySettings(mongo, database, pollInterval, grace, keepEnded, replays);
+        return new ReplaySettings(mongo, database, pollInterval, grace, endedRetention, replays);
     }
 
     /** Whether it is known which missions are stored. */
-    public boolean knowsRecordings() {
+    public boolean hasRecordings() {
         return mongo != null;
     }
 
@@ -62,6 +62,6 @@ public record ReplaySettings(
     @Override
     public String toString() {
         return "%d replays of %s, polled every %s, topics kept for %s, ended replays for %s"
-                .formatted(max, mongo == null ? "no MongoDB" : database, pollInterval, grace, keepEnded);
+                .formatted(max, mongo == null ? "no MongoDB" : database, pollInterval, grace, endedRetention);
     }
 }

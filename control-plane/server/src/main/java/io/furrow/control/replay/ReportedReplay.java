@@ -13,15 +13,15 @@ import io.furrow.model.control.ReplayStatus;
 record ReportedReplay(String replay, long sequence, ReplayStatus.State state, Long first, Long last, Long ended) {
 
     /** @param before null if nothing was reported before @param now epoch ms */
-    static ReportedReplay of(String replay, ReplayStatus told, ReportedReplay before, long now) {
-        ReplayStatus.Progress progress = told.progress();
+    static ReportedReplay of(String replay, ReplayStatus report, ReportedReplay before, long now) {
+        ReplayStatus.Progress progress = report.progress();
         boolean spans = progress != null && progress.to() > 0;
-        boolean atEnd = told.state() == ReplayStatus.State.ENDED && told.settled();
-        boolean again = before != null && before.ended != null && before.sequence == told.sequence();
+        boolean atEnd = report.state() == ReplayStatus.State.ENDED && report.settled();
+        boolean again = before != null && before.ended != null && before.sequence == report.sequence();
         return new ReportedReplay(
                 replay,
-                told.sequence(),
-                told.state(),
+                report.sequence(),
+                report.state(),
                 spans ? Long.valueOf(progress.from()) : before == null ? null : before.first,
                 spans
                         ? Long.valueOf(Math.max(progress.to(), progress.position()))

@@ -147,8 +147,8 @@ public final class TopicCleanup implements AutoCloseable {
     /** A tenth of the grace period, within limits. */
     private Duration interval() {
         Duration tenth = grace.dividedBy(10);
-        Duration least = tenth.compareTo(MIN_INTERVAL) < 0 ? MIN_INTERVAL : tenth;
-        return least.compareTo(MAX_INTERVAL) > 0 ? MAX_INTERVAL : least;
+        Duration minimum = tenth.compareTo(MIN_INTERVAL) < 0 ? MIN_INTERVAL : tenth;
+        return minimum.compareTo(MAX_INTERVAL) > 0 ? MAX_INTERVAL : minimum;
     }
 
     /** The status last, so that what was not deleted is tried again. */
@@ -177,7 +177,7 @@ public final class TopicCleanup implements AutoCloseable {
         for (String topic : due) {
             attempt(topic, () -> {
                 boolean quiet = true;
-                for (String each : withLetters(topic, there)) {
+                for (String each : withDeadLetters(topic, there)) {
                     quiet &= isQuiet(each, moment, admin); // of each, so that their times run together
                 }
                 if (!quiet) {
@@ -194,13 +194,13 @@ public final class TopicCleanup implements AutoCloseable {
         }
     }
 
-    private static List<String> withLetters(String topic, Set<String> there) {
+    private static List<String> withDeadLetters(String topic, Set<String> there) {
         return Stream.of(topic, Topics.dead(topic)).filter(there::contains).toList();
     }
 
     private void removeMission(String topic, Set<String> there, Admin admin)
             throws ExecutionException, InterruptedException {
-        List<String> all = withLetters(topic, there);
+        List<String> all = withDeadLetters(topic, there);
         if (!all.isEmpty()) {
             delete(all, admin);
             LOG.info("what {} belonged to was deleted more than {} ago; deleted {}", topic, GRACE_OF_MISSIONS, all);

@@ -24,10 +24,10 @@ import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.alarm.Severity;
-import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.Topics;
 
@@ -42,10 +42,10 @@ public final class AlarmsResource {
                     AlarmsResource::severity)
             .thenComparing(alarm -> alarm.path("raised").asLong(), Comparator.reverseOrder());
 
-    private final ServiceView view;
+    private final StateView view;
     private final CommandClient managers;
 
-    AlarmsResource(ServiceView view, CommandClient managers) {
+    AlarmsResource(StateView view, CommandClient managers) {
         this.view = view;
         this.managers = managers;
     }
@@ -61,29 +61,29 @@ public final class AlarmsResource {
         AlarmState state = state(states);
         return JsonResponses.ok(view.all(Topics.ALARMS)
                 .filter(alarm ->
-                        state == null || state.word().equals(alarm.path("state").textValue()))
+                        state == null || state.code().equals(alarm.path("state").textValue()))
                 .sorted(MOST_SEVERE_FIRST)
                 .limit(limit(limits)));
     }
 
-    private static AlarmState state(List<String> asked) {
-        if (asked.isEmpty()) {
+    private static AlarmState state(List<String> requested) {
+        if (requested.isEmpty()) {
             return null;
         }
-        if (asked.size() == 1) {
+        if (requested.size() == 1) {
             for (AlarmState state : AlarmState.values()) {
-                if (state.word().equals(asked.get(0))) {
+                if (state.code().equals(requested.get(0))) {
                     return state;
                 }
             }
         }
-        String states = Arrays.stream(AlarmState.values()).map(AlarmState::word).collect(Collectors.joining(", "));
+        String states = Arrays.stream(AlarmState.values()).map(AlarmState::code).collect(Collectors.joining(", "));
         throw new ProblemException(ErrorCode.WRONG_MEMBER, "'state' must be one of " + states + ", and given once");
     }
 
-    private static int limit(List<String> asked) {
-        String limit = asked.isEmpty() ? Integer.toString(LISTED) : asked.get(0);
-        if (asked.size() > 1 || !limit.matches("[1-9][0-9]{0,4}") || Integer.parseInt(limit) > MAX_LISTED) {
+    private static int limit(List<String> requested) {
+        String limit = requested.isEmpty() ? Integer.toString(LISTED) : requested.get(0);
+        if (requested.size() > 1 || !limit.matches("[1-9][0-9]{0,4}") || Integer.parseInt(limit) > MAX_LISTED) {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER,
                     "'limit' must be a whole number from 1 to %d, and given once".formatted(MAX_LISTED));
@@ -93,9 +93,9 @@ public final class AlarmsResource {
 
     /** Of a severity that this version does not know, last. */
     private static int severity(JsonNode alarm) {
-        String word = alarm.path("severity").asText();
+        String code = alarm.path("severity").asText();
         for (Severity severity : Severity.values()) {
-            if (severity.word().equals(word)) {
+            if (severity.code().equals(code)) {
                 return severity.ordinal();
             }
         }
@@ -111,7 +111,7 @@ public final class AlarmsResource {
             @PathParam("command") String command,
             InputStream body)
             throws IOException {
-        return ask(command, Body.read(body).put("alarm", alarm), request);
+        return request(command, JsonBodyReader.read(body).put("alarm", alarm), request);
     }
 
     /** Alarms by {@code kind} and {@code subject}, those to come too. */
@@ -120,12 +120,13 @@ public final class AlarmsResource {
     public CompletionStage<Response> commandKind(
             @Context ContainerRequestContext request, @PathParam("command") String command, InputStream body)
             throws IOException {
-        return ask(command, Body.read(body), request);
+        return request(command, JsonBodyReader.read(body), request);
     }
 
-    private CompletionStage<Response> ask(String command, ObjectNode members, ContainerRequestContext request) {
+    private CompletionStage<Response> request(String command, ObjectNode members, ContainerRequestContext request) {
         CommandClient.CommandRequest question =
                 new CommandClient.CommandRequest(Topics.ALARM_MANAGER, command, members);
-        return managers.ask(question, Caller.of(request)).thenApply(answer -> JsonResponses.of(answer, 200));
+        return managers.request(question, RequestContext.of(request))
+                .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 }

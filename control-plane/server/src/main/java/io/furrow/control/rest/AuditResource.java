@@ -21,18 +21,18 @@ import jakarta.ws.rs.core.UriInfo;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.view.AuditHistory;
 import io.furrow.control.rest.view.AuditedEntry;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 
 /** {@code /api/audit}: the newest out of memory, older ones out of Kafka. */
 @Path("/api/audit")
 @Produces(MediaType.APPLICATION_JSON)
 public final class AuditResource {
-    private final ServiceView view;
+    private final StateView view;
     private final AuditHistory history;
 
     /** @param client settings of a Kafka client */
-    AuditResource(ServiceView view, Properties client) {
+    AuditResource(StateView view, Properties client) {
         this.view = view;
         this.history = new AuditHistory(client);
     }
@@ -40,7 +40,7 @@ public final class AuditResource {
     /**
      * The newest first. Where there may be older ones, {@code Link} with {@code rel="next"} leads to them.
      *
-     * @param limit 1 to {@value ServiceView#AUDITED}
+     * @param limit 1 to {@value StateView#AUDITED}
      * @param before only what has a lower position; null for the newest
      * @param device only commands about it; null for all
      * @param mission only commands about it; null for all
@@ -52,9 +52,9 @@ public final class AuditResource {
             @QueryParam("before") String before,
             @QueryParam("device") String device,
             @QueryParam("mission") String mission) {
-        if (!limit.matches("[1-9][0-9]{0,3}") || Integer.parseInt(limit) > ServiceView.AUDITED) {
+        if (!limit.matches("[1-9][0-9]{0,3}") || Integer.parseInt(limit) > StateView.AUDITED) {
             throw new ProblemException(
-                    ErrorCode.WRONG_MEMBER, "'limit' must be a whole number from 1 to " + ServiceView.AUDITED);
+                    ErrorCode.WRONG_MEMBER, "'limit' must be a whole number from 1 to " + StateView.AUDITED);
         }
         if (before != null && !before.matches("[0-9]{1,18}")) {
             throw new ProblemException(
@@ -73,7 +73,7 @@ public final class AuditResource {
     }
 
     private AuditHistory.Page page(long before, int limit, Predicate<AuditedEntry> desired) {
-        ServiceView.AuditPage held = view.audited(before);
+        StateView.AuditPage held = view.audited(before);
         if (held.entries().isEmpty() && !held.isWhole()) {
             return history.read(before, limit, desired);
         }

@@ -9,9 +9,9 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.rest.access.ApiToken;
-import io.furrow.control.rest.access.BearerTokens;
-import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.access.Role;
+import io.furrow.control.rest.access.TokenFilter;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code /api/me}. */
@@ -21,10 +21,10 @@ public final class CallerResource {
     /** Who asks, as it stands on the audit topic, and what they may do. Where no tokens are asked for everybody is an admin. */
     @GET
     public Response me(@Context ContainerRequestContext request) {
-        Role role = request.getProperty(BearerTokens.TOKEN) instanceof ApiToken token ? token.role() : Role.ADMIN;
+        Role role = request.getProperty(TokenFilter.TOKEN) instanceof ApiToken token ? token.role() : Role.ADMIN;
         return JsonResponses.ok(NgsiJson.mapper()
                 .createObjectNode()
-                .put("user", Caller.user(request))
-                .put("role", role.word()));
+                .put("user", RequestContext.user(request))
+                .put("role", role.code()));
     }
 }

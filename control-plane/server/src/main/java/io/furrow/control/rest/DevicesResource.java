@@ -30,14 +30,14 @@ import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CredentialCsv;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
-import io.furrow.control.device.RefusedCommandException;
-import io.furrow.control.rest.access.Caller;
+import io.furrow.control.device.RejectedCommandException;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
-import io.furrow.control.rest.view.DesiredDevices;
 import io.furrow.control.rest.view.DeviceName;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.DeviceView;
+import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.event.FiwareScope;
@@ -57,10 +57,10 @@ public final class DevicesResource {
     private static final int MAX_AUDITED_LENGTH = 200;
     private static final Pattern COMMAND = Pattern.compile("[A-Za-z][A-Za-z0-9_-]{0,63}");
 
-    private final ServiceView view;
-    private final DesiredDevices devices;
+    private final StateView view;
+    private final DeviceView devices;
     private final CommandClient managers;
-    private final Means means;
+    private final Dependencies dependencies;
 
     /**
      * What devices are reached by.
@@ -68,13 +68,13 @@ public final class DevicesResource {
      * @param commands null if none go to devices
      * @param credentials null if none are given out
      */
-    record Means(FiwareScope scope, DeviceCommands commands, DeviceCredentials credentials) {}
+    record Dependencies(FiwareScope scope, DeviceCommands commands, DeviceCredentials credentials) {}
 
-    DevicesResource(ServiceView view, CommandClient managers, Means means) {
+    DevicesResource(StateView view, CommandClient managers, Dependencies dependencies) {
         this.view = view;
-        this.devices = new DesiredDevices(view);
+        this.devices = new DeviceView(view);
         this.managers = managers;
-        this.means = means;
+        this.dependencies = dependencies;
     }
 
     /** @param mission null for all @param domain null for all */
@@ -101,8 +101,8 @@ public final class DevicesResource {
     @Path("{device}/credentials")
     public Response credentials(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
-        audit(Caller.user(request), "credentials", about(name), null);
-        return secret(means.credentials().of(device));
+        audit(RequestContext.user(request), "credentials", about(name), null);
+        return secret(dependencies.credentials().of(device));
     }
 
     /** The same as a file for spreadsheets. */
@@ -112,8 +112,8 @@ public final class DevicesResource {
     @Produces(CSV)
     public Response credentialsAsCsv(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
-        audit(Caller.user(request), "credentials", about(name), null);
-        return csv(List.of(means.credentials().of(device)));
+        audit(RequestContext.user(request), "credentials", about(name), null);
+        return csv(List.of(dependencies.credentials().of(device)));
     }
 
     /** The credentials as a QR code, for what has a camera. */
@@ -123,8 +123,8 @@ public final class DevicesResource {
     @Produces("image/svg+xml")
     public Response qr(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
-        audit(Caller.user(request), "credentials", about(name), null);
-        return Response.ok(means.credentials().qr(device))
+        audit(RequestContext.user(request), "credentials", about(name), null);
+        return Response.ok(dependencies.credentials().qr(device))
                 .header("Cache-Control", "no-store")
                 .build();
     }
@@ -135,12 +135,13 @@ public final class DevicesResource {
     @Path("{device}/credentials")
     public CompletionStage<Response> rotate(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
-        return managers.ask(
+        return managers.request(
                         new CommandClient.CommandRequest(Topics.MISSION_MANAGER, "rotate-credentials", about(name)),
-                        Caller.of(request))
+                        RequestContext.of(request))
                 .thenApply(answer -> answer.error().isPresent()
                         ? JsonResponses.of(answer, 0)
-                        : secret(means.credentials()
+                        : secret(dependencies
+                                .credentials()
                                 .of(device.withGeneration(
                                         answer.json().path(GENERATION).asInt()))));
     }
@@ -166,8 +167,8 @@ public final class DevicesResource {
         find(name);
         String key = keyOf(name);
         DesiredDevice device = devices.find(key)
-                .filter(found ->
-                        DeviceCredentials.has(found) && key.equals(means.scope().identity(name.id())))
+                .filter(found -> DeviceCredentials.has(found)
+                        && key.equals(dependencies.scope().identity(name.id())))
                 .orElse(null);
         if (device == null) {
             throw new ProblemException(
@@ -175,7 +176,7 @@ public final class DevicesResource {
                     "device '%s' has a login of its own, which is not known here; list it as an object with a 'type' to give it one"
                             .formatted(name.id()));
         }
-        requireSecret(means.credentials());
+        requireSecret(dependencies.credentials());
         return device;
     }
 
@@ -192,27 +193,28 @@ public final class DevicesResource {
     @Path("{device}/commands")
     public CompletionStage<Response> command(
             @Context ContainerRequestContext request, @BeanParam DeviceName name, InputStream body) throws IOException {
-        ObjectNode members = Body.read(body);
+        ObjectNode members = JsonBodyReader.read(body);
         // A robot that is on no mission can be stopped too. An operator may put any entity on one.
-        ObjectNode device = members.hasNonNull("type") ? known(name).orElse(members) : find(name);
+        ObjectNode device = members.hasNonNull("type") ? existing(name).orElse(members) : find(name);
         String command = members.path("command").asText();
         JsonNode value = members.has("value") ? members.get("value") : NO_VALUE;
         String type = device.path("type").asText(members.path("type").asText());
         check(members, command, type);
         ObjectNode about = about(name);
         FiwareScope scope = FiwareScope.ofIdentity(keyOf(name));
-        if (!scope.equals(means.scope())) {
+        if (!scope.equals(dependencies.scope())) {
             about.put("service", scope.service()).put("servicePath", scope.servicePath());
         }
         if (members.has("value")) {
             about.set("value", audited(value));
         }
-        if (means.commands() == null) {
+        if (dependencies.commands() == null) {
             throw new ProblemException(
                     501, "no-context-broker", "this control plane was started without a context broker for commands");
         }
-        String user = Caller.user(request);
-        return means.commands()
+        String user = RequestContext.user(request);
+        return dependencies
+                .commands()
                 .in(scope)
                 .send(new DeviceCommands.Order(name.id(), type, command, value))
                 .handle((sent, failure) -> answer(failure, new Commanded(user, name.id(), command, about)));
@@ -233,7 +235,7 @@ public final class DevicesResource {
         if (cause instanceof RejectedExecutionException) {
             throw ProblemException.overloaded();
         }
-        int status = cause instanceof RefusedCommandException refused ? refused.status() : 502;
+        int status = cause instanceof RejectedCommandException refused ? refused.status() : 502;
         throw new ProblemException(status, "context-broker", cause.getMessage());
     }
 
@@ -273,18 +275,18 @@ public final class DevicesResource {
     }
 
     private ObjectNode find(DeviceName name) {
-        return known(name)
+        return existing(name)
                 .orElseThrow(() ->
                         new ProblemException(ErrorCode.UNKNOWN_DEVICE, "there is no device '%s'".formatted(name.id())));
     }
 
-    private Optional<ObjectNode> known(DeviceName name) {
+    private Optional<ObjectNode> existing(DeviceName name) {
         return view.find(Topics.DEVICES, keyOf(name))
                 .filter(found -> name.isOfType(found.path("type").asText()));
     }
 
     private String keyOf(DeviceName name) {
-        return name.key(view.keys(Topics.DEVICES), means.scope());
+        return name.key(view.keys(Topics.DEVICES), dependencies.scope());
     }
 
     private ObjectNode described(String key, ObjectNode desired) {

@@ -21,11 +21,11 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
-import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.Topics;
 
@@ -36,10 +36,10 @@ import io.furrow.model.topic.Topics;
 public final class DomainsResource {
     private static final String DOMAIN = "domain";
 
-    private final ServiceView view;
+    private final StateView view;
     private final CommandClient managers;
 
-    DomainsResource(ServiceView view, CommandClient managers) {
+    DomainsResource(StateView view, CommandClient managers) {
         this.view = view;
         this.managers = managers;
     }
@@ -52,7 +52,7 @@ public final class DomainsResource {
     @POST
     public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return ask("create", Body.read(body), request)
+        return request("create", JsonBodyReader.read(body), request)
                 .thenApply(answer -> JsonResponses.created(answer, "/api/domains", DOMAIN));
     }
 
@@ -69,7 +69,7 @@ public final class DomainsResource {
     public CompletionStage<Response> change(
             @Context ContainerRequestContext request, @PathParam(DOMAIN) String domain, InputStream body)
             throws IOException {
-        return ask("change", Body.read(body).put(DOMAIN, domain), request)
+        return request("change", JsonBodyReader.read(body).put(DOMAIN, domain), request)
                 .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
@@ -82,13 +82,13 @@ public final class DomainsResource {
             @PathParam(DOMAIN) String domain,
             @QueryParam("force") boolean force) {
         ObjectNode members = JsonNodeFactory.instance.objectNode();
-        return ask("delete", members.put(DOMAIN, domain).put("force", force), request)
+        return request("delete", members.put(DOMAIN, domain).put("force", force), request)
                 .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
-    private CompletionStage<io.furrow.model.control.CommandResult> ask(
+    private CompletionStage<io.furrow.model.control.CommandResult> request(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(
-                new CommandClient.CommandRequest(Topics.DOMAIN_MANAGER, command, members), Caller.of(request));
+        return managers.request(
+                new CommandClient.CommandRequest(Topics.DOMAIN_MANAGER, command, members), RequestContext.of(request));
     }
 }

@@ -31,8 +31,8 @@ import jakarta.ws.rs.core.MultivaluedMap;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.audit.AuditEntry;
-import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.kafka.field.FieldChange;
@@ -99,7 +99,7 @@ public final class FieldsResource {
                     .forEach(field ->
                             features.addRawValue(new RawValue(new String(field.toBytes(), StandardCharsets.UTF_8))));
         } catch (IOException e) {
-            throw away(e);
+            throw unavailable(e);
         } finally {
             readers.release();
         }
@@ -121,14 +121,16 @@ public final class FieldsResource {
         if (!free.tryAcquire()) {
             throw ProblemException.overloaded();
         }
-        Caller caller = Caller.of(request);
+        RequestContext caller = RequestContext.of(request);
         ObjectNode about = JsonNodeFactory.instance.objectNode().put("fields", 0);
         if (domain != null) {
             about.put("domain", domain);
         }
         try {
-            FieldFile file =
-                    read(Body.bytes(body, LARGEST), domain, request.getUriInfo().getQueryParameters());
+            FieldFile file = read(
+                    JsonBodyReader.bytes(body, LARGEST),
+                    domain,
+                    request.getUriInfo().getQueryParameters());
             ObjectNode answer = answer(file, write(file));
             about.set("fields", answer.path("imported"));
             audit(caller, "import-fields", about, "imported", null);
@@ -147,10 +149,10 @@ public final class FieldsResource {
     @Consumes(MediaType.APPLICATION_JSON)
     public Response change(@Context ContainerRequestContext request, @PathParam(FIELD) String id, InputStream body)
             throws IOException {
-        ObjectNode members = Body.read(body);
+        ObjectNode members = JsonBodyReader.read(body);
         ObjectNode about = JsonNodeFactory.instance.objectNode().put(FIELD, id);
         if (members.size() == 1 && members.hasNonNull(END)) {
-            return edit(Caller.of(request), "end-field", about, () -> {
+            return edit(RequestContext.of(request), "end-field", about, () -> {
                 Instant end = new RequestMembers(members).time(END);
                 about.put(END, end.toString());
                 FieldEdit edit = FieldEdit.end(id, end.toEpochMilli(), topic.read());
@@ -158,7 +160,7 @@ public final class FieldsResource {
                 return CommandResult.of("ended").with("removed", edit.removed().size());
             });
         }
-        return edit(Caller.of(request), "rename-field", about, () -> {
+        return edit(RequestContext.of(request), "rename-field", about, () -> {
             if (members.size() != 1 || members.path(NAME).asText("").isBlank()) {
                 throw RequestMembers.wrong("body", "either {\"name\": a text} or {\"validTo\": a time}");
             }
@@ -177,7 +179,7 @@ public final class FieldsResource {
     @jakarta.ws.rs.Path("{field}")
     public Response delete(@Context ContainerRequestContext request, @PathParam(FIELD) String id) {
         ObjectNode about = JsonNodeFactory.instance.objectNode().put(FIELD, id);
-        return edit(Caller.of(request), "delete-field", about, () -> {
+        return edit(RequestContext.of(request), "delete-field", about, () -> {
             List<String> keys = topic.keys(id);
             if (keys.isEmpty()) {
                 throw FieldEdit.unknown(id, topic.read());
@@ -192,7 +194,7 @@ public final class FieldsResource {
     }
 
     /** @param about what the edit adds to is audited and answered */
-    private Response edit(Caller caller, String command, ObjectNode about, Edit edit) {
+    private Response edit(RequestContext caller, String command, ObjectNode about, Edit edit) {
         if (!free.tryAcquire()) {
             throw ProblemException.overloaded();
         }
@@ -205,7 +207,7 @@ public final class FieldsResource {
         } catch (RefusedException e) {
             problem = new ProblemException(e.code(), e.getMessage());
         } catch (IOException e) {
-            problem = away(e);
+            problem = unavailable(e);
         } finally {
             free.release();
         }
@@ -214,7 +216,7 @@ public final class FieldsResource {
     }
 
     /** Says what is unavailable, and what to do. */
-    private static ProblemException away(IOException cause) {
+    private static ProblemException unavailable(IOException cause) {
         return new ProblemException(503, "kafka-away", cause.getMessage());
     }
 
@@ -258,7 +260,7 @@ public final class FieldsResource {
                     .toList());
             return changes;
         } catch (IOException e) {
-            throw away(e);
+            throw unavailable(e);
         }
     }
 
@@ -288,7 +290,8 @@ public final class FieldsResource {
     }
 
     /** @param problem null if there is none */
-    private void audit(Caller caller, String command, ObjectNode about, String result, ProblemException problem) {
+    private void audit(
+            RequestContext caller, String command, ObjectNode about, String result, ProblemException problem) {
         managers.audit(new AuditEntry(
                 System.currentTimeMillis(),
                 caller.user(),

@@ -26,8 +26,8 @@ import jakarta.ws.rs.core.Response;
 import jakarta.ws.rs.core.UriBuilder;
 
 import io.furrow.control.audit.AuditEntry;
-import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.MarkerStore;
 import io.furrow.mission.RecordingException;
@@ -57,24 +57,24 @@ public final class MarkersResource {
     /** In the order of their times. */
     @GET
     public CompletionStage<Response> list(@PathParam(MISSION) String mission) {
-        return store.ask(markers -> markers.list(mission))
+        return store.request(markers -> markers.list(mission))
                 .thenApply(all -> JsonResponses.ok(all.stream().map(Marker::toJson)));
     }
 
-    /** The same {@link Caller#KEY} is the same marker. */
+    /** The same {@link RequestContext#KEY} is the same marker. */
     @POST
     public CompletionStage<Response> add(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
-        ObjectNode members = Body.read(body);
-        Caller caller = Caller.of(request);
+        ObjectNode members = JsonBodyReader.read(body);
+        RequestContext caller = RequestContext.of(request);
         String id = UUID.nameUUIDFromBytes(
                         (mission + "\n" + caller.user() + "\n" + caller.requestId()).getBytes(StandardCharsets.UTF_8))
                 .toString();
         Marker marker =
                 new Marker(id, mission, time(members), note(members), caller.user(), System.currentTimeMillis());
         Change change = new Change(caller, "add-marker", mission, id);
-        return store.ask(markers -> added(markers, marker)).handle((added, failure) -> {
+        return store.request(markers -> added(markers, marker)).handle((added, failure) -> {
             audit(change, "created", failure);
             return JsonResponses.json(201, added.toJson())
                     .location(UriBuilder.fromPath("/api/missions")
@@ -101,8 +101,8 @@ public final class MarkersResource {
             @Context ContainerRequestContext request,
             @PathParam(MISSION) String mission,
             @PathParam(MARKER) String id) {
-        Change change = new Change(Caller.of(request), "remove-marker", mission, id);
-        return store.ask(markers -> {
+        Change change = new Change(RequestContext.of(request), "remove-marker", mission, id);
+        return store.request(markers -> {
                     if (!markers.remove(mission, id)) {
                         throw new ProblemException(
                                 404, "unknown-marker", "mission '%s' has no marker '%s'".formatted(mission, id));
@@ -118,13 +118,13 @@ public final class MarkersResource {
                 });
     }
 
-    private record Change(Caller caller, String command, String mission, String marker) {}
+    private record Change(RequestContext caller, String command, String mission, String marker) {}
 
     /** Puts it on the audit topic; throws the failure. @param failure null if there is none */
     private void audit(Change change, String result, Throwable failure) {
         Throwable cause =
                 failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
-        ProblemException problem = cause instanceof ProblemException known ? known : null;
+        ProblemException problem = cause instanceof ProblemException existing ? existing : null;
         ObjectNode about = JsonNodeFactory.instance
                 .objectNode()
                 .put(MISSION, change.mission())

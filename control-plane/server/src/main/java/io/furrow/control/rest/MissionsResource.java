@@ -24,12 +24,12 @@ import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.DeviceCredentials;
-import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
-import io.furrow.control.rest.view.DesiredDevices;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.DeviceView;
+import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.topic.Topics;
@@ -42,12 +42,12 @@ public final class MissionsResource {
     private static final String MISSION = "mission";
     private static final String DEVICES = "devices";
 
-    private final ServiceView view;
+    private final StateView view;
     private final CommandClient managers;
     private final DeviceCredentials credentials;
 
     /** @param credentials null if none are given out */
-    MissionsResource(ServiceView view, CommandClient managers, DeviceCredentials credentials) {
+    MissionsResource(StateView view, CommandClient managers, DeviceCredentials credentials) {
         this.view = view;
         this.managers = managers;
         this.credentials = credentials;
@@ -65,7 +65,7 @@ public final class MissionsResource {
     @POST
     public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return ask("create", Body.read(body), request)
+        return request("create", JsonBodyReader.read(body), request)
                 .thenApply(answer -> JsonResponses.created(answer, "/api/missions", MISSION));
     }
 
@@ -98,12 +98,12 @@ public final class MissionsResource {
         get(mission);
         DevicesResource.requireSecret(credentials);
         ArrayNode all = JsonNodeFactory.instance.arrayNode();
-        new DesiredDevices(view)
+        new DeviceView(view)
                 .of(mission).stream()
                         .filter(device -> DeviceCredentials.has(device) && !device.simulated())
                         .forEach(device -> all.add(credentials.of(device)));
         managers.audit(AuditEntry.ofDevice(
-                System.currentTimeMillis(), Caller.user(request), "credentials", named(mission), null));
+                System.currentTimeMillis(), RequestContext.user(request), "credentials", named(mission), null));
         return all;
     }
 
@@ -113,7 +113,7 @@ public final class MissionsResource {
     public CompletionStage<Response> addDevices(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
-        return ask("add-devices", Body.read(body).put(MISSION, mission), request)
+        return request("add-devices", JsonBodyReader.read(body).put(MISSION, mission), request)
                 .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
@@ -121,7 +121,7 @@ public final class MissionsResource {
     @Path("{mission}")
     public CompletionStage<Response> delete(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
-        return ask("delete", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return request("delete", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     /** Makes it if there is none. */
@@ -130,7 +130,7 @@ public final class MissionsResource {
     public CompletionStage<Response> start(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
-        return ask("start", Body.read(body).put(MISSION, mission), request)
+        return request("start", JsonBodyReader.read(body).put(MISSION, mission), request)
                 .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
@@ -138,7 +138,7 @@ public final class MissionsResource {
     @Path("{mission}/stop")
     public CompletionStage<Response> stop(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
-        return ask("stop", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return request("stop", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     /** The mission as it is requested, and how far it is. */
@@ -166,9 +166,9 @@ public final class MissionsResource {
         return JsonNodeFactory.instance.objectNode().put(MISSION, mission);
     }
 
-    private CompletionStage<io.furrow.model.control.CommandResult> ask(
+    private CompletionStage<io.furrow.model.control.CommandResult> request(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(
-                new CommandClient.CommandRequest(Topics.MISSION_MANAGER, command, members), Caller.of(request));
+        return managers.request(
+                new CommandClient.CommandRequest(Topics.MISSION_MANAGER, command, members), RequestContext.of(request));
     }
 }

@@ -18,7 +18,7 @@ import jakarta.ws.rs.core.Response;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.view.EventTiles;
 import io.furrow.control.rest.view.MissionTimeline;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
@@ -32,12 +32,12 @@ public final class RecordingsResource {
     private static final Instant FIRST_TIME = Instant.parse("0000-01-01T00:00:00Z");
     private static final Instant LAST_TIME = Instant.parse("9999-12-31T23:59:59.999Z");
 
-    private final ServiceView view;
+    private final StateView view;
     private final EventTiles events;
     private final Executor answering;
 
     /** @param events null if there is no MongoDB @param answering answers are made by it */
-    RecordingsResource(ServiceView view, EventTiles events, Executor answering) {
+    RecordingsResource(StateView view, EventTiles events, Executor answering) {
         this.view = view;
         this.events = events;
         this.answering = answering;

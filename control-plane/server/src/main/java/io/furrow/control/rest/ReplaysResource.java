@@ -18,9 +18,9 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
-import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
-import io.furrow.control.rest.view.ReplayView;
+import io.furrow.control.rest.view.ReplayStatusView;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/replays}, and {@code /api/replays/groups} of those that follow one clock. */
@@ -28,14 +28,14 @@ import io.furrow.model.topic.Topics;
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
 public final class ReplaysResource {
-    private static final String REPLAY = ReplayView.REPLAY;
-    private static final String GROUP = ReplayView.GROUP;
+    private static final String REPLAY = ReplayStatusView.REPLAY;
+    private static final String GROUP = ReplayStatusView.GROUP;
     private static final String COMMANDS = "/{command: pause|resume|seek|speed|step|loop}";
 
-    private final ReplayView replays;
+    private final ReplayStatusView replays;
     private final CommandClient managers;
 
-    ReplaysResource(ReplayView replays, CommandClient managers) {
+    ReplaysResource(ReplayStatusView replays, CommandClient managers) {
         this.replays = replays;
         this.managers = managers;
     }
@@ -48,7 +48,7 @@ public final class ReplaysResource {
     @POST
     public CompletionStage<Response> start(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return ask("start", Body.read(body), request)
+        return request("start", JsonBodyReader.read(body), request)
                 .thenApply(answer -> answer.json().has(GROUP)
                         ? JsonResponses.created(answer, "/api/replays/groups", GROUP)
                         : JsonResponses.created(answer, "/api/replays", REPLAY));
@@ -78,7 +78,7 @@ public final class ReplaysResource {
             @PathParam("command") String command,
             InputStream body)
             throws IOException {
-        return steer(command, Body.read(body).put(REPLAY, replay), request);
+        return steer(command, JsonBodyReader.read(body).put(REPLAY, replay), request);
     }
 
     @GET
@@ -103,20 +103,20 @@ public final class ReplaysResource {
             @PathParam("command") String command,
             InputStream body)
             throws IOException {
-        return steer(command, Body.read(body).put(GROUP, group), request);
+        return steer(command, JsonBodyReader.read(body).put(GROUP, group), request);
     }
 
     private CompletionStage<Response> steer(String command, ObjectNode members, ContainerRequestContext request) {
-        return ask(command, members, request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return request(command, members, request).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     private static ObjectNode none() {
         return JsonNodeFactory.instance.objectNode();
     }
 
-    private CompletionStage<io.furrow.model.control.CommandResult> ask(
+    private CompletionStage<io.furrow.model.control.CommandResult> request(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(
-                new CommandClient.CommandRequest(Topics.REPLAY_MANAGER, command, members), Caller.of(request));
+        return managers.request(
+                new CommandClient.CommandRequest(Topics.REPLAY_MANAGER, command, members), RequestContext.of(request));
     }
 }

@@ -33,18 +33,18 @@ import io.furrow.control.ServiceTopics;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.readiness.Readiness;
-import io.furrow.control.rest.access.BearerTokens;
+import io.furrow.control.rest.access.FileWarnings;
 import io.furrow.control.rest.access.RoleFilter;
 import io.furrow.control.rest.access.TlsListener;
-import io.furrow.control.rest.access.Warnings;
+import io.furrow.control.rest.access.TokenFilter;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.EventTiles;
 import io.furrow.control.rest.view.MarkerStore;
 import io.furrow.control.rest.view.PendingReplies;
 import io.furrow.control.rest.view.ReplayFeeds;
-import io.furrow.control.rest.view.ReplayView;
-import io.furrow.control.rest.view.ServiceReader;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.ReplayStatusView;
+import io.furrow.control.rest.view.StateView;
+import io.furrow.control.rest.view.StateViewUpdater;
 import io.furrow.model.field.FieldReader;
 import io.furrow.model.text.FailureText;
 
@@ -58,13 +58,13 @@ public final class RestApi implements AutoCloseable {
     private static final long STOPPING_MS = 2000;
 
     private final QueuedThreadPool threads = new QueuedThreadPool(THREADS, 2);
-    private final ServiceView view = new ServiceView();
+    private final StateView view = new StateView();
     private final PendingReplies answers = new PendingReplies();
     private final Server server = new Server(threads);
     private final RestMetrics metrics;
-    private final ServiceReader reader;
+    private final StateViewUpdater reader;
     private final CommandClient managers;
-    private final ReplayView replays = new ReplayView(view);
+    private final ReplayStatusView replays = new ReplayStatusView(view);
     private final ReplayFeeds feeds = new ReplayFeeds(replays);
     private final MarkerStore markers;
     /** Null if there is no MongoDB. */
@@ -73,7 +73,7 @@ public final class RestApi implements AutoCloseable {
     private RestApi(ControlSettings control, RestSettings rest, Readiness readiness) {
         metrics = new RestMetrics(view, answers, readiness);
         // A manager may remember an id by a twelfth longer than was asked for.
-        reader = new ServiceReader(
+        reader = new StateViewUpdater(
                 control.client(), control.remembered().multipliedBy(13).dividedBy(12), view, answers);
         managers = new CommandClient(control.client(), answers, view, rest.timeout(), threads);
         markers = new MarkerStore(control.replays(), threads);
@@ -97,12 +97,12 @@ public final class RestApi implements AutoCloseable {
     public static RestApi start(ControlSettings control, RestSettings rest, Readiness readiness, FieldReader fields)
             throws IOException {
         rest.check();
-        BearerTokens tokens = rest.tokens() == null ? null : BearerTokens.read(rest.tokens());
+        TokenFilter tokens = rest.tokens() == null ? null : TokenFilter.read(rest.tokens());
         TlsListener tls = rest.certificate() == null ? null : TlsListener.open(rest.certificate());
         check(control, rest);
         RestApi api = new RestApi(control, rest, readiness);
         try {
-            readiness.warn(new Warnings(rest.secret(), tokens, tls));
+            readiness.warn(new FileWarnings(rest.secret(), tokens, tls));
             api.listen(rest, tls, api.resources(control, rest, readiness, tokens, fields));
         } catch (IOException e) {
             api.close();
@@ -128,7 +128,7 @@ public final class RestApi implements AutoCloseable {
     }
 
     private ResourceConfig resources(
-            ControlSettings control, RestSettings rest, Readiness readiness, BearerTokens tokens, FieldReader fields)
+            ControlSettings control, RestSettings rest, Readiness readiness, TokenFilter tokens, FieldReader fields)
             throws IOException {
         readiness.require(reader::status);
         DeviceCommands commands = rest.contextBroker() == null
@@ -136,15 +136,15 @@ public final class RestApi implements AutoCloseable {
                 : new DeviceCommands(rest.contextBroker(), control.missions().scope(), rest.token());
         DeviceCredentials credentials =
                 rest.secret() == null ? null : new DeviceCredentials(rest.secret(), rest.mqtt());
-        DevicesResource.Means means =
-                new DevicesResource.Means(control.missions().scope(), commands, credentials);
+        DevicesResource.Dependencies dependencies =
+                new DevicesResource.Dependencies(control.missions().scope(), commands, credentials);
         ResourceConfig config = new ResourceConfig();
         config.property(ServerProperties.WADL_FEATURE_DISABLE, true);
         List<Object> resources = List.of(
                 new DomainsResource(view, managers),
                 new MissionsResource(view, managers, credentials),
                 new TemplatesResource(view, managers),
-                new DevicesResource(view, managers, means),
+                new DevicesResource(view, managers, dependencies),
                 new ReplaysResource(replays, managers),
                 new ReplayFeedResource(feeds),
                 new RecordingsResource(view, events, threads),
@@ -157,7 +157,7 @@ public final class RestApi implements AutoCloseable {
         resources.forEach(resource -> config.register(resource.getClass()));
         config.register(new Instances(resources));
         config.register(metrics);
-        config.register(new Body.Drain());
+        config.register(new JsonBodyReader.Drain());
         config.register(new JsonExceptionMapper());
         if (tokens != null) {
             config.register(tokens);

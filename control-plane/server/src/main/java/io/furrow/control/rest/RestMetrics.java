@@ -26,7 +26,7 @@ import org.glassfish.jersey.uri.UriTemplate;
 
 import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.view.PendingReplies;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.StateView;
 import io.furrow.kafka.PartStatus;
 import io.furrow.model.topic.Topics;
 
@@ -39,7 +39,7 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
     private static final String BEGUN = "furrow.begun";
     private static final String STATE = "state";
 
-    private final ServiceView view;
+    private final StateView view;
     private final PendingReplies answers;
     private final Readiness readiness;
     private final Map<Route, Count> counts = new ConcurrentHashMap<>();
@@ -50,7 +50,7 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
 
     private record Count(LongAdder requests, LongAdder nanos) {}
 
-    RestMetrics(ServiceView view, PendingReplies answers, Readiness readiness) {
+    RestMetrics(StateView view, PendingReplies answers, Readiness readiness) {
         this.view = view;
         this.answers = answers;
         this.readiness = readiness;

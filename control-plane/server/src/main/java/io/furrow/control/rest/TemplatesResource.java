@@ -23,11 +23,11 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
-import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.Topics;
 
@@ -40,10 +40,10 @@ public final class TemplatesResource {
     private static final String VERSION = "version";
     private static final Pattern NAME = Pattern.compile("([^@]+)(?:@([1-9][0-9]{0,8}))?");
 
-    private final ServiceView view;
+    private final StateView view;
     private final CommandClient managers;
 
-    TemplatesResource(ServiceView view, CommandClient managers) {
+    TemplatesResource(StateView view, CommandClient managers) {
         this.view = view;
         this.managers = managers;
     }
@@ -58,7 +58,7 @@ public final class TemplatesResource {
     @POST
     public CompletionStage<Response> save(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return ask("save-template", Body.read(body), request)
+        return request("save-template", JsonBodyReader.read(body), request)
                 .thenApply(answer -> JsonResponses.created(answer, "/api/templates", TEMPLATE));
     }
 
@@ -88,16 +88,16 @@ public final class TemplatesResource {
         if (parts.group(2) != null) {
             members.put(VERSION, Integer.parseInt(parts.group(2)));
         }
-        return ask("delete-template", members, request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return request("delete-template", members, request).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     private static ProblemException unknown(String name) {
         return new ProblemException(ErrorCode.UNKNOWN_TEMPLATE, "there is no template '%s'".formatted(name));
     }
 
-    private CompletionStage<io.furrow.model.control.CommandResult> ask(
+    private CompletionStage<io.furrow.model.control.CommandResult> request(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(
-                new CommandClient.CommandRequest(Topics.MISSION_MANAGER, command, members), Caller.of(request));
+        return managers.request(
+                new CommandClient.CommandRequest(Topics.MISSION_MANAGER, command, members), RequestContext.of(request));
     }
 }

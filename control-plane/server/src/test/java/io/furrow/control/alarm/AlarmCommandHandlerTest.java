@@ -7,8 +7,8 @@ import java.util.Set;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.manager.KeptOutbox;
-import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.CapturingPublisher;
+import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.Sequence;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
@@ -25,23 +25,23 @@ class AlarmCommandHandlerTest {
     private static final long NOW = 1_700_000_000_000L;
     private static final Duration HOUR = Duration.ofHours(1);
 
-    private final MapRecords<AlarmRecords.Mute> mutes = MapRecords.of(AlarmRecords.Mute.class);
-    private final KeptOutbox outbox = new KeptOutbox();
+    private final MapTable<AlarmTables.Mute> mutes = MapTable.of(AlarmTables.Mute.class);
+    private final CapturingPublisher publisher = new CapturingPublisher();
     private final AlarmCommandHandler handler = new AlarmCommandHandler(
-            new AlarmRecords(
-                    MapRecords.of(Alarm.class),
-                    MapRecords.of(String.class),
+            new AlarmTables(
+                    MapTable.of(Alarm.class),
+                    MapTable.of(String.class),
                     mutes,
-                    MapRecords.of(AlarmLimit.Group.class),
-                    MapRecords.of(AlarmLimit.Counted.class)),
-            new Sequence(MapRecords.of(Long.class)),
-            outbox);
+                    MapTable.of(AlarmLimit.Group.class),
+                    MapTable.of(AlarmLimit.Overflow.class)),
+            new Sequence(MapTable.of(Long.class)),
+            publisher);
 
     @Test
     void showsAnAlarmAsClientsReadIt() {
         handler.raise(silent("urn:t:1"), NOW);
 
-        assertThat(new String(outbox.compacted(Topics.ALARMS).get("silent-device-1"), StandardCharsets.UTF_8))
+        assertThat(new String(publisher.compacted(Topics.ALARMS).get("silent-device-1"), StandardCharsets.UTF_8))
                 .isEqualTo("""
                         {"alarm":"silent-device-1","kind":"silent-device","subject":"urn:t:1","severity":"minor","state":"open",\
                         "change":"opened","text":"it is silent","devices":[{"id":"urn:t:1","type":"Thermometer"}],\
@@ -53,7 +53,7 @@ class AlarmCommandHandlerTest {
         handler.raise(silent("urn:t:1"), NOW);
         handler.raise(silent("urn:t:1"), NOW + 1);
         handler.raise(silent("urn:t:2"), NOW + 2);
-        assertThat(outbox.all()).hasSize(2);
+        assertThat(publisher.all()).hasSize(2);
         handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "it reports again", NOW + 3);
         assertThat(alarm("silent-device-1"))
                 .returns(2, Alarm::count)
@@ -71,7 +71,8 @@ class AlarmCommandHandlerTest {
                 .returns(AlarmState.ACKNOWLEDGED, Alarm::state)
                 .returns("ann", Alarm::acknowledgedBy);
         refused(ErrorCode.WRONG_STATE, acknowledge("silent-device-1"));
-        handler.answer(new AlarmCommand.Close("silent-device-1", "bob"), NOW + AlarmLife.CAUSE_LASTS.toMillis());
+        handler.answer(
+                new AlarmCommand.Close("silent-device-1", "bob"), NOW + AlarmStateMachine.CAUSE_LASTS.toMillis());
         assertThat(alarm("silent-device-1"))
                 .returns("closed by bob", Alarm::reason)
                 .returns("ann", Alarm::acknowledgedBy);
@@ -81,7 +82,7 @@ class AlarmCommandHandlerTest {
     }
 
     @Test
-    void closesByItselfWhatIsNotSeenAnyMoreWhereNothingTellsItsEnd() {
+    void closesByItselfWhatIsNotSeenAnyMoreWhereNothingReportsItsEnd() {
         Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR);
         handler.raise(cause, NOW);
         handler.raise(cause, NOW + 10);
@@ -148,7 +149,7 @@ class AlarmCommandHandlerTest {
     @Test
     void refusesToCloseByHandWhatWasSeenWithinTheLastMinute() throws Exception {
         handler.raise(silent("urn:t:1"), NOW);
-        long later = NOW + AlarmLife.CAUSE_LASTS.toMillis() - 1;
+        long later = NOW + AlarmStateMachine.CAUSE_LASTS.toMillis() - 1;
         assertThatThrownBy(() -> handler.answer(new AlarmCommand.Close("silent-device-1", null), later))
                 .isInstanceOf(RefusedException.class)
                 .hasMessage("alarm 'silent-device-1' closes when its cause is over: it is silent (seen 59 s ago)."
@@ -157,9 +158,10 @@ class AlarmCommandHandlerTest {
         assertThatThrownBy(() -> handler.answer(new AlarmCommand.Close("silent-device-1", null), later + 1))
                 .isInstanceOf(RefusedException.class);
         assertThat(alarm("silent-device-1").state()).isEqualTo(AlarmState.OPEN);
-        handler.answer(new AlarmCommand.Close("silent-device-1", null), later + AlarmLife.CAUSE_LASTS.toMillis());
-        handler.raise(silent("urn:t:1"), later + AlarmLife.CAUSE_LASTS.toMillis());
-        assertThat(outbox.compacted(Topics.ALARMS)).hasSize(2);
+        handler.answer(
+                new AlarmCommand.Close("silent-device-1", null), later + AlarmStateMachine.CAUSE_LASTS.toMillis());
+        handler.raise(silent("urn:t:1"), later + AlarmStateMachine.CAUSE_LASTS.toMillis());
+        assertThat(publisher.compacted(Topics.ALARMS)).hasSize(2);
     }
 
     @Test
@@ -173,11 +175,11 @@ class AlarmCommandHandlerTest {
                 .returns(Alarm.Change.UPDATED, Alarm::change)
                 .returns("2 are silent", Alarm::text);
         handler.report(many(2), null, NOW + 30_000);
-        assertThat(outbox.all()).hasSize(2);
+        assertThat(publisher.all()).hasSize(2);
     }
 
     @Test
-    void saysWhichAlarmInhibitsAnotherAndWhenNoLonger() {
+    void reportsWhichAlarmInhibitsAnotherAndWhenNoLonger() {
         Cause farm = Cause.ofMany(AlarmKind.SILENT_FARM, "data.raw", "all", List.of(), new Cause.Extent(9, 9));
         handler.report(farm, null, NOW);
         handler.report(many(3), farm, NOW);
@@ -199,7 +201,7 @@ class AlarmCommandHandlerTest {
             handler.raise(pair(i), NOW);
         }
         handler.passTime(NOW + 1000);
-        assertThat(outbox.compacted(Topics.ALARMS)).hasSize(AlarmLimit.MAX_ALARMS + 1);
+        assertThat(publisher.compacted(Topics.ALARMS)).hasSize(AlarmLimit.MAX_ALARMS + 1);
         Alarm crowd = alarm("collision-" + (AlarmLimit.MAX_ALARMS + 1));
         assertThat(crowd)
                 .returns("urn:ngsi-ld:Mission:m", Alarm::subject)
@@ -212,7 +214,8 @@ class AlarmCommandHandlerTest {
         assertThat(alarm(crowd.alarm()).state()).isEqualTo(AlarmState.CLOSED);
         handler.end(AlarmKind.COLLISION, "pair0", "over", NOW);
         handler.raise(pair(99), NOW);
-        assertThat(StateJson.read(outbox.all().get(outbox.all().size() - 1).value(), Alarm.class)
+        assertThat(StateJson.read(
+                                publisher.all().get(publisher.all().size() - 1).value(), Alarm.class)
                         .subject())
                 .isEqualTo("pair99");
     }
@@ -253,7 +256,7 @@ class AlarmCommandHandlerTest {
             handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "over", NOW + i);
         }
         handler.passTime(NOW + 100_000);
-        assertThat(outbox.compacted(Topics.ALARMS))
+        assertThat(publisher.compacted(Topics.ALARMS))
                 .hasSize(AlarmCommandHandler.MAX_CLOSED)
                 .doesNotContainKey("silent-device-1");
     }
@@ -278,7 +281,7 @@ class AlarmCommandHandlerTest {
     void refusesToMuteMoreSubjectsThanItRemembers() throws Exception {
         for (int i = 0; i < Limits.MUTES; i++) {
             String key = Cause.key(AlarmKind.SILENT_DEVICE, "urn:t:" + i);
-            mutes.put(key, new AlarmRecords.Mute(key, NOW + HOUR.toMillis()));
+            mutes.put(key, new AlarmTables.Mute(key, NOW + HOUR.toMillis()));
         }
 
         assertThatThrownBy(() -> handler.answer(mute("urn:t:further"), NOW))
@@ -317,11 +320,11 @@ class AlarmCommandHandlerTest {
         handler.raise(silent("urn:t:1"), NOW);
         handler.raise(silent("urn:t:2"), NOW);
         handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "over", NOW);
-        long day = AlarmCommandHandler.CLOSED_KEPT.toMillis();
+        long day = AlarmCommandHandler.CLOSED_RETENTION.toMillis();
         handler.passTime(NOW + day - 1);
-        assertThat(outbox.compacted(Topics.ALARMS)).hasSize(2);
+        assertThat(publisher.compacted(Topics.ALARMS)).hasSize(2);
         handler.passTime(NOW + day + 60_000);
-        assertThat(outbox.compacted(Topics.ALARMS)).containsOnlyKeys("silent-device-2");
+        assertThat(publisher.compacted(Topics.ALARMS)).containsOnlyKeys("silent-device-2");
     }
 
     private static Cause silent(String device) {
@@ -329,7 +332,7 @@ class AlarmCommandHandlerTest {
                 AlarmKind.SILENT_DEVICE,
                 device,
                 "it is silent",
-                List.of(new Cause.Device(device, "Thermometer", null, null)),
+                List.of(new Cause.AffectedDevice(device, "Thermometer", null, null)),
                 null);
     }
 
@@ -344,7 +347,7 @@ class AlarmCommandHandlerTest {
     }
 
     private List<Alarm> current() {
-        return outbox.compacted(Topics.ALARMS).values().stream()
+        return publisher.compacted(Topics.ALARMS).values().stream()
                 .map(json -> StateJson.read(json, Alarm.class))
                 .filter(alarm -> alarm.state() != AlarmState.CLOSED)
                 .toList();
@@ -355,7 +358,7 @@ class AlarmCommandHandlerTest {
     }
 
     private Alarm alarm(String id) {
-        return StateJson.read(outbox.compacted(Topics.ALARMS).get(id), Alarm.class);
+        return StateJson.read(publisher.compacted(Topics.ALARMS).get(id), Alarm.class);
     }
 
     private void refused(ErrorCode code, AlarmCommand command) {

@@ -13,8 +13,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInfo;
 import org.junit.jupiter.api.TestReporter;
 
-import io.furrow.control.manager.KeptOutbox;
-import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.CapturingPublisher;
+import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.Sequence;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
@@ -31,7 +31,7 @@ class AlarmPropertyTest {
     private static final int STEPS = 200;
 
     @Test
-    void isSoundWhateverHappensAndIsAsked(TestInfo test, TestReporter reporter) {
+    void isSoundWhateverHappensAndIsRequested(TestInfo test, TestReporter reporter) {
         long seed = System.nanoTime();
         reporter.publishEntry(test.getDisplayName(), "seed " + seed);
         int refused = 0;
@@ -50,28 +50,28 @@ class AlarmPropertyTest {
     }
 
     private static final class Walk {
-        private final MapRecords<Alarm> alarms = MapRecords.of(Alarm.class);
-        private final MapRecords<String> current = MapRecords.of(String.class);
-        private final MapRecords<AlarmRecords.Mute> mutes = MapRecords.of(AlarmRecords.Mute.class);
-        private final KeptOutbox outbox = new KeptOutbox();
-        private final MapRecords<AlarmLimit.Group> groups = MapRecords.of(AlarmLimit.Group.class);
-        private final MapRecords<AlarmLimit.Counted> counted = MapRecords.of(AlarmLimit.Counted.class);
+        private final MapTable<Alarm> alarms = MapTable.of(Alarm.class);
+        private final MapTable<String> current = MapTable.of(String.class);
+        private final MapTable<AlarmTables.Mute> mutes = MapTable.of(AlarmTables.Mute.class);
+        private final CapturingPublisher publisher = new CapturingPublisher();
+        private final MapTable<AlarmLimit.Group> groups = MapTable.of(AlarmLimit.Group.class);
+        private final MapTable<AlarmLimit.Overflow> counted = MapTable.of(AlarmLimit.Overflow.class);
         private final AlarmCommandHandler handler = new AlarmCommandHandler(
-                new AlarmRecords(alarms, current, mutes, groups, counted),
-                new Sequence(MapRecords.of(Long.class)),
-                outbox);
+                new AlarmTables(alarms, current, mutes, groups, counted),
+                new Sequence(MapTable.of(Long.class)),
+                publisher);
         private final Map<String, Long> lasting = new HashMap<>();
         private final Set<String> closed = new HashSet<>();
         private final Map<String, AlarmState> before = new HashMap<>();
         private final Random random;
-        private final String said;
+        private final String label;
         private long now = 1_000_000;
         private int refused;
         private int crowded;
 
-        Walk(Random random, String said) {
+        Walk(Random random, String label) {
             this.random = random;
-            this.said = said;
+            this.label = label;
         }
 
         void run() {
@@ -86,9 +86,9 @@ class AlarmPropertyTest {
             }
             now += Duration.ofDays(2).toMillis();
             handler.passTime(now);
-            assertThat(mutes.all()).as(said).isEmpty();
-            assertThat(counted.all()).as(said).allMatch(each -> each.until() == null);
-            assertThat(alarms.all()).as(said).allMatch(alarm -> alarm.changed() == now || alarm.until() == null);
+            assertThat(mutes.all()).as(label).isEmpty();
+            assertThat(counted.all()).as(label).allMatch(each -> each.until() == null);
+            assertThat(alarms.all()).as(label).allMatch(alarm -> alarm.changed() == now || alarm.until() == null);
         }
 
         private void step() {
@@ -105,7 +105,7 @@ class AlarmPropertyTest {
                     now += random.nextInt(60_000);
                     handler.passTime(now);
                 }
-                default -> ask();
+                default -> request();
             }
         }
 
@@ -118,15 +118,15 @@ class AlarmPropertyTest {
             crowded += counted.all().size();
         }
 
-        private void ask() {
-            int written = outbox.all().size();
+        private void request() {
+            int written = publisher.all().size();
             String content = content();
             try {
                 handler.answer(command(), now);
             } catch (RefusedException e) {
                 refused++;
-                assertThat(content()).as(said).isEqualTo(content);
-                assertThat(outbox.all()).as(said).hasSize(written);
+                assertThat(content()).as(label).isEqualTo(content);
+                assertThat(publisher.all()).as(label).hasSize(written);
             }
         }
 
@@ -147,7 +147,8 @@ class AlarmPropertyTest {
 
         private Cause cause(AlarmKind kind) {
             Duration holds = random.nextBoolean() ? null : Duration.ofSeconds(1 + random.nextInt(60));
-            Cause cause = new Cause(kind, subject(), "look", List.of(new Cause.Device("x", null, null, null)), holds);
+            Cause cause =
+                    new Cause(kind, subject(), "look", List.of(new Cause.AffectedDevice("x", null, null, null)), holds);
             return AlarmLimit.KINDS.contains(kind) ? cause.inGroup("g") : cause;
         }
 
@@ -163,10 +164,10 @@ class AlarmPropertyTest {
         private void checkLives() {
             before.forEach((id, state) -> {
                 AlarmState after = alarms.get(id).state();
-                assertThat(after == state || state.canBecome(after)).as(said).isTrue();
+                assertThat(after == state || state.canBecome(after)).as(label).isTrue();
             });
             alarms.forEach(alarm -> {
-                assertThat(alarm.reason() != null).as(said).isEqualTo(alarm.state() == AlarmState.CLOSED);
+                assertThat(alarm.reason() != null).as(label).isEqualTo(alarm.state() == AlarmState.CLOSED);
                 if (alarm.state() == AlarmState.CLOSED) {
                     closed.add(alarm.alarm());
                 }
@@ -177,25 +178,25 @@ class AlarmPropertyTest {
             Set<String> keys = new HashSet<>();
             alarms.forEach(alarm -> {
                 if (alarm.state() != AlarmState.CLOSED) {
-                    assertThat(keys.add(alarm.key())).as(said).isTrue();
-                    assertThat(current.get(alarm.key())).as(said).isEqualTo(alarm.alarm());
+                    assertThat(keys.add(alarm.key())).as(label).isTrue();
+                    assertThat(current.get(alarm.key())).as(label).isEqualTo(alarm.alarm());
                 }
             });
-            assertThat(current.all()).as(said).hasSameSizeAs(keys);
+            assertThat(current.all()).as(label).hasSameSizeAs(keys);
         }
 
         /** It shows each alarm as it is, but for how often it was seen since its last change. */
         private void checkTopic() {
-            Map<String, byte[]> shown = outbox.compacted(Topics.ALARMS);
-            assertThat(shown).as(said).hasSameSizeAs(alarms.all());
+            Map<String, byte[]> shown = publisher.compacted(Topics.ALARMS);
+            assertThat(shown).as(label).hasSameSizeAs(alarms.all());
             Set<Long> sequences = new HashSet<>();
             shown.forEach((id, json) -> {
                 Alarm alarm = StateJson.read(json, Alarm.class);
-                Alarm known = alarms.get(id);
-                assertThat(alarm.state()).as(said).isEqualTo(known.state());
-                assertThat(alarm.mutedUntil()).as(said).isEqualTo(known.mutedUntil());
-                assertThat(alarm.count()).as(said).isLessThanOrEqualTo(known.count());
-                assertThat(sequences.add(alarm.sequence())).as(said).isTrue();
+                Alarm existing = alarms.get(id);
+                assertThat(alarm.state()).as(label).isEqualTo(existing.state());
+                assertThat(alarm.mutedUntil()).as(label).isEqualTo(existing.mutedUntil());
+                assertThat(alarm.count()).as(label).isLessThanOrEqualTo(existing.count());
+                assertThat(sequences.add(alarm.sequence())).as(label).isTrue();
             });
         }
 
@@ -210,10 +211,10 @@ class AlarmPropertyTest {
             });
             counted.forEach(each -> counts.merge(Cause.key(each.kind(), each.group()), 1, Integer::sum));
             groups.forEach(group -> {
-                assertThat(group.alarms()).as(said).isEqualTo(open.getOrDefault(group.key(), 0));
-                assertThat(group.counted()).as(said).isEqualTo(counts.getOrDefault(group.key(), 0));
+                assertThat(group.alarms()).as(label).isEqualTo(open.getOrDefault(group.key(), 0));
+                assertThat(group.counted()).as(label).isEqualTo(counts.getOrDefault(group.key(), 0));
             });
-            assertThat(open.values()).as(said).allMatch(number -> number <= AlarmLimit.MAX_ALARMS);
+            assertThat(open.values()).as(label).allMatch(number -> number <= AlarmLimit.MAX_ALARMS);
             Set<String> closedBefore = new HashSet<>();
             alarms.forEach(alarm -> {
                 if (alarm.state() == AlarmState.CLOSED) {
@@ -221,9 +222,9 @@ class AlarmPropertyTest {
                 }
             });
             lasting.forEach((key, until) -> {
-                boolean known = current.get(key) != null || counted.get(key) != null;
-                assertThat(known || closedBefore.contains(key) || until <= now)
-                        .as(said + key)
+                boolean existing = current.get(key) != null || counted.get(key) != null;
+                assertThat(existing || closedBefore.contains(key) || until <= now)
+                        .as(label + key)
                         .isTrue();
             });
         }

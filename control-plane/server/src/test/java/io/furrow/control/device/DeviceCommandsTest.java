@@ -39,7 +39,7 @@ class DeviceCommandsTest {
     @BeforeEach
     void start() throws IOException {
         broker = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        broker.createContext("/", this::hear);
+        broker.createContext("/", this::report);
         broker.start();
     }
 
@@ -87,19 +87,19 @@ class DeviceCommandsTest {
                 "404,<html>nginx</html>,",
                 "503,{\"error\":\"busy\"},"
             })
-    void tellsARefusalFromAnOutage(int answered, String body, Integer refused) {
+    void distinguishesARefusalFromAnOutage(int answered, String body, Integer refused) {
         status = answered;
         answer = body == null ? "" : body;
 
         Throwable failure = catchThrowable(() -> commands().send("t1", "Thermometer", "on", "a=b"));
 
         assertThat(failure).isInstanceOf(IOException.class);
-        assertThat(failure instanceof RefusedCommandException known ? known.status() : null)
+        assertThat(failure instanceof RejectedCommandException existing ? existing.status() : null)
                 .isEqualTo(refused);
     }
 
     @Test
-    void tellsARobotByItsAttributeCmdAndThatNothingIsAnsweredYet() throws Exception {
+    void recognizesARobotByItsAttributeCmdAndThatNothingIsAnsweredYet() throws Exception {
         commands().send("urn:ngsi-ld:Robot:m-1", "Robot", "Stop", "");
 
         commands().send("urn:ngsi-ld:Robot:m-1", "ROBOT", "Stop", "");
@@ -115,13 +115,13 @@ class DeviceCommandsTest {
     void sendsTheTokenOfTheFile(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(directory.resolve("token"), "Bearer s3cret\n");
 
-        commands(AccessToken.of(file, "Authorization", said -> {})).send("urn:x", "Thermometer", "on", "");
+        commands(AccessToken.of(file, "Authorization", message -> {})).send("urn:x", "Thermometer", "on", "");
 
         assertThat(authorization).isEqualTo("Bearer s3cret");
     }
 
     @Test
-    void saysWhatTheContextBrokerRefused() {
+    void reportsWhatTheContextBrokerRefused() {
         status = 422;
         answer = "{\"error\":\"Unprocessable\",\"description\":\"do not exist: urn:x/Thermometer - [ blink ]\"}";
 
@@ -132,7 +132,7 @@ class DeviceCommandsTest {
     }
 
     @Test
-    void saysThatADeviceTakesCommandsFromItsFirstMeasureOn() {
+    void reportsThatADeviceTakesCommandsFromItsFirstMeasureOn() {
         status = 404;
         answer = "{\"error\":\"NotFound\",\"description\":\"The requested entity has not been found\"}";
 
@@ -143,7 +143,7 @@ class DeviceCommandsTest {
     }
 
     @Test
-    void saysThatTheContextBrokerIsAway() {
+    void reportsThatTheContextBrokerIsUnavailable() {
         DeviceCommands commands = commands();
         broker.stop(0);
 
@@ -163,7 +163,7 @@ class DeviceCommandsTest {
                 token);
     }
 
-    private void hear(HttpExchange exchange) throws IOException {
+    private void report(HttpExchange exchange) throws IOException {
         authorization = exchange.getRequestHeaders().getFirst("Authorization");
         heard.add("%s %s %s %s %s"
                 .formatted(

@@ -10,10 +10,10 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.AlarmCommandHandler;
-import io.furrow.control.alarm.AlarmHandlers;
+import io.furrow.control.alarm.AlarmHandlerFixture;
 import io.furrow.control.alarm.Cause;
-import io.furrow.control.manager.KeptOutbox;
-import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.CapturingPublisher;
+import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.device.DesiredDevice;
@@ -33,29 +33,29 @@ class DeviceHealthTrackerTest {
     /** Three periods, and the timeout with devices that come up. */
     private static final long LONG_ENOUGH = 30_000 + DeviceHealthTracker.TIMEOUT.toMillis();
 
-    private final MapRecords<byte[]> desired = new MapRecords<>(Function.identity(), Function.identity());
-    private final MapRecords<DeviceHealth> health = MapRecords.of(DeviceHealth.class);
-    private final KeptOutbox outbox = new KeptOutbox();
-    private final AlarmCommandHandler alarms = AlarmHandlers.writingTo(outbox);
+    private final MapTable<byte[]> desired = new MapTable<>(Function.identity(), Function.identity());
+    private final MapTable<DeviceHealth> health = MapTable.of(DeviceHealth.class);
+    private final CapturingPublisher publisher = new CapturingPublisher();
+    private final AlarmCommandHandler alarms = AlarmHandlerFixture.writingTo(publisher);
     private DeviceConnection connection;
     private DeviceHealthTracker tracker = tracker();
 
     @Test
     void raisesAnAlarmOfADeviceThatNeverReported() {
-        want("m", START);
+        addDesired("m", START);
         tracker.passTime(START);
-        assertThat(known().silent()).isFalse();
+        assertThat(existing().silent()).isFalse();
         tracker.passTime(START + LONG_ENOUGH);
-        assertThat(known().silent()).isFalse();
+        assertThat(existing().silent()).isFalse();
         tracker.passTime(START + LONG_ENOUGH + 10_000);
-        assertThat(known().silent()).isTrue();
+        assertThat(existing().silent()).isTrue();
         assertThat(alarms()).extracting(Alarm::text).containsExactly("1 of 1 device of mission m is silent: " + ID);
     }
 
     /** As it was first said: an alarm that counts would be delivered again and again. */
     @Test
-    void saysWhyADeviceIsSilent() {
-        want("m", START);
+    void reportsWhyADeviceIsSilent() {
+        addDesired("m", START);
         connection = refused(12);
         tracker.passTime(START);
         tracker.passTime(START + LONG_ENOUGH + 10_000);
@@ -82,12 +82,12 @@ class DeviceHealthTrackerTest {
 
     @Test
     void endsTheAlarmAtTheFirstSignOfLife() {
-        want("m", START);
+        addDesired("m", START);
         tracker.passTime(START);
         tracker.passTime(START + LONG_ENOUGH + 10_000);
-        tracker.take(KEY, sign(false, START + LONG_ENOUGH + 11_000), START + LONG_ENOUGH + 11_000);
+        tracker.take(KEY, heartbeat(false, START + LONG_ENOUGH + 11_000), START + LONG_ENOUGH + 11_000);
         tracker.passTime(START + LONG_ENOUGH + 11_000);
-        assertThat(known())
+        assertThat(existing())
                 .returns(false, DeviceHealth::silent)
                 .returns(77L, DeviceHealth::lastSeen)
                 .returns(START + LONG_ENOUGH + 11_000, DeviceHealth::since);
@@ -96,48 +96,48 @@ class DeviceHealthTrackerTest {
 
     @Test
     void missesADeviceWhoseListenerDied() {
-        want("m", START);
-        tracker.take(KEY, sign(false, START), START);
+        addDesired("m", START);
+        tracker.take(KEY, heartbeat(false, START), START);
         tracker.passTime(START + 10_000);
         tracker.passTime(START + 10_000 + LONG_ENOUGH);
-        assertThat(known().silent()).isFalse();
+        assertThat(existing().silent()).isFalse();
         tracker.passTime(START + 20_000 + LONG_ENOUGH);
-        assertThat(known().silent()).isTrue();
+        assertThat(existing().silent()).isTrue();
     }
 
     @Test
     void holdsNothingAgainstADeviceThatWasNotListenedTo() {
-        want("m", START);
-        tracker.take(KEY, sign(false, START), START);
+        addDesired("m", START);
+        tracker.take(KEY, heartbeat(false, START), START);
         tracker = tracker(); // and the control plane was unavailable for a day
         long back = START + Duration.ofDays(1).toMillis();
         tracker.passTime(back);
         tracker.passTime(back + LONG_ENOUGH);
-        assertThat(known().silent()).isFalse();
+        assertThat(existing().silent()).isFalse();
     }
 
     @Test
     void passesOverSilenceThatAnotherListenerHasDisproved() {
-        want("m", START);
-        tracker.take(KEY, sign(false, START + 5), START + 5);
-        tracker.take(KEY, sign(true, START), START + 31_000);
-        assertThat(known().silent()).isFalse();
-        tracker.take(KEY, sign(true, START + 5), START + 31_000);
-        assertThat(known().silent()).isTrue();
+        addDesired("m", START);
+        tracker.take(KEY, heartbeat(false, START + 5), START + 5);
+        tracker.take(KEY, heartbeat(true, START), START + 31_000);
+        assertThat(existing().silent()).isFalse();
+        tracker.take(KEY, heartbeat(true, START + 5), START + 31_000);
+        assertThat(existing().silent()).isTrue();
         tracker.passTime(START + 31_000);
         assertThat(alarms()).extracting(Alarm::affected).containsExactly(1);
     }
 
     @Test
     void forgetsADeviceThatIsNotDesiredAnyMoreAndEndsItsAlarm() {
-        want("m", START);
-        tracker.take(KEY, sign(true, START), START);
+        addDesired("m", START);
+        tracker.take(KEY, heartbeat(true, START), START);
         tracker.passTime(START);
         assertThat(alarms()).hasSize(1);
         desired.put(KEY, null);
-        tracker.take(KEY, sign(false, START + 1), START + 1);
+        tracker.take(KEY, heartbeat(false, START + 1), START + 1);
         tracker.passTime(START + 20_000);
-        assertThat(outbox.compacted(Topics.DEVICES_HEALTH)).isEmpty();
+        assertThat(publisher.compacted(Topics.DEVICES_HEALTH)).isEmpty();
         assertThat(health.all()).isEmpty();
         assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
     }
@@ -146,48 +146,48 @@ class DeviceHealthTrackerTest {
     void closesAlarmsOfSilenceThatNothingIsTheCauseOf() {
         Cause single = new Cause(AlarmKind.SILENT_DEVICE, ID, "x", List.of(), null);
         alarms.raise(single, START);
-        want("m", START);
+        addDesired("m", START);
         tracker.passTime(START);
         assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
     }
 
     @Test
     void writesNothingWhereNothingChanged() {
-        want("m", START);
-        tracker.take(KEY, sign(false, START), START);
-        int written = outbox.all().size();
+        addDesired("m", START);
+        tracker.take(KEY, heartbeat(false, START), START);
+        int written = publisher.all().size();
         tracker.passTime(START + 10_000);
         tracker.passTime(START + 20_000);
-        assertThat(outbox.all()).hasSize(written);
-        want("other", START);
+        assertThat(publisher.all()).hasSize(written);
+        addDesired("other", START);
         tracker.passTime(START + 30_000);
-        assertThat(known().mission()).isEqualTo("other");
+        assertThat(existing().mission()).isEqualTo("other");
     }
 
     private DeviceHealthTracker tracker() {
         return new DeviceHealthTracker(
                 health,
-                new DesiredDevices(desired),
+                new MonitoredDevices(desired),
                 HealthOptions.DEFAULT,
-                new Silence(HealthOptions.DEFAULT, alarms, key -> Optional.ofNullable(connection)),
-                outbox);
+                new SilenceAlarmReconciler(HealthOptions.DEFAULT, alarms, key -> Optional.ofNullable(connection)),
+                publisher);
     }
 
-    private DeviceHealth known() {
-        return StateJson.read(outbox.compacted(Topics.DEVICES_HEALTH).get(KEY), DeviceHealth.class);
+    private DeviceHealth existing() {
+        return StateJson.read(publisher.compacted(Topics.DEVICES_HEALTH).get(KEY), DeviceHealth.class);
     }
 
     private List<Alarm> alarms() {
         List<Alarm> all = new ArrayList<>();
-        outbox.compacted(Topics.ALARMS).values().forEach(json -> all.add(StateJson.read(json, Alarm.class)));
+        publisher.compacted(Topics.ALARMS).values().forEach(json -> all.add(StateJson.read(json, Alarm.class)));
         return all;
     }
 
-    private static Heartbeat sign(boolean silent, long heard) {
+    private static Heartbeat heartbeat(boolean silent, long heard) {
         return new Heartbeat(ID, "T", silent, heard, 77, null, null, false);
     }
 
-    private void want(String mission, long from) {
+    private void addDesired(String mission, long from) {
         DeviceVersion version = new DeviceVersion(ID, "", "/", "d", mission, from, null, 1, null);
         DesiredDevice device = DesiredDevice.simulated(
                 version,

@@ -8,7 +8,7 @@ import java.util.function.Function;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.MapTable;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.Entity;
@@ -22,17 +22,17 @@ class SilenceDetectorTest {
     private static final String KEY = "|/|" + ID;
     private static final Duration PERIOD = Duration.ofSeconds(10);
 
-    private final MapRecords<byte[]> desired = new MapRecords<>(Function.identity(), Function.identity());
+    private final MapTable<byte[]> desired = new MapTable<>(Function.identity(), Function.identity());
     private final List<Heartbeat> signs = new ArrayList<>();
-    private final SilenceDetector listener =
-            new SilenceDetector(HealthOptions.DEFAULT, new DesiredDevices(desired), (key, sign) -> signs.add(sign));
+    private final SilenceDetector listener = new SilenceDetector(
+            HealthOptions.DEFAULT, new MonitoredDevices(desired), (key, heartbeat) -> signs.add(heartbeat));
     private long now = 1_700_000_000_000L;
 
     @Test
-    void tellsOfTheFirstReportThenEveryHalfMinute() {
-        want(PERIOD);
+    void reportsTheFirstReportThenEveryHalfMinute() {
+        addDesired(PERIOD);
         for (int i = 0; i <= 65; i++) {
-            hear(Entity.builder(ID, "T"), now);
+            process(Entity.builder(ID, "T"), now);
             pass(1000);
         }
         assertThat(signs).hasSize(3).noneMatch(Heartbeat::silent);
@@ -40,10 +40,10 @@ class SilenceDetectorTest {
 
     /** As one sends that had stored something: what it sent last may be all for hours, and has another time. */
     @Test
-    void tellsOfTheLastOfSomeReportsWithinHalfAMinute() {
-        want(PERIOD.multipliedBy(90));
-        hear(Entity.builder(ID, "T"), 5);
-        hear(Entity.builder(ID, "T"), 6);
+    void reportsTheLastOfSomeReportsWithinHalfAMinute() {
+        addDesired(PERIOD.multipliedBy(90));
+        process(Entity.builder(ID, "T"), 5);
+        process(Entity.builder(ID, "T"), 6);
         for (int i = 0; i <= 60; i++) {
             pass(1000);
         }
@@ -51,9 +51,9 @@ class SilenceDetectorTest {
     }
 
     @Test
-    void tellsOnceOfADeviceThatIsSilentForLongerThanItsPeriods() {
-        want(PERIOD);
-        hear(Entity.builder(ID, "T"), 5);
+    void reportsOnceOfADeviceThatIsSilentForLongerThanItsPeriods() {
+        addDesired(PERIOD);
+        process(Entity.builder(ID, "T"), 5);
         pass(30_000);
         assertThat(signs).hasSize(1);
         pass(1);
@@ -61,15 +61,15 @@ class SilenceDetectorTest {
         assertThat(signs).hasSize(2);
         assertThat(signs.get(1).silent()).isTrue();
         assertThat(signs.get(1).reported()).isEqualTo(5);
-        hear(Entity.builder(ID, "T"), 6);
+        process(Entity.builder(ID, "T"), 6);
         assertThat(signs).hasSize(3);
         assertThat(signs.get(2).silent()).isFalse();
     }
 
     @Test
     void takesTheDefaultForADeviceWithoutAPeriod() {
-        want(null);
-        hear(Entity.builder(ID, "T"), 5);
+        addDesired(null);
+        process(Entity.builder(ID, "T"), 5);
         pass(HealthOptions.DEFAULT.period().multipliedBy(3).toMillis());
         assertThat(signs).hasSize(1);
         pass(1);
@@ -78,9 +78,9 @@ class SilenceDetectorTest {
 
     @Test
     void goesByAPeriodThatWasChanged() {
-        want(PERIOD);
-        hear(Entity.builder(ID, "T"), 5);
-        want(PERIOD.multipliedBy(10));
+        addDesired(PERIOD);
+        process(Entity.builder(ID, "T"), 5);
+        addDesired(PERIOD.multipliedBy(10));
         pass(31_000);
         pass(1000);
         assertThat(signs).hasSize(1);
@@ -88,11 +88,11 @@ class SilenceDetectorTest {
 
     @Test
     void judgesNobodyRightAfterAPauseInWhichItDidNotListen() {
-        want(PERIOD);
-        hear(Entity.builder(ID, "T"), 5);
+        addDesired(PERIOD);
+        process(Entity.builder(ID, "T"), 5);
         pass(1000);
         pass(60_000); // as a process that stood still finds itself, with reports still to be read
-        hear(Entity.builder(ID, "T"), 6);
+        process(Entity.builder(ID, "T"), 6);
         pass(1000);
         assertThat(signs).hasSize(2).noneMatch(Heartbeat::silent);
     }
@@ -100,10 +100,10 @@ class SilenceDetectorTest {
     /** As the context broker tells an entity when somebody sends it a command. */
     @Test
     void takesTheSameReportAgainForNoSignOfLife() {
-        want(PERIOD);
-        hear(Entity.builder(ID, "T"), 5);
+        addDesired(PERIOD);
+        process(Entity.builder(ID, "T"), 5);
         pass(29_000);
-        hear(Entity.builder(ID, "T").text("off_status", "PENDING"), 5);
+        process(Entity.builder(ID, "T").text("off_status", "PENDING"), 5);
         pass(1001);
         assertThat(signs).hasSize(2);
         assertThat(signs.get(1).silent()).isTrue();
@@ -112,10 +112,10 @@ class SilenceDetectorTest {
     /** A device without a clock, or a station that gives each of its reports the start of the hour. */
     @Test
     void takesANewValueAtTheSameTimeForAReport() {
-        want(PERIOD);
+        addDesired(PERIOD);
         for (int i = 0; i < 20; i++) {
-            hear(Entity.builder(ID, "T").number("Time", 5).number("Temperature", i), 5);
-            hear(
+            process(Entity.builder(ID, "T").number("Time", 5).number("Temperature", i), 5);
+            process(
                     Entity.builder(ID, "T")
                             .number("Time", 5)
                             .number("Temperature", i)
@@ -130,17 +130,17 @@ class SilenceDetectorTest {
     /** Also where it has another time: a device without a clock is given that of the context broker. */
     @Test
     void takesWhatACommandChangesForNoReport() {
-        want(PERIOD);
-        hear(Entity.builder(ID, "T").number("Temperature", 8), 5);
+        addDesired(PERIOD);
+        process(Entity.builder(ID, "T").number("Temperature", 8), 5);
         pass(20_000);
-        hear(
+        process(
                 Entity.builder(ID, "T")
                         .number("Temperature", 8)
                         .text("cmd", "Stop")
                         .text("cmd_status", "PENDING"),
                 6);
         pass(10_000);
-        hear(
+        process(
                 Entity.builder(ID, "T")
                         .number("Temperature", 8)
                         .text("cmd", "Stop")
@@ -148,7 +148,7 @@ class SilenceDetectorTest {
                 7);
         pass(1001);
         assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, true);
-        hear(
+        process(
                 Entity.builder(ID, "T")
                         .number("Temperature", 8)
                         .text("cmd", "Stop")
@@ -158,14 +158,14 @@ class SilenceDetectorTest {
     }
 
     @Test
-    void letsADeviceBeSilentThatSaidItIsOff() {
-        want(PERIOD);
-        hear(Entity.builder(ID, "T").bool("Status", true), 5);
-        hear(Entity.builder(ID, "T").bool("Status", false), 6);
+    void letsADeviceBeSilentThatReportedItIsOff() {
+        addDesired(PERIOD);
+        process(Entity.builder(ID, "T").bool("Status", true), 5);
+        process(Entity.builder(ID, "T").bool("Status", false), 6);
         pass(100_000);
         pass(1000);
         assertThat(signs).extracting(Heartbeat::off).containsExactly(false, true);
-        hear(Entity.builder(ID, "T").bool("Status", true), 7);
+        process(Entity.builder(ID, "T").bool("Status", true), 7);
         pass(30_000);
         pass(1000);
         assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, false, false, true);
@@ -174,48 +174,48 @@ class SilenceDetectorTest {
     /** The context broker notifies about these before the device has sent anything. */
     @Test
     void takesWhatIsAssignedToADeviceForNoReport() {
-        want(PERIOD);
-        hear(
+        addDesired(PERIOD);
+        process(
                 Entity.builder(ID, "T")
                         .text("Mission", "m")
                         .text("on_status", "PENDING")
                         .text("Temperature", " "),
                 5);
         assertThat(signs).isEmpty();
-        hear(Entity.builder(ID, "T").text("Mission", "m").number("Temperature", 8), 6);
-        hear(Entity.builder(ID, "T").text("on_status", "OK"), 7);
+        process(Entity.builder(ID, "T").text("Mission", "m").number("Temperature", 8), 6);
+        process(Entity.builder(ID, "T").text("on_status", "OK"), 7);
         assertThat(signs).hasSize(1);
     }
 
     @Test
     void emitsTheNextReportAfterItsMissionWasStartedAgain() {
-        want(PERIOD);
-        hear(Entity.builder(ID, "T"), 5);
-        want(PERIOD, 9);
+        addDesired(PERIOD);
+        process(Entity.builder(ID, "T"), 5);
+        addDesired(PERIOD, 9);
         pass(5_000);
-        hear(Entity.builder(ID, "T"), 10);
+        process(Entity.builder(ID, "T"), 10);
         assertThat(signs).hasSize(2);
     }
 
     @Test
-    void listensToNothingThatNobodyWants() {
-        assertThat(listener.listensTo(KEY)).isFalse();
-        want(PERIOD);
+    void listensToNothingThatIsNotDesired() {
+        assertThat(listener.isMonitored(KEY)).isFalse();
+        addDesired(PERIOD);
         pass(5000);
-        assertThat(listener.listensTo(KEY)).isTrue();
-        hear(Entity.builder(ID, "T"), 5);
+        assertThat(listener.isMonitored(KEY)).isTrue();
+        process(Entity.builder(ID, "T"), 5);
         desired.put(KEY, null);
         pass(100_000);
         pass(1000);
         assertThat(signs).hasSize(1);
-        assertThat(listener.listensTo(KEY)).isFalse();
+        assertThat(listener.isMonitored(KEY)).isFalse();
         desired.put(KEY, "[".getBytes(StandardCharsets.UTF_8));
         pass(5000);
-        assertThat(listener.listensTo(KEY)).isFalse();
+        assertThat(listener.isMonitored(KEY)).isFalse();
     }
 
     @Test
-    void readsBatteriesAsDevicesAndRobotsTellThem() throws Exception {
+    void readsBatteriesAsDevicesAndRobotsReportThem() throws Exception {
         assertThat(charge(Entity.builder(ID, "T").number("battery", 0.8))).isEqualTo(0.8);
         assertThat(charge(Entity.builder(ID, "T").number("battery", 80))).isEqualTo(0.8);
         assertThat(charge(Entity.builder(ID, "T").text("battery", "{%27percentage%27: 0.8}")))
@@ -231,9 +231,9 @@ class SilenceDetectorTest {
         return Battery.chargeOf(Entity.parse(entity.toBytes()));
     }
 
-    private void hear(EntityBuilder entity, long reported) {
-        assertThat(listener.listensTo(KEY)).isTrue();
-        listener.hear(KEY, entity.build(), reported, now);
+    private void process(EntityBuilder entity, long reported) {
+        assertThat(listener.isMonitored(KEY)).isTrue();
+        listener.process(KEY, entity.build(), reported, now);
     }
 
     private void pass(long millis) {
@@ -241,11 +241,11 @@ class SilenceDetectorTest {
         listener.passTime(now);
     }
 
-    private void want(Duration period) {
-        want(period, 0);
+    private void addDesired(Duration period) {
+        addDesired(period, 0);
     }
 
-    private void want(Duration period, long from) {
+    private void addDesired(Duration period, long from) {
         DeviceVersion version = new DeviceVersion(ID, "", "/", "d", "m", from, null, 1, null);
         DesiredDevice device = DesiredDevice.simulated(
                 version, "T", ID, true, period, NgsiJson.mapper().createObjectNode());

@@ -18,10 +18,10 @@ import org.junit.jupiter.api.TestReporter;
 
 import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.AlarmCommandHandler;
-import io.furrow.control.alarm.AlarmHandlers;
+import io.furrow.control.alarm.AlarmHandlerFixture;
 import io.furrow.control.alarm.AlarmState;
-import io.furrow.control.manager.KeptOutbox;
-import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.CapturingPublisher;
+import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
@@ -57,26 +57,26 @@ class SilencePropertyTest {
     }
 
     private static final class Walk {
-        private final MapRecords<byte[]> desired = new MapRecords<>(Function.identity(), Function.identity());
-        private final MapRecords<DeviceHealth> health = MapRecords.of(DeviceHealth.class);
-        private final KeptOutbox outbox = new KeptOutbox();
-        private final AlarmCommandHandler alarms = AlarmHandlers.writingTo(outbox);
+        private final MapTable<byte[]> desired = new MapTable<>(Function.identity(), Function.identity());
+        private final MapTable<DeviceHealth> health = MapTable.of(DeviceHealth.class);
+        private final CapturingPublisher publisher = new CapturingPublisher();
+        private final AlarmCommandHandler alarms = AlarmHandlerFixture.writingTo(publisher);
         private final Set<String> talking = new HashSet<>();
         private final Map<AlarmKind, Integer> raised = new TreeMap<>();
         private final Random random;
-        private final String said;
+        private final String label;
         private DeviceHealthTracker tracker = tracker();
         private long now = 1_700_000_000_000L;
         private int refused;
 
-        Walk(Random random, String said) {
+        Walk(Random random, String label) {
             this.random = random;
-            this.said = said;
+            this.label = label;
         }
 
         void run() {
             for (int i = 0; i < 30; i++) {
-                want(i, "m" + i % 3);
+                addDesired(i, "m" + i % 3);
                 talking.add(key(i));
             }
             for (int i = 0; i < STEPS; i++) {
@@ -94,20 +94,20 @@ class SilencePropertyTest {
                 case 4 ->
                     desired.all().forEach(each -> talking.add(version(each).key()));
                 case 5 -> talking.clear();
-                case 6 -> ask();
+                case 6 -> request();
                 case 7 -> {
                     int device = random.nextInt(30);
                     if (random.nextBoolean()) {
                         desired.put(key(device), null);
                     } else {
-                        want(device, "m" + random.nextInt(3));
+                        addDesired(device, "m" + random.nextInt(3));
                     }
                 }
                 default -> tracker = tracker();
             }
         }
 
-        private void ask() {
+        private void request() {
             List<Alarm> open = open();
             try {
                 if (open.isEmpty() || random.nextBoolean()) {
@@ -147,7 +147,7 @@ class SilencePropertyTest {
             List<Alarm> open = open();
             open.forEach(alarm -> raised.merge(alarm.kind(), 1, Integer::sum));
             assertThat(open)
-                    .as(said)
+                    .as(label)
                     .extracting(alarm -> alarm.kind() + alarm.subject())
                     .doesNotHaveDuplicates();
             Map<String, Long> silent = health.all().stream()
@@ -158,15 +158,15 @@ class SilencePropertyTest {
                     .filter(alarm -> alarm.kind() == AlarmKind.SILENT_DEVICE)
                     .collect(Collectors.toMap(Alarm::subject, alarm -> (long) alarm.affected()));
             assertThat(counted)
-                    .as(said + "every cause has an alarm, none is without")
+                    .as(label + "every cause has an alarm, none is without")
                     .isEqualTo(silent);
             Set<String> ids = open.stream().map(Alarm::alarm).collect(Collectors.toSet());
             for (Alarm alarm : open) {
                 if (alarm.inhibitedBy() != null) {
-                    assertThat(ids).as(said).contains(alarm.inhibitedBy());
+                    assertThat(ids).as(label).contains(alarm.inhibitedBy());
                 }
                 if (alarm.kind() != AlarmKind.SILENT_DEVICE) {
-                    assertThat(alarm.affected() * 4).as(said + alarm).isGreaterThanOrEqualTo(alarm.total());
+                    assertThat(alarm.affected() * 4).as(label + alarm).isGreaterThanOrEqualTo(alarm.total());
                 }
             }
             boolean nothing = talking.isEmpty()
@@ -175,17 +175,17 @@ class SilencePropertyTest {
                             >= health.all().size();
             if (nothing) {
                 assertThat(open)
-                        .as(said)
+                        .as(label)
                         .filteredOn(alarm -> alarm.inhibitedBy() == null)
                         .extracting(Alarm::kind)
                         .containsExactly(AlarmKind.SILENT_FARM);
             } else if (!talking.isEmpty()) {
-                assertThat(open).as(said).extracting(Alarm::kind).doesNotContain(AlarmKind.SILENT_FARM);
+                assertThat(open).as(label).extracting(Alarm::kind).doesNotContain(AlarmKind.SILENT_FARM);
             }
         }
 
         private List<Alarm> open() {
-            return outbox.compacted(Topics.ALARMS).values().stream()
+            return publisher.compacted(Topics.ALARMS).values().stream()
                     .map(json -> StateJson.read(json, Alarm.class))
                     .filter(alarm -> alarm.state() != AlarmState.CLOSED)
                     .toList();
@@ -194,10 +194,10 @@ class SilencePropertyTest {
         private DeviceHealthTracker tracker() {
             return new DeviceHealthTracker(
                     health,
-                    new DesiredDevices(desired),
+                    new MonitoredDevices(desired),
                     HealthOptions.DEFAULT,
-                    new Silence(HealthOptions.DEFAULT, alarms, key -> Optional.empty()),
-                    outbox);
+                    new SilenceAlarmReconciler(HealthOptions.DEFAULT, alarms, key -> Optional.empty()),
+                    publisher);
         }
 
         private static String key(int number) {
@@ -216,7 +216,7 @@ class SilencePropertyTest {
             }
         }
 
-        private void want(int number, String mission) {
+        private void addDesired(int number, String mission) {
             DeviceVersion version = new DeviceVersion("urn:" + number, "", "/", "d", mission, now, null, 1, null);
             desired.put(
                     key(number),

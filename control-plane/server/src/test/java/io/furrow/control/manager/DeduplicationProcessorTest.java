@@ -22,7 +22,7 @@ class DeduplicationProcessorTest {
     @BeforeEach
     void open() {
         KeyValueStore<String, byte[]> store =
-                StoredRecords.builder(STORE).withLoggingDisabled().build();
+                StoreTable.builder(STORE).withLoggingDisabled().build();
         store.init(context.getStateStoreContext(), store);
         context.addStateStore(store);
         takeOnce.init(context);

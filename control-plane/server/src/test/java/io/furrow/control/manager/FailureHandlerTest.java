@@ -57,11 +57,11 @@ class FailureHandlerTest {
         pipe(Topics.RAW, "{'fault':1}");
         pipe(Topics.RAW, "{'fine':1}");
 
-        TestRecord<String, byte[]> letter = read(Topics.dead(Topics.RAW)).get(0);
-        assertThat(text(letter)).isEqualTo("{'fault':1}");
-        assertThat(header(letter, DeadLetter.REASON)).isEqualTo("failed");
-        assertThat(header(letter, DeadLetter.MESSAGE)).contains("nobody expected this");
-        assertThat(header(letter, DeadLetter.SOURCE)).isEqualTo("data.raw-0@0");
+        TestRecord<String, byte[]> deadLetter = read(Topics.dead(Topics.RAW)).get(0);
+        assertThat(text(deadLetter)).isEqualTo("{'fault':1}");
+        assertThat(header(deadLetter, DeadLetter.REASON)).isEqualTo("failed");
+        assertThat(header(deadLetter, DeadLetter.MESSAGE)).contains("nobody expected this");
+        assertThat(header(deadLetter, DeadLetter.SOURCE)).isEqualTo("data.raw-0@0");
         assertThat(read("out")).hasSize(1);
     }
 

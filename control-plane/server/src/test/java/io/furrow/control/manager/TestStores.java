@@ -13,13 +13,13 @@ import org.apache.kafka.streams.state.KeyValueStore;
 public final class TestStores {
     private final Map<String, KeyValueStore<String, byte[]>> stores = new LinkedHashMap<>();
     private final MockProcessorContext<String, OutputRecord> context = new MockProcessorContext<>();
-    private final AtomicContext atomic = new AtomicContext(context);
-    private final KeptOutbox outbox = new KeptOutbox();
+    private final UnitOfWork unitOfWork = new UnitOfWork(context);
+    private final CapturingPublisher publisher = new CapturingPublisher();
 
     public TestStores(List<String> names) {
         for (String name : names) {
             KeyValueStore<String, byte[]> store =
-                    StoredRecords.builder(name).withLoggingDisabled().build();
+                    StoreTable.builder(name).withLoggingDisabled().build();
             store.init(context.getStateStoreContext(), store);
             context.addStateStore(store);
             stores.put(name, store);
@@ -27,21 +27,21 @@ public final class TestStores {
     }
 
     /** For handlers. */
-    public AtomicContext context() {
-        return atomic;
+    public UnitOfWork context() {
+        return unitOfWork;
     }
 
     /** What was written to topics. */
-    public KeptOutbox outbox() {
-        return outbox;
+    public CapturingPublisher publisher() {
+        return publisher;
     }
 
     /** Works at a time, epoch ms, as a manager does. */
-    public <T, E extends Exception> T call(long now, AtomicContext.Work<T, E> work) throws E {
+    public <T, E extends Exception> T call(long now, UnitOfWork.Work<T, E> work) throws E {
         context.setCurrentSystemTimeMs(now);
-        T result = atomic.call(work);
+        T result = unitOfWork.call(work);
         context.forwarded()
-                .forEach(each -> outbox.put(
+                .forEach(each -> publisher.put(
                         each.record().value().topic(),
                         each.record().key(),
                         each.record().value().value()));
@@ -50,7 +50,7 @@ public final class TestStores {
     }
 
     /** What a store holds. */
-    public <T> List<T> all(Records<T> records) {
+    public <T> List<T> all(Table<T> records) {
         List<T> all = new ArrayList<>();
         records.forEach(all::add);
         return all;

@@ -20,7 +20,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class CredentialsTest {
     private static final String DEVICE = "urn:ngsi-ld:Thermometer:m-1";
 
-    private final Farm farm = new Farm();
+    private final FarmFixture farm = new FarmFixture();
 
     @BeforeEach
     void startAMission() throws Exception {
@@ -30,7 +30,7 @@ class CredentialsTest {
     }
 
     @Test
-    void asksForTheDeviceWithItsNextGenerationAndLeavesTheOthers() throws Exception {
+    void requestsTheDeviceWithItsNextGenerationAndLeavesTheOthers() throws Exception {
         DesiredDevice before = farm.device(DEVICE);
         DesiredDevice other = farm.device("urn:ngsi-ld:Thermometer:m-2");
 
@@ -38,12 +38,13 @@ class CredentialsTest {
                 .isEqualTo("{\"type\":\"response\",\"status\":\"rotated\",\"device\":\"%s\",\"generation\":1}"
                         .formatted(DEVICE));
 
-        DesiredDevice asked =
-                DesiredDevice.read(farm.outbox.compacted(Topics.DEVICES).get("farm|/|" + DEVICE));
-        assertThat(asked.generation()).isEqualTo(1);
-        assertThat(asked.version().sequence()).isGreaterThan(before.version().sequence());
-        assertThat(asked.version().from()).isEqualTo(before.version().from());
-        assertThat(asked.settings()).isEqualTo(before.settings());
+        DesiredDevice requested =
+                DesiredDevice.read(farm.publisher.compacted(Topics.DEVICES).get("farm|/|" + DEVICE));
+        assertThat(requested.generation()).isEqualTo(1);
+        assertThat(requested.version().sequence())
+                .isGreaterThan(before.version().sequence());
+        assertThat(requested.version().from()).isEqualTo(before.version().from());
+        assertThat(requested.settings()).isEqualTo(before.settings());
         assertThat(farm.device("urn:ngsi-ld:Thermometer:m-2")).isEqualTo(other);
         assertThat(rotate(DEVICE)).contains("\"generation\":2");
     }
@@ -70,8 +71,8 @@ class CredentialsTest {
         assertThat(farm.device(DEVICE).generation()).isEqualTo(1);
 
         stop();
-        farm.ask(new MissionCommand.Delete("m"));
-        assertThat(farm.outbox.compacted(Topics.DEVICES)).isEmpty();
+        farm.request(new MissionCommand.Delete("m"));
+        assertThat(farm.publisher.compacted(Topics.DEVICES)).isEmpty();
         refused(DEVICE, ErrorCode.UNKNOWN_DEVICE);
 
         start();
@@ -92,7 +93,7 @@ class CredentialsTest {
     }
 
     @Test
-    void refusesADeviceThatIsNotThereOrReportsByItself() throws Exception {
+    void rejectsADeviceThatIsNotThereOrReportsByItself() throws Exception {
         farm.start("other", "north", DeviceGroup.entity("urn:robot"));
 
         refused("urn:nosuch", ErrorCode.UNKNOWN_DEVICE);
@@ -100,16 +101,16 @@ class CredentialsTest {
     }
 
     private void start() throws RefusedException {
-        farm.start("m", "north", Farm.group("Thermometer", 2));
+        farm.start("m", "north", FarmFixture.group("Thermometer", 2));
     }
 
     private void stop() throws RefusedException {
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
         farm.hostAll();
     }
 
     private String rotate(String device) throws RefusedException {
-        return farm.ask(new MissionCommand.RotateCredentials(device)).json().toString();
+        return farm.request(new MissionCommand.RotateCredentials(device)).json().toString();
     }
 
     private void refused(String device, ErrorCode code) {

@@ -23,7 +23,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class MissionDevicesTest {
-    private final Farm farm = new Farm();
+    private final FarmFixture farm = new FarmFixture();
 
     @BeforeEach
     void makeADomain() throws Exception {
@@ -31,7 +31,7 @@ class MissionDevicesTest {
     }
 
     @Test
-    void saysWhatIsCarriedByWhat() throws Exception {
+    void reportsWhatIsCarriedByWhat() throws Exception {
         DeviceGroup robots = new DeviceGroup("robots", null, "Robot", 2, null, null, true, instance.objectNode());
         DeviceGroup cameras = new DeviceGroup(null, null, "Camera", 3, "robots", null, true, instance.objectNode());
         farm.start("m", "north", cameras, robots);
@@ -43,7 +43,7 @@ class MissionDevicesTest {
     }
 
     @Test
-    void saysThatADeviceWithAGivenPlaceIsStationary() throws Exception {
+    void reportsThatADeviceWithAGivenPlaceIsStationary() throws Exception {
         ObjectNode placed = instance.objectNode();
         placed.putObject("at").put("latitude", 40.3).put("longitude", -3.5);
         farm.start(
@@ -65,39 +65,39 @@ class MissionDevicesTest {
         farm.start(
                 "m", "north", new DeviceGroup(null, null, "Thermometer", 3, null, Duration.ofSeconds(1), true, area));
 
-        assertThat(farm.outbox.compacted(Topics.MISSION_DEVICES)).containsOnlyKeys("m.0");
-        for (byte[] device : farm.outbox.compacted(Topics.DEVICES).values()) {
+        assertThat(farm.publisher.compacted(Topics.MISSION_DEVICES)).containsOnlyKeys("m.0");
+        for (byte[] device : farm.publisher.compacted(Topics.DEVICES).values()) {
             assertThat(new String(device)).doesNotContain("field-1").contains("\"period\":\"PT1S\"");
         }
         assertThat(farm.settings("urn:ngsi-ld:Thermometer:m-3")).isEqualTo(area);
 
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
         farm.hostAll();
-        farm.ask(new MissionCommand.Delete("m"));
-        assertThat(farm.outbox.compacted(Topics.MISSION_DEVICES)).isEmpty();
+        farm.request(new MissionCommand.Delete("m"));
+        assertThat(farm.publisher.compacted(Topics.MISSION_DEVICES)).isEmpty();
     }
 
     @Test
     void writesManyDevicesInSeveralTransactions() throws Exception {
-        Farm many = new Farm(10);
+        FarmFixture many = new FarmFixture(10);
         many.domain("north");
-        many.start("m", "north", Farm.group("Camera", 25));
+        many.start("m", "north", FarmFixture.group("Camera", 25));
 
-        assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(10);
+        assertThat(many.publisher.compacted(Topics.DEVICES)).hasSize(10);
         assertThat(many.status("m").devices()).isEqualTo(25);
-        many.pass(Farm.TIMEOUT);
+        many.pass(FarmFixture.TIMEOUT);
         assertThat(many.status("m").state()).isEqualTo(MissionState.STARTING);
         many.step();
-        assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(20);
+        assertThat(many.publisher.compacted(Topics.DEVICES)).hasSize(20);
         many.step();
-        assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(25);
+        assertThat(many.publisher.compacted(Topics.DEVICES)).hasSize(25);
         assertThat(many.step()).isFalse();
-        many.pass(Farm.TIMEOUT - 1);
+        many.pass(FarmFixture.TIMEOUT - 1);
         assertThat(many.status("m").state()).isEqualTo(MissionState.STARTING);
         many.hostAll();
         assertThat(many.status("m").state()).isEqualTo(MissionState.RUNNING);
 
-        many.ask(new MissionCommand.Stop("m"));
+        many.request(new MissionCommand.Stop("m"));
         many.hostAll();
         assertThat(many.status("m").state()).isEqualTo(MissionState.STOPPING);
         many.step();
@@ -107,23 +107,23 @@ class MissionDevicesTest {
     }
 
     @Test
-    void stopsAMissionOfWhichSomeDevicesWereNeverAskedFor() throws Exception {
-        Farm many = new Farm(10);
+    void stopsAMissionOfWhichSomeDevicesWereNeverRequested() throws Exception {
+        FarmFixture many = new FarmFixture(10);
         many.domain("north");
-        many.start("m", "north", Farm.group("Camera", 25));
-        many.ask(new MissionCommand.Stop("m"));
+        many.start("m", "north", FarmFixture.group("Camera", 25));
+        many.request(new MissionCommand.Stop("m"));
         while (many.step()) {
             many.hostAll();
         }
         assertThat(many.status("m").state()).isEqualTo(MissionState.STOPPED);
-        assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(10);
+        assertThat(many.publisher.compacted(Topics.DEVICES)).hasSize(10);
     }
 
     @Test
-    void givesNoDeviceAwayThatAMissionIsAboutToAskFor() throws Exception {
-        Farm many = new Farm(1);
+    void givesNoDeviceAwayThatAMissionIsAboutToRequest() throws Exception {
+        FarmFixture many = new FarmFixture(1);
         many.domain("north");
-        many.start("m", "north", Farm.group("Camera", 2), DeviceGroup.entity("urn:robot"));
+        many.start("m", "north", FarmFixture.group("Camera", 2), DeviceGroup.entity("urn:robot"));
         assertThatThrownBy(() -> many.start("other", "north", DeviceGroup.entity("urn:robot")))
                 .isInstanceOfSatisfying(
                         RefusedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.DEVICE_TAKEN));
@@ -131,22 +131,23 @@ class MissionDevicesTest {
 
     @Test
     void takesALongListInSeveralRequests() throws Exception {
-        farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid()));
-        farm.ask(add("robots", "Robot", 2));
-        farm.ask(new MissionCommand.AddDevices(
+        farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid()));
+        farm.request(add("robots", "Robot", 2));
+        farm.request(new MissionCommand.AddDevices(
                 "m",
                 new MissionDevices(List.of(
                         new DeviceGroup(null, null, "Camera", 2, "robots", null, true, instance.objectNode())))));
-        farm.refused(ErrorCode.WRONG_MEMBER, () -> farm.ask(add("robots", "Robot", 1)));
-        farm.refused(ErrorCode.WRONG_MEMBER, () -> farm.ask(add("more", "Robot", DeviceGroup.MAX)));
+        farm.refused(ErrorCode.WRONG_MEMBER, () -> farm.request(add("robots", "Robot", 1)));
+        farm.refused(ErrorCode.WRONG_MEMBER, () -> farm.request(add("more", "Robot", DeviceGroup.MAX)));
         farm.refused(
-                ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.AddDevices("other", MissionDevices.NONE)));
+                ErrorCode.UNKNOWN_MISSION,
+                () -> farm.request(new MissionCommand.AddDevices("other", MissionDevices.NONE)));
 
         assertThat(farm.missions.get("m").deviceCount()).isEqualTo(4);
-        assertThat(farm.outbox.compacted(Topics.MISSION_DEVICES)).containsOnlyKeys("m.0", "m.1");
-        farm.ask(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
+        assertThat(farm.publisher.compacted(Topics.MISSION_DEVICES)).containsOnlyKeys("m.0", "m.1");
+        farm.request(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
         assertThat(farm.device("urn:ngsi-ld:Camera:m-2").version().carriedBy()).isEqualTo("urn:ngsi-ld:Robot:m-2");
-        farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.ask(add("late", "Robot", 1)));
+        farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.request(add("late", "Robot", 1)));
     }
 
     private static MissionCommand add(String name, String type, int count) {
@@ -162,18 +163,18 @@ class MissionDevicesTest {
         large.putObject("parameters").put("note", "x".repeat(500_000));
         MissionCommand more = new MissionCommand.AddDevices(
                 "m", new MissionDevices(List.of(new DeviceGroup(null, null, "Camera", 1, null, null, true, large))));
-        farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid()));
+        farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid()));
         for (int bytes = 0; bytes + 500_100 < Limits.MISSION_BYTES; bytes += 500_100) {
-            farm.ask(more);
+            farm.request(more);
         }
-        farm.refused(ErrorCode.TOO_LARGE, () -> farm.ask(more));
+        farm.refused(ErrorCode.TOO_LARGE, () -> farm.request(more));
 
         ObjectNode area = instance.objectNode().put("type", "Polygon").put("note", "x".repeat(800_000));
         area.putArray("coordinates");
         int domains = 0;
         while (domains < 100) {
             try {
-                farm.ask(new DomainCommand.Create("d" + domains, new DomainDetails(null, null, area, null)));
+                farm.request(new DomainCommand.Create("d" + domains, new DomainDetails(null, null, area, null)));
                 domains++;
             } catch (RefusedException e) {
                 assertThat(e.code()).isEqualTo(ErrorCode.QUOTA_EXCEEDED);
@@ -181,16 +182,17 @@ class MissionDevicesTest {
             }
         }
         assertThat(domains).isBetween(30, 40);
-        farm.refused(ErrorCode.QUOTA_EXCEEDED, () -> farm.start("big", "north", Farm.group("Camera", 10_000)));
-        farm.ask(new DomainCommand.Delete("d0", false));
-        farm.ask(new DomainCommand.Create("d0", new DomainDetails(null, null, area, null)));
+        farm.refused(ErrorCode.QUOTA_EXCEEDED, () -> farm.start("big", "north", FarmFixture.group("Camera", 10_000)));
+        farm.request(new DomainCommand.Delete("d0", false));
+        farm.request(new DomainCommand.Create("d0", new DomainDetails(null, null, area, null)));
         for (int i = 0; i < 20; i++) {
-            farm.ask(new DomainCommand.Delete("d" + i, false));
+            farm.request(new DomainCommand.Delete("d" + i, false));
         }
-        farm.start("big", "north", Farm.group("Camera", 10_000));
+        farm.start("big", "north", FarmFixture.group("Camera", 10_000));
 
         area.put("more", "x".repeat(Limits.RECORD_BYTES));
-        assertThatThrownBy(() -> farm.ask(new DomainCommand.Change("d20", new DomainDetails(null, null, area, null))))
+        assertThatThrownBy(
+                        () -> farm.request(new DomainCommand.Change("d20", new DomainDetails(null, null, area, null))))
                 .hasMessageContaining("d20")
                 .hasMessageContaining("900000");
     }

@@ -25,7 +25,7 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MissionLifeTest {
-    private final Farm farm = new Farm();
+    private final FarmFixture farm = new FarmFixture();
 
     @BeforeEach
     void makeADomain() throws Exception {
@@ -34,7 +34,9 @@ class MissionLifeTest {
 
     @Test
     void goesFromStartingToStoppedAsItsDevicesComeUpAndGo() throws Exception {
-        assertThat(farm.start("m", "north", Farm.group("Thermometer", 2)).json().toString())
+        assertThat(farm.start("m", "north", FarmFixture.group("Thermometer", 2))
+                        .json()
+                        .toString())
                 .isEqualTo("{\"type\":\"response\",\"status\":\"created\",\"mission\":\"m\",\"domain\":\"north\","
                         + "\"domain_topic\":\"data.north.realtime\",\"mission_topic\":\"data.north.realtime.m\"}");
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
@@ -45,7 +47,7 @@ class MissionLifeTest {
         farm.report(farm.device("urn:ngsi-ld:Thermometer:m-2"), State.RUNNING);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
 
-        assertThat(farm.ask(new MissionCommand.Stop("m")).json().toString())
+        assertThat(farm.request(new MissionCommand.Stop("m")).json().toString())
                 .isEqualTo("{\"type\":\"response\",\"status\":\"deleted\",\"mission\":\"m\"}");
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPING);
         farm.hostAll();
@@ -55,37 +57,37 @@ class MissionLifeTest {
     /** As the WeLASER dashboard asks: devices that are there report with the mission's name. */
     @Test
     void runsAtOnceWithoutDevicesOfItsOwn() throws Exception {
-        farm.ask(new MissionCommand.Start("m", "north", new MissionPlan.Unsaid(), null, null));
+        farm.request(new MissionCommand.Start("m", "north", new MissionPlan.Unsaid(), null, null));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
     }
 
     @Test
-    void tellsJobsToWhomADeviceBelongsFromItsStartToItsEnd() throws Exception {
+    void informsJobsToWhomADeviceBelongsFromItsStartToItsEnd() throws Exception {
         long begin = farm.now;
         farm.start("m", "north", DeviceGroup.entity("urn:robot"));
         farm.pass(500);
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
 
         DeviceVersion version =
-                DeviceVersion.read(farm.outbox.compacted(Topics.DEVICES).get("farm|/|urn:robot"));
+                DeviceVersion.read(farm.publisher.compacted(Topics.DEVICES).get("farm|/|urn:robot"));
         assertThat(version)
                 .extracting(DeviceVersion::domain, DeviceVersion::mission, DeviceVersion::from, DeviceVersion::until)
                 .containsExactly("north", "m", begin, begin + 500);
-        assertThat(farm.outbox.all().stream().filter(each -> each.topic().equals(Topics.DEVICES)))
+        assertThat(farm.publisher.all().stream().filter(each -> each.topic().equals(Topics.DEVICES)))
                 .hasSize(2);
 
-        farm.ask(new MissionCommand.Delete("m"));
-        assertThat(farm.outbox.compacted(Topics.DEVICES)).isEmpty();
+        farm.request(new MissionCommand.Delete("m"));
+        assertThat(farm.publisher.compacted(Topics.DEVICES)).isEmpty();
     }
 
     @Test
     void namesDevicesThatDidNotComeUpInTime() throws Exception {
-        farm.start("m", "north", Farm.group("Camera", 3));
+        farm.start("m", "north", FarmFixture.group("Camera", 3));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-1"), State.RUNNING);
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
-        farm.pass(Farm.TIMEOUT - 1);
+        farm.pass(FarmFixture.TIMEOUT - 1);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
         farm.pass(1);
 
@@ -106,9 +108,9 @@ class MissionLifeTest {
 
     @Test
     void waitsForItsFirstDeviceAndTakesNothingFromAny() throws Exception {
-        farm.start("m", "north", Farm.real("Thermometer", 2), Farm.group("Camera", 2));
+        farm.start("m", "north", FarmFixture.real("Thermometer", 2), FarmFixture.group("Camera", 2));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
-        farm.pass(Farm.TIMEOUT);
+        farm.pass(FarmFixture.TIMEOUT);
         farm.pass(Duration.ofHours(3).toMillis());
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
@@ -122,7 +124,7 @@ class MissionLifeTest {
         farm.report(farm.device("urn:ngsi-ld:Thermometer:m-1"), State.FAILED);
         assertThat(farm.status("m").missing())
                 .contains(new MissionStatus.Missing("urn:ngsi-ld:Thermometer:m-1", "why"));
-        farm.hear(farm.device("urn:ngsi-ld:Thermometer:m-1"), farm.now);
+        farm.report(farm.device("urn:ngsi-ld:Thermometer:m-1"), farm.now);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
         assertThat(farm.status("m").missing()).hasSize(3);
         farm.hostAll();
@@ -131,25 +133,25 @@ class MissionLifeTest {
     }
 
     @Test
-    void saysTheBestReasonThatIsKnownOfADeviceThatItMisses() throws Exception {
-        farm.start("m", "north", Farm.real("Thermometer", 1));
+    void reportsTheBestReasonThatIsKnownOfADeviceThatItMisses() throws Exception {
+        farm.start("m", "north", FarmFixture.real("Thermometer", 1));
         DesiredDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
         farm.connect(thermometer, null);
-        farm.pass(Farm.TIMEOUT);
+        farm.pass(FarmFixture.TIMEOUT);
         assertThat(reason()).startsWith("it has not connected to the MQTT broker since ");
 
         farm.connect(thermometer, refused(1));
         assertThat(reason()).startsWith("its password was refused once, at ");
         assertThat(farm.status("m").reason()).contains("urn:ngsi-ld:Thermometer:m-1 (" + reason() + ")");
-        int written = farm.outbox.all().size();
+        int written = farm.publisher.all().size();
         farm.now += 59_000;
         farm.connect(thermometer, refused(7));
-        assertThat(farm.outbox.all()).as("it counts on").hasSize(written);
+        assertThat(farm.publisher.all()).as("it counts on").hasSize(written);
         farm.now += 1000;
         farm.connect(thermometer, refused(8));
         assertThat(reason()).startsWith("its password was refused 8 times, last at ");
 
-        farm.hear(thermometer, farm.now);
+        farm.report(thermometer, farm.now);
         assertThat(farm.status("m").missing()).isEmpty();
     }
 
@@ -162,32 +164,32 @@ class MissionLifeTest {
     }
 
     @Test
-    void countsARealDeviceAsUpByItsFirstReportSinceItWasAskedFor() throws Exception {
-        farm.start("m", "north", Farm.real("Thermometer", 1), DeviceGroup.entity("urn:robot"));
+    void countsARealDeviceAsUpByItsFirstReportSinceItWasRequested() throws Exception {
+        farm.start("m", "north", FarmFixture.real("Thermometer", 1), DeviceGroup.entity("urn:robot"));
         DesiredDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
-        farm.hear(thermometer, farm.now - 1);
+        farm.report(thermometer, farm.now - 1);
         farm.report(thermometer, State.RUNNING);
         farm.report(thermometer, State.STOPPED);
         assertThat(farm.status("m").confirmed()).isZero();
 
-        farm.hear(thermometer, farm.now);
-        farm.hear(thermometer, farm.now);
+        farm.report(thermometer, farm.now);
+        farm.report(thermometer, farm.now);
         assertThat(farm.status("m").confirmed()).isEqualTo(1);
         farm.report(thermometer, State.FAILED);
         assertThat(farm.status("m").confirmed()).isEqualTo(1);
-        farm.hear(farm.device("urn:robot"), farm.now);
+        farm.report(farm.device("urn:robot"), farm.now);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
 
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
         assertThat(farm.device("urn:ngsi-ld:Thermometer:m-1").running()).isFalse();
     }
 
     @Test
     void stopsWithoutDevicesThatDoNotGo() throws Exception {
-        farm.start("m", "north", Farm.group("Camera", 1));
-        farm.ask(new MissionCommand.Stop("m"));
-        farm.pass(Farm.TIMEOUT);
+        farm.start("m", "north", FarmFixture.group("Camera", 1));
+        farm.request(new MissionCommand.Stop("m"));
+        farm.pass(FarmFixture.TIMEOUT);
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
         assertThat(farm.status("m").missing())
@@ -196,10 +198,10 @@ class MissionLifeTest {
 
     @Test
     void passesOverReportsOfAnEarlierSequence() throws Exception {
-        farm.start("m", "north", Farm.group("Camera", 1));
+        farm.start("m", "north", FarmFixture.group("Camera", 1));
         DesiredDevice earlier = farm.device("urn:ngsi-ld:Camera:m-1");
         farm.hostAll();
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Stop("m"));
 
         farm.report(earlier, State.STOPPED);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPING);
@@ -208,8 +210,8 @@ class MissionLifeTest {
     @Test
     void startsAtItsDateAndStopsAfterItsDuration() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
-        farm.ask(new MissionCommand.Start(
-                "m", "north", Farm.devices(Farm.group("Camera", 1)), date, Duration.ofSeconds(5)));
+        farm.request(new MissionCommand.Start(
+                "m", "north", FarmFixture.devices(FarmFixture.group("Camera", 1)), date, Duration.ofSeconds(5)));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.CREATED);
         farm.pass(9_999);
         assertThat(farm.all(farm.devices)).isEmpty();
@@ -225,8 +227,9 @@ class MissionLifeTest {
     @Test
     void doesNotStartWhereTheStartWasTakenBack() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
-        farm.ask(new MissionCommand.Start("m", "north", Farm.devices(Farm.group("Camera", 1)), date, null));
-        farm.ask(new MissionCommand.Stop("m"));
+        farm.request(new MissionCommand.Start(
+                "m", "north", FarmFixture.devices(FarmFixture.group("Camera", 1)), date, null));
+        farm.request(new MissionCommand.Stop("m"));
         farm.pass(20_000);
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
@@ -236,7 +239,7 @@ class MissionLifeTest {
     @Test
     void failsAtItsDateWhereItsDomainIsGone() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
-        farm.ask(new MissionCommand.Start("m", "north", Farm.devices(), date, null));
+        farm.request(new MissionCommand.Start("m", "north", FarmFixture.devices(), date, null));
         farm.run(() -> farm.domains.put("north", null)); // as before domains were deleted with their missions
         farm.pass(10_000);
 
@@ -245,56 +248,59 @@ class MissionLifeTest {
     }
 
     @Test
-    void refusesWhatCannotBe() throws Exception {
+    void rejectsWhatCannotBe() throws Exception {
         farm.domain("south");
-        farm.start("m", "north", Farm.group("Camera", 1), DeviceGroup.entity("urn:robot"));
+        farm.start("m", "north", FarmFixture.group("Camera", 1), DeviceGroup.entity("urn:robot"));
 
         farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.start("m", "north"));
-        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.Stop("other")));
-        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.Delete("other")));
-        farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.ask(new MissionCommand.Delete("m")));
+        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.request(new MissionCommand.Stop("other")));
+        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.request(new MissionCommand.Delete("other")));
+        farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.request(new MissionCommand.Delete("m")));
         farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.start("other", "east"));
         farm.refused(ErrorCode.DEVICE_TAKEN, () -> farm.start("other", "south", DeviceGroup.entity("urn:robot")));
         farm.refused(
                 ErrorCode.DEVICE_TAKEN,
                 () -> farm.start(
-                        "other", "south", Farm.group("Camera", 1), DeviceGroup.entity("urn:ngsi-ld:Camera:other-1")));
+                        "other",
+                        "south",
+                        FarmFixture.group("Camera", 1),
+                        DeviceGroup.entity("urn:ngsi-ld:Camera:other-1")));
         farm.refused(
                 ErrorCode.UNKNOWN_TEMPLATE,
-                () -> farm.ask(new MissionCommand.Start(
+                () -> farm.request(new MissionCommand.Start(
                         "other", "north", new MissionPlan.FromTemplate("nosuch", 0), null, null)));
         farm.refused(
                 ErrorCode.MISSION_EXISTS,
-                () -> farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid())));
+                () -> farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid())));
 
-        farm.ask(new MissionCommand.Stop("m"));
-        farm.refused(ErrorCode.MISSION_NOT_RUNNING, () -> farm.ask(new MissionCommand.Stop("m")));
+        farm.request(new MissionCommand.Stop("m"));
+        farm.refused(ErrorCode.MISSION_NOT_RUNNING, () -> farm.request(new MissionCommand.Stop("m")));
         farm.hostAll();
         farm.refused(ErrorCode.NAME_TAKEN, () -> farm.start("m", "south"));
         farm.start("other", "south", DeviceGroup.entity("urn:robot"));
     }
 
     @Test
-    void keepsADomainInWhichMissionsRunUnlessForced() throws Exception {
-        farm.start("m", "north", Farm.group("Camera", 1));
-        farm.refused(ErrorCode.MISSIONS_RUNNING, () -> farm.ask(new DomainCommand.Delete("north", false)));
+    void refusesToDeleteADomainInWhichMissionsRunUnlessForced() throws Exception {
+        farm.start("m", "north", FarmFixture.group("Camera", 1));
+        farm.refused(ErrorCode.MISSIONS_RUNNING, () -> farm.request(new DomainCommand.Delete("north", false)));
 
-        farm.ask(new DomainCommand.Delete("north", true));
-        assertThat(farm.outbox.compacted(Topics.DOMAINS)).isEmpty();
-        farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.ask(new DomainCommand.Delete("north", true)));
+        farm.request(new DomainCommand.Delete("north", true));
+        assertThat(farm.publisher.compacted(Topics.DOMAINS)).isEmpty();
+        farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.request(new DomainCommand.Delete("north", true)));
     }
 
     @Test
     void deletesADomainWithItsMissionsAndEndsItsFields() throws Exception {
         farm.domain("south");
-        farm.start("runs", "north", Farm.group("Camera", 1));
-        farm.ask(new MissionCommand.Create("idle", "north", new MissionPlan.Unsaid()));
-        farm.start("theirs", "south", Farm.group("Camera", 1));
+        farm.start("runs", "north", FarmFixture.group("Camera", 1));
+        farm.request(new MissionCommand.Create("idle", "north", new MissionPlan.Unsaid()));
+        farm.start("theirs", "south", FarmFixture.group("Camera", 1));
         farm.field("a", 1, "north");
         farm.field("b", 1, "south");
         farm.field("planned", farm.now + 1, "north");
 
-        CommandResult answer = farm.ask(new DomainCommand.Delete("north", true));
+        CommandResult answer = farm.request(new DomainCommand.Delete("north", true));
 
         assertThat(new String(NgsiJson.write(answer.json())))
                 .isEqualTo("{\"type\":\"response\",\"status\":\"deleted\",\"domain\":\"north\",\"missionCount\":2,"
@@ -302,21 +308,22 @@ class MissionLifeTest {
                         + "\"fields\":[\"a\",\"planned\"]}");
         assertThat(farm.all(farm.missions)).extracting(Mission::mission).containsExactly("theirs");
         assertThat(farm.all(farm.statuses)).extracting(MissionStatus::mission).containsExactly("theirs");
-        assertThat(farm.outbox.compacted(Topics.MISSIONS)).containsOnlyKeys("theirs");
-        assertThat(farm.outbox.compacted(Topics.MISSIONS_STATUS)).containsOnlyKeys("theirs");
-        assertThat(farm.outbox.compacted(Topics.DEVICES)).containsOnlyKeys("farm|/|urn:ngsi-ld:Camera:theirs-1");
-        assertThat(farm.outbox.compacted(Topics.FIELDS)).hasSize(1);
+        assertThat(farm.publisher.compacted(Topics.MISSIONS)).containsOnlyKeys("theirs");
+        assertThat(farm.publisher.compacted(Topics.MISSIONS_STATUS)).containsOnlyKeys("theirs");
+        assertThat(farm.publisher.compacted(Topics.DEVICES)).containsOnlyKeys("farm|/|urn:ngsi-ld:Camera:theirs-1");
+        assertThat(farm.publisher.compacted(Topics.FIELDS)).hasSize(1);
         FieldVersion end = FieldVersion.read(
-                farm.outbox.compacted(Topics.FIELDS).values().iterator().next());
+                farm.publisher.compacted(Topics.FIELDS).values().iterator().next());
         assertThat(end.key()).isEqualTo(new FieldVersion.Key("a", farm.now).toString());
         assertThat(end.isEnd()).isTrue();
         farm.domain("north");
-        farm.start("runs", "north", Farm.group("Camera", 1));
+        farm.start("runs", "north", FarmFixture.group("Camera", 1));
     }
 
     @Test
     void makesTheMissionOfTheThesisFromItsTemplate() throws Exception {
-        farm.ask(new MissionCommand.Start("m", "north", new MissionPlan.FromTemplate("thesis-demo", 0), null, null));
+        farm.request(
+                new MissionCommand.Start("m", "north", new MissionPlan.FromTemplate("thesis-demo", 0), null, null));
 
         assertThat(farm.missions.get("m").template()).isEqualTo("thesis-demo@1");
         assertThat(farm.all(farm.devices).stream()
@@ -331,27 +338,28 @@ class MissionLifeTest {
     }
 
     @Test
-    void keepsVersionsOfTemplatesAndTheDevicesOfMissionsMadeFromThem() throws Exception {
+    void retainsVersionsOfTemplatesAndTheDevicesOfMissionsMadeFromThem() throws Exception {
         MissionTemplate one = TemplateStore.demo();
-        assertThat(farm.ask(new MissionCommand.SaveTemplate(one))
+        assertThat(farm.request(new MissionCommand.SaveTemplate(one))
                         .json()
                         .path("version")
                         .asInt())
                 .isEqualTo(2);
-        farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 2));
-        farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.FromTemplate("thesis-demo", 0)));
+        farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 2));
+        farm.request(new MissionCommand.Create("m", "north", new MissionPlan.FromTemplate("thesis-demo", 0)));
         assertThat(farm.missions.get("m").template()).isEqualTo("thesis-demo@1");
-        assertThat(farm.ask(new MissionCommand.SaveTemplate(one))
+        assertThat(farm.request(new MissionCommand.SaveTemplate(one))
                         .json()
                         .path("version")
                         .asInt())
                 .isEqualTo(3);
 
-        farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 0));
-        farm.refused(ErrorCode.UNKNOWN_TEMPLATE, () -> farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 0)));
-        farm.run(farm.missionHandler.templates()::stock);
-        assertThat(farm.outbox.compacted(Topics.TEMPLATES)).isEmpty();
-        farm.ask(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
+        farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 0));
+        farm.refused(
+                ErrorCode.UNKNOWN_TEMPLATE, () -> farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 0)));
+        farm.run(farm.missionHandler.templates()::installBuiltIn);
+        assertThat(farm.publisher.compacted(Topics.TEMPLATES)).isEmpty();
+        farm.request(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
         assertThat(farm.status("m").devices()).isEqualTo(5);
     }
 }

@@ -11,7 +11,7 @@ import java.util.Set;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.manager.KeptOutbox;
+import io.furrow.control.manager.CapturingPublisher;
 import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;
@@ -34,7 +34,7 @@ class MissionPropertyTest {
     private static final List<String> DOMAINS = List.of("north", "south");
 
     @Test
-    void isSoundWhateverIsAskedReportedAndWaitedFor() throws Exception {
+    void isSoundWhateverIsRequestedReportedAndWaitedFor() throws Exception {
         long seed = Long.getLong("furrow.mission.seed", System.nanoTime());
         int refused = 0;
         for (int i = 0; i < FARMS; i++) {
@@ -45,15 +45,15 @@ class MissionPropertyTest {
 
     /** One farm and what happens to it. */
     private static final class Walk {
-        private final Farm farm;
+        private final FarmFixture farm;
         private final Random random;
-        private final String said;
+        private final String label;
         private int refused;
 
-        Walk(Random random, String said) {
+        Walk(Random random, String label) {
             this.random = random;
-            this.said = said;
-            this.farm = new Farm(1 + random.nextInt(4));
+            this.label = label;
+            this.farm = new FarmFixture(1 + random.nextInt(4));
         }
 
         int run() throws Exception {
@@ -71,11 +71,11 @@ class MissionPropertyTest {
 
         private void step() {
             String content = farm.content();
-            int written = farm.outbox.all().size();
+            int written = farm.publisher.all().size();
             try {
                 switch (random.nextInt(10)) {
-                    case 0 -> farm.ask(domainCommand());
-                    case 1, 2, 3 -> farm.ask(missionCommand());
+                    case 0 -> farm.request(domainCommand());
+                    case 1, 2, 3 -> farm.request(missionCommand());
                     case 4 -> farm.pass(random.nextInt(40_000));
                     case 5 -> farm.hostAll();
                     case 6, 7 -> farm.step();
@@ -83,8 +83,8 @@ class MissionPropertyTest {
                 }
             } catch (RefusedException e) {
                 refused++;
-                assertThat(farm.content()).as(said + ": " + e.getMessage()).isEqualTo(content);
-                assertThat(farm.outbox.all()).as(said).hasSize(written);
+                assertThat(farm.content()).as(label + ": " + e.getMessage()).isEqualTo(content);
+                assertThat(farm.publisher.all()).as(label).hasSize(written);
             }
         }
 
@@ -118,8 +118,12 @@ class MissionPropertyTest {
             return switch (random.nextInt(4)) {
                 case 0 -> new MissionPlan.FromTemplate(random.nextInt(3) == 0 ? "nosuch" : TemplateStore.DEMO, 0);
                 case 1 -> new MissionPlan.Unsaid();
-                case 2 -> Farm.devices(Farm.group("Camera", 1 + random.nextInt(3)), DeviceGroup.entity("urn:robot"));
-                default -> Farm.devices(Farm.group("Thermometer", 1 + random.nextInt(4)), Farm.real("Camera", 2));
+                case 2 ->
+                    FarmFixture.devices(
+                            FarmFixture.group("Camera", 1 + random.nextInt(3)), DeviceGroup.entity("urn:robot"));
+                default ->
+                    FarmFixture.devices(
+                            FarmFixture.group("Thermometer", 1 + random.nextInt(4)), FarmFixture.real("Camera", 2));
             };
         }
 
@@ -127,7 +131,7 @@ class MissionPropertyTest {
             return new MissionDevices(
                     random.nextBoolean()
                             ? List.of(DeviceGroup.entity("urn:robot"))
-                            : List.of(Farm.group("Camera", 1 + random.nextInt(3))));
+                            : List.of(FarmFixture.group("Camera", 1 + random.nextInt(3))));
         }
 
         private void reportOne() {
@@ -137,7 +141,7 @@ class MissionPropertyTest {
                 if (device.simulated() || random.nextInt(4) == 0) {
                     farm.report(device, State.values()[random.nextInt(3)]);
                 } else {
-                    farm.hear(device, farm.now - random.nextInt(2) * 1_000_000L);
+                    farm.report(device, farm.now - random.nextInt(2) * 1_000_000L);
                 }
             }
         }
@@ -153,27 +157,27 @@ class MissionPropertyTest {
             for (MissionStatus status : farm.all(farm.statuses)) {
                 MissionStatus last = before.get(status.mission());
                 MissionState from = last == null ? MissionState.CREATED : last.state();
-                assertThat(reachable(from)).as(said + " " + status).contains(status.state());
+                assertThat(reachable(from)).as(label + " " + status).contains(status.state());
                 if (status.state() == MissionState.STARTING || status.state() == MissionState.STOPPING) {
-                    assertThat(status.confirmed()).as(said).isLessThan(status.devices());
+                    assertThat(status.confirmed()).as(label).isLessThan(status.devices());
                     assertThat(status.due() != null || !status.missing().isEmpty())
-                            .as(said)
+                            .as(label)
                             .isTrue();
                 }
-                assertThat(status.confirmed()).as(said + " " + status).isBetween(0, status.devices());
+                assertThat(status.confirmed()).as(label + " " + status).isBetween(0, status.devices());
                 boolean up = status.state() == MissionState.STARTING || status.state() == MissionState.RUNNING;
                 assertThat(status.reason() != null)
-                        .as(said)
+                        .as(label)
                         .isEqualTo(status.state() == MissionState.FAILED
                                 || up && !status.missing().isEmpty());
                 assertThat(status.sequence())
-                        .as(said)
+                        .as(label)
                         .isEqualTo(farm.missions.get(status.mission()).sequence());
             }
             assertThat(before.values().stream().filter(status -> farm.status(status.mission()) == null))
-                    .as("deleted though active in a domain that there is, " + said)
+                    .as("deleted though active in a domain that there is, " + label)
                     .noneMatch(status -> status.state().isActive() && farm.domains.contains(status.domain()));
-            assertThat(farm.all(farm.statuses)).as(said).allMatch(status -> farm.domains.contains(status.domain()));
+            assertThat(farm.all(farm.statuses)).as(label).allMatch(status -> farm.domains.contains(status.domain()));
         }
 
         private static Set<MissionState> reachable(MissionState from) {
@@ -200,53 +204,53 @@ class MissionPropertyTest {
                 MissionStatus status = farm.status(each.mission());
                 boolean ofNow = status != null && each.device().version().sequence() > status.sequence();
                 confirmed.merge(each.mission(), counts && ofNow ? 1 : 0, Integer::sum);
-                assertThat(farm.status(each.mission())).as(said).isNotNull();
+                assertThat(farm.status(each.mission())).as(label).isNotNull();
             }
             for (MissionStatus status : farm.all(farm.statuses)) {
                 boolean has = status.state() == MissionState.STARTING || status.state() == MissionState.RUNNING;
                 Mission mission = farm.missions.get(status.mission());
-                assertThat(mission.running() || !has).as(said).isTrue();
+                assertThat(mission.running() || !has).as(label).isTrue();
                 if (farm.rollouts.get(status.mission()) == null) {
                     assertThat(running.getOrDefault(status.mission(), 0))
-                            .as(said + " " + status)
+                            .as(label + " " + status)
                             .isEqualTo(has ? mission.deviceCount() : 0);
                 }
                 if (status.state().isActive()) {
-                    assertThat(status.confirmed()).as(said).isEqualTo(confirmed.getOrDefault(status.mission(), 0));
+                    assertThat(status.confirmed()).as(label).isEqualTo(confirmed.getOrDefault(status.mission(), 0));
                 }
             }
         }
 
         /** Who reads the topics knows what the managers know. */
         private void checkTopics() throws Exception {
-            assertThat(texts(Topics.MISSIONS)).as(said).isEqualTo(states(farm.all(farm.missions), Mission::mission));
+            assertThat(texts(Topics.MISSIONS)).as(label).isEqualTo(states(farm.all(farm.missions), Mission::mission));
             assertThat(texts(Topics.MISSIONS_STATUS))
-                    .as(said)
+                    .as(label)
                     .isEqualTo(states(farm.all(farm.statuses), MissionStatus::mission));
             assertThat(texts(Topics.DOMAINS))
-                    .as(said)
+                    .as(label)
                     .isEqualTo(states(farm.all(farm.domains), domain -> domain.domain()));
-            Map<String, byte[]> devices = farm.outbox.compacted(Topics.DEVICES);
-            assertThat(devices).as(said).hasSameSizeAs(farm.all(farm.devices));
+            Map<String, byte[]> devices = farm.publisher.compacted(Topics.DEVICES);
+            assertThat(devices).as(label).hasSameSizeAs(farm.all(farm.devices));
             for (DeviceState each : farm.all(farm.devices)) {
                 byte[] value = devices.get(each.device().version().key());
-                assertThat(DesiredDevice.read(value)).as(said).isEqualTo(each.device());
+                assertThat(DesiredDevice.read(value)).as(label).isEqualTo(each.device());
                 DeviceVersion version = DeviceVersion.read(value);
                 assertThat(version.until() == null)
-                        .as(said)
+                        .as(label)
                         .isEqualTo(each.device().running());
             }
         }
 
         private Map<String, String> texts(String topic) {
             Map<String, String> texts = new HashMap<>();
-            farm.outbox.compacted(topic).forEach((key, value) -> texts.put(key, new String(value)));
+            farm.publisher.compacted(topic).forEach((key, value) -> texts.put(key, new String(value)));
             return texts;
         }
 
         private static <T> Map<String, String> states(List<T> all, java.util.function.Function<T, String> name) {
             Map<String, String> states = new HashMap<>();
-            all.forEach(each -> states.put(name.apply(each), Farm.json(each)));
+            all.forEach(each -> states.put(name.apply(each), FarmFixture.json(each)));
             return states;
         }
 
@@ -258,23 +262,23 @@ class MissionPropertyTest {
                 farm.hostAll();
             }
             assertThat(farm.all(farm.statuses))
-                    .as(said)
+                    .as(label)
                     .extracting(MissionStatus::state)
                     .doesNotContain(MissionState.STARTING, MissionState.STOPPING);
         }
 
         private void writeAll() {
             for (int i = 0; farm.step(); i++) {
-                assertThat(i).as(said).isLessThan(100);
+                assertThat(i).as(label).isLessThan(100);
             }
         }
 
         private void checkSequences() throws Exception {
             long last = 0;
-            for (KeptOutbox.Written record : farm.outbox.all()) {
+            for (CapturingPublisher.Written record : farm.publisher.all()) {
                 if (record.topic().equals(Topics.DEVICES) && record.value() != null) {
                     long sequence = DeviceVersion.read(record.value()).sequence();
-                    assertThat(sequence).as(said).isGreaterThan(last);
+                    assertThat(sequence).as(label).isGreaterThan(last);
                     last = sequence;
                 }
             }

@@ -76,15 +76,15 @@ class ConnectorWatchTest {
     @Test
     void showsConnectorsAndReportsATaskThatFailedOnceAMinute() throws Exception {
         answer.set(connectors("RUNNING", ""));
-        watch.ask();
+        watch.poll();
         assertThat(watch.statuses()).extracting(PartStatus::name).containsExactly("connect", "connector sink");
         assertThat(watch.statuses()).extracting(PartStatus::state).containsOnly(PartStatus.State.UP);
         assertThat(producer.history()).isEmpty();
 
         answer.set(connectors("FAILED", ",\"trace\":\"" + TRACE + "\""));
-        watch.ask();
+        watch.poll();
         now = now.plusSeconds(50);
-        watch.ask();
+        watch.poll();
         assertThat(watch.statuses().get(1))
                 .returns(PartStatus.State.DOWN, PartStatus::state)
                 .returns("task 0 failed: http://orion:1026 answers 401; check the token", PartStatus::detail);
@@ -97,28 +97,28 @@ class ConnectorWatchTest {
                     .endsWith("/connectors/sink/restart?includeTasks=true&onlyFailed=true\"");
         });
         now = now.plusSeconds(10);
-        watch.ask();
+        watch.poll();
         assertThat(producer.history()).hasSize(2);
 
         answer.set(connectors("RUNNING", ""));
         now = now.plusSeconds(60);
-        watch.ask();
+        watch.poll();
         assertThat(producer.history()).hasSize(2);
     }
 
     @Test
-    void saysOfWhatIsPausedAndOfAConnectThatDoesNotAnswer() throws Exception {
+    void reportsWhatIsPausedAndOfAConnectThatDoesNotAnswer() throws Exception {
         answer.set(connectors("PAUSED", ""));
-        watch.ask();
+        watch.poll();
         assertThat(watch.statuses().get(1).detail()).isEqualTo("task 0 is paused");
         assertThat(producer.history()).isEmpty();
 
         answer.set("{\"sink\":{\"status\":{\"connector\":{\"state\":\"RUNNING\"},\"tasks\":[]}}}");
-        watch.ask();
+        watch.poll();
         assertThat(watch.statuses().get(1).detail()).isEqualTo("has no task");
 
         answer.set("<html>");
-        watch.ask();
+        watch.poll();
         now = now.plusSeconds(30);
         assertThat(watch.statuses())
                 .singleElement()
@@ -131,9 +131,9 @@ class ConnectorWatchTest {
     void namesNoClassOnThePage() throws Exception {
         Readiness readiness = new Readiness(Clock.systemUTC());
         URI nowhere = URI.create("http://127.0.0.1:1/");
-        ConnectorWatch away = new ConnectorWatch(nowhere, producer, Clock.systemUTC());
-        away.ask();
-        readiness.showAll(away::statuses);
+        ConnectorWatch unavailable = new ConnectorWatch(nowhere, producer, Clock.systemUTC());
+        unavailable.poll();
+        readiness.showAll(unavailable::statuses);
         try (Probe probe = Probe.http("contextBroker", nowhere);
                 RestartingWorker worker = new RestartingWorker("worker", Clock.systemUTC())
                         .start(

@@ -19,17 +19,17 @@ class RecordingListTest {
 
     private final RecordingList list = new RecordingList();
     private final Map<String, Optional<RecordedMission>> stored = new TreeMap<>();
-    private final List<String> looked = new ArrayList<>();
-    private boolean away;
+    private final List<String> polled = new ArrayList<>();
+    private boolean unavailable;
 
     /** What is written, which the topic then has. */
     private Map<String, Optional<RecordedMission>> poll(long now) throws IOException {
-        looked.clear();
+        polled.clear();
         Map<String, Optional<RecordedMission>> changes = list.changes(
                 new RecordingList.Store() {
                     @Override
                     public List<String> names() throws IOException {
-                        if (away) {
+                        if (unavailable) {
                             throw new IOException("MongoDB is away");
                         }
                         return List.copyOf(stored.keySet());
@@ -37,7 +37,7 @@ class RecordingListTest {
 
                     @Override
                     public Optional<RecordedMission> find(String name) {
-                        looked.add(name);
+                        polled.add(name);
                         return stored.get(name);
                     }
                 },
@@ -59,14 +59,14 @@ class RecordingListTest {
         assertThat(poll(NOW)).containsExactly(Map.entry("m", Optional.of(short1)));
         RecordedMission longer = store("m", 10, 30);
         assertThat(poll(NOW + 29_999)).isEmpty();
-        assertThat(looked).isEmpty();
+        assertThat(polled).isEmpty();
         assertThat(poll(NOW + 30_000)).containsExactly(Map.entry("m", Optional.of(longer)));
         assertThat(poll(NOW + 60_000)).as("nothing has changed").isEmpty();
-        assertThat(looked).containsExactly("m");
+        assertThat(polled).containsExactly("m");
     }
 
     @Test
-    void looksAtAMissionWithoutEventsUntilItHasSome() throws Exception {
+    void pollsAMissionWithoutEventsUntilItHasSome() throws Exception {
         stored.put("m", Optional.empty());
         assertThat(poll(NOW)).isEmpty();
         RecordedMission begun = store("m", 10, 10);
@@ -85,22 +85,22 @@ class RecordingListTest {
     }
 
     @Test
-    void leavesWhatAnotherInstanceHasLookedAt() throws Exception {
+    void leavesWhatAnotherInstanceHasPolled() throws Exception {
         list.take("m", store("m", 10, 20).toBytes(), NOW);
         store("m", 10, 30);
         assertThat(poll(NOW + 20_000)).isEmpty();
-        assertThat(looked).isEmpty();
+        assertThat(polled).isEmpty();
         assertThat(poll(NOW + 30_000)).hasSize(1);
     }
 
     @Test
-    void keepsTheListWhileMongoDbIsAway() throws Exception {
+    void retainsTheListWhileMongoDbIsUnavailable() throws Exception {
         store("m", 10, 20);
         poll(NOW);
-        away = true;
+        unavailable = true;
         assertThatThrownBy(() -> poll(NOW + 60_000)).isInstanceOf(IOException.class);
         assertThat(list.size()).isEqualTo(1);
-        away = false;
+        unavailable = false;
         assertThat(poll(NOW + 61_000)).isEmpty();
     }
 

@@ -22,7 +22,7 @@ import io.furrow.model.ngsi.NgsiJson;
 /** Asks the API, and holds each answer against its description. */
 public final class ApiClient {
     /** What any client has asked for. */
-    static final Set<String> ASKED = ConcurrentHashMap.newKeySet();
+    static final Set<String> REQUESTED = ConcurrentHashMap.newKeySet();
 
     private final HttpClient http =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
@@ -71,7 +71,7 @@ public final class ApiClient {
                         : HttpResponse.BodySubscribers.ofByteArray());
         if (described) {
             String type = answer.headers().firstValue("Content-Type").orElse("").replaceFirst(";.*", "");
-            ASKED.add(description.check(
+            REQUESTED.add(description.check(
                     request.method(), request.uri().getPath(), answer.statusCode(), type, answer.body()));
         }
         return answer;

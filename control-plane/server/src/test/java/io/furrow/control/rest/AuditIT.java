@@ -22,7 +22,7 @@ import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.rest.view.AuditHistory;
-import io.furrow.control.rest.view.ServiceView;
+import io.furrow.control.rest.view.StateView;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -32,7 +32,7 @@ import static org.awaitility.Awaitility.await;
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 @Tag("full")
 class AuditIT {
-    private static final int ENTRIES = AuditHistory.READ + 3 * ServiceView.AUDITED;
+    private static final int ENTRIES = AuditHistory.READ + 3 * StateView.AUDITED;
     private static final Pattern NEXT = Pattern.compile("<(/[^>]+)>; ?rel=\"next\"");
 
     private RunningApi running;
@@ -107,7 +107,7 @@ class AuditIT {
     }
 
     @Test
-    void refusesWhatIsNoPosition() throws Exception {
+    void rejectsWhatIsNoPosition() throws Exception {
         for (String before : List.of("-1", "noon", "1.5", "9999999999999999999")) {
             running.refused("GET", "/api/audit?before=" + before, null, 400, "wrong-member");
         }

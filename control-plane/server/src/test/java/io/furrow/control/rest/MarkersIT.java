@@ -53,7 +53,7 @@ class MarkersIT {
     }
 
     @Test
-    void keepsMarkersOfAMission() throws Exception {
+    void storesMarkersOfAMission() throws Exception {
         HttpResponse<byte[]> made =
                 add("{\"time\":\"2026-03-01T08:00:00Z\",\"note\":\"The robot turns too early\"}", "k-1");
         assertThat(made.statusCode()).isEqualTo(201);
@@ -91,7 +91,7 @@ class MarkersIT {
     }
 
     @Test
-    void refusesWhatIsNoMarker() throws Exception {
+    void rejectsWhatIsNoMarker() throws Exception {
         assertThat(olga.error(add("{\"note\":\"n\"}", "k-1"))).isEqualTo("400 missing-member");
         assertThat(olga.error(add("{\"time\":\"noon\",\"note\":\"n\"}", "k-2"))).isEqualTo("400 wrong-member");
         assertThat(olga.error(add("{\"time\":5}", "k-3"))).isEqualTo("400 missing-member");
@@ -102,11 +102,11 @@ class MarkersIT {
     }
 
     @Test
-    void saysThatMongoDbIsAway() throws Exception {
+    void reportsThatMongoDbIsUnavailable() throws Exception {
         mongo.close();
-        HttpResponse<byte[]> away = olga.send("GET", MARKERS, null);
-        assertThat(olga.error(away)).isEqualTo("503 mongodb-away");
-        assertThat(olga.json(away).path("reason").asText()).contains("weeding", "Check that MongoDB runs");
+        HttpResponse<byte[]> unavailable = olga.send("GET", MARKERS, null);
+        assertThat(olga.error(unavailable)).isEqualTo("503 mongodb-away");
+        assertThat(olga.json(unavailable).path("reason").asText()).contains("weeding", "Check that MongoDB runs");
         assertThat(olga.error(add("{\"time\":5,\"note\":\"n\"}", "k-1"))).isEqualTo("503 mongodb-away");
     }
 }

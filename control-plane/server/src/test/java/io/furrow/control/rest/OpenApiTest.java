@@ -57,13 +57,13 @@ class OpenApiTest {
 
     /** What reports nothing of the farm has no role. */
     @Test
-    void describesTheRoleThatTheCodeAsksFor() throws Exception {
+    void describesTheRoleThatTheCodeRequests() throws Exception {
         Map<String, String> roles = roles();
         OpenApiDocument document = OpenApiDocument.read();
         for (String operation : document.operations()) {
-            String[] words = operation.split(" ");
+            String[] parts = operation.split(" ");
             JsonNode described =
-                    document.json().path("paths").path(words[1]).path(words[0].toLowerCase(java.util.Locale.ROOT));
+                    document.json().path("paths").path(parts[1]).path(parts[0].toLowerCase(java.util.Locale.ROOT));
             String role = described.path("security").isArray() ? "" : roles.get(operation);
             assertThat(described.path("x-role").asText()).as(operation).isEqualTo(role);
         }
@@ -112,8 +112,8 @@ class OpenApiTest {
     private static void addRoles(Resource resource, String before, Map<String, String> roles) {
         String path = path(resource, before);
         for (ResourceMethod method : resource.getResourceMethods()) {
-            Role least = RoleFilter.least(method.getInvocable().getHandlingMethod(), method.getHttpMethod());
-            roles.put(method.getHttpMethod() + " " + path, least.word());
+            Role minimum = RoleFilter.minimum(method.getInvocable().getHandlingMethod(), method.getHttpMethod());
+            roles.put(method.getHttpMethod() + " " + path, minimum.code());
         }
         resource.getChildResources().forEach(child -> addRoles(child, path, roles));
     }

@@ -105,7 +105,7 @@ class OutagesIT {
     }
 
     @Test
-    void answersWhileKafkaIsAwayAndSaysSo() throws Exception {
+    void answersWhileKafkaIsUnavailableAndReportsSo() throws Exception {
         kafka.close();
         List<CompletableFuture<Integer>> stops = new ArrayList<>();
         for (int i = 0; i < COMMANDS; i++) {
@@ -126,7 +126,7 @@ class OutagesIT {
     }
 
     @Test
-    void showsThatTheContextBrokerIsAway() throws Exception {
+    void showsThatTheContextBrokerIsUnavailable() throws Exception {
         broker.refuse(500);
         await().atMost(TIMEOUT).until(() -> status("ready").equals("degraded"));
         assertThat(part("contextBroker").path("detail").asText()).contains("answers 500");

@@ -35,7 +35,7 @@ class RefusedRequestsIT {
 
     /** The answer of another request would say that something was done which was not. */
     @Test
-    void refusesAKeyThatWasGivenToAnotherRequest() throws Exception {
+    void rejectsAKeyThatWasGivenToAnotherRequest() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"keyed\"}");
         String start = "{\"domain\":\"keyed\"}";
         client.send("POST", "/api/missions/b/start", start);
@@ -62,7 +62,7 @@ class RefusedRequestsIT {
     }
 
     @Test
-    void refusesWhatIsTooLargeAndGoesOn() throws Exception {
+    void rejectsWhatIsTooLargeAndGoesOn() throws Exception {
         String area = "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[1,1],[0,0]]],\"note\":\"%s\"}";
         for (int bytes : new int[] {Limits.REQUEST_BYTES - 100, Limits.REQUEST_BYTES, 1_300_000}) {
             String body = "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(bytes)));
@@ -76,7 +76,7 @@ class RefusedRequestsIT {
     }
 
     @Test
-    void refusesAFilterOfAlarmsThatNoneCanPass() throws Exception {
+    void rejectsAFilterOfAlarmsThatNoneCanPass() throws Exception {
         for (String query : new String[] {
             "state=opne",
             "state=",

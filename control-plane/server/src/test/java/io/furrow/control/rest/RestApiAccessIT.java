@@ -93,7 +93,7 @@ class RestApiAccessIT {
     }
 
     @Test
-    void saysWhatIsWrongWithARequest() throws Exception {
+    void reportsWhatIsWrongWithARequest() throws Exception {
         running.refused("POST", "/api/domains", "{\"domain\":", 400, "not-json");
         running.refused("POST", "/api/domains", "[]", 400, "not-a-request");
         running.refused("POST", "/api/domains", "{\"domain\":\"\\ud800\"}", 400, "not-json");
@@ -122,7 +122,7 @@ class RestApiAccessIT {
     }
 
     @Test
-    void asksForATokenWhereItHasSome() throws Exception {
+    void requestsATokenWhereItHasSome() throws Exception {
         Path tokens = directory.resolve("tokens");
         Files.writeString(tokens, "# who may\nann a-token-of-sixteen-signs operator\n");
         RestSettings settings = RestSettings.on(0)

@@ -49,12 +49,12 @@ class RestApiIT {
     @AfterAll
     void stop() throws Exception {
         running.close();
-        assertThat(ApiClient.ASKED).containsAll(OpenApiDocument.read().operations());
+        assertThat(ApiClient.REQUESTED).containsAll(OpenApiDocument.read().operations());
     }
 
     /** More of these is in tests of their own. */
     @Test
-    void saysWhoAsksAndKnowsWhatIsNotThere() throws Exception {
+    void reportsWhoRequestsAndWhatIsNotThere() throws Exception {
         assertThat(client.send("GET", "/api/me", null).statusCode()).isEqualTo(200);
         assertThat(client.send("HEAD", "/api/replays/events", null).statusCode())
                 .isEqualTo(200);
@@ -274,7 +274,7 @@ class RestApiIT {
     }
 
     @Test
-    void keepsTemplatesByVersion() throws Exception {
+    void retainsTemplatesByVersion() throws Exception {
         String template = "{\"template\":\"t\",\"devices\":[{\"type\":\"Thermometer\",\"count\":3}]}";
         client.send("POST", "/api/templates", template);
         JsonNode second = client.json(client.send("POST", "/api/templates", template));
@@ -435,7 +435,7 @@ class RestApiIT {
     }
 
     @Test
-    void importsFieldsAndRefusesThoseThatAreNone() throws Exception {
+    void importsFieldsAndRejectsThoseThatAreNone() throws Exception {
         String square = "[[[10,50],[10.001,50],[10.001,50.001],[10,50.001],[10,50]]]";
         String file = """
                 {"type":"FeatureCollection","features":[
@@ -522,7 +522,7 @@ class RestApiIT {
     }
 
     @Test
-    void tellsWhatWasCommandedToAMission() throws Exception {
+    void reportsWhatWasCommandedToAMission() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"audited\"}");
         for (String mission : new String[] {"one", "two"}) {
             client.send("POST", "/api/missions", """
@@ -536,7 +536,7 @@ class RestApiIT {
     }
 
     @Test
-    void tellsOfItself() throws Exception {
+    void reportsItself() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"counted\"}");
         assertThat(running.get("/openapi.json"))
                 .isEqualTo(OpenApiDocument.read().json());
@@ -551,7 +551,7 @@ class RestApiIT {
 
     /** The alarms' manager does not run here. */
     @Test
-    void saysThatNobodyAnsweredAndHowToAskAgain() throws Exception {
+    void reportsThatNobodyAnsweredAndHowToRetry() throws Exception {
         Readiness readiness = new Readiness(Clock.systemUTC());
         readiness.require(() -> new PartStatus("managers", PartStatus.State.DOWN, null, "REBALANCING"));
         try (RestApi other =

@@ -106,7 +106,7 @@ class RestApiTlsIT {
     }
 
     @Test
-    void takesANewCertificateUpOnceItIsCompleteAndKeepsTheOldOneUntilThen() throws Exception {
+    void takesANewCertificateUpOnceItIsCompleteAndRetainsTheOldOneUntilThen() throws Exception {
         Path certificate = Files.copy(first.certificate(), directory.resolve("live.pem"));
         Path key = Files.copy(first.key(), directory.resolve("live.key"));
         start(CertificateFiles.pem(certificate, key));
@@ -128,7 +128,7 @@ class RestApiTlsIT {
     }
 
     @Test
-    void saysWhatIsWrongWithTheFiles() {
+    void reportsWhatIsWrongWithTheFiles() {
         assertThatThrownBy(() -> start(CertificateFiles.pem(first.certificate(), second.key())))
                 .isInstanceOf(IOException.class)
                 .hasMessageContainingAll("first.pem", "second.key", "the key is not that of the certificate");

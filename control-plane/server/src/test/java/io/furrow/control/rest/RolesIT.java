@@ -69,7 +69,7 @@ class RolesIT {
     }
 
     /** @param path with names in the place of its parameters, of things that are not there */
-    private record Operation(String method, String path, Role least) {}
+    private record Operation(String method, String path, Role minimum) {}
 
     static Stream<Operation> operations() throws Exception {
         List<Operation> operations = new ArrayList<>();
@@ -102,20 +102,22 @@ class RolesIT {
             String body =
                     operation.method().equals("POST") || operation.method().equals("PATCH") ? "{}" : null;
             HttpResponse<byte[]> answer = caller.send(operation.method(), operation.path(), body);
-            if (role.includes(operation.least())) {
+            if (role.includes(operation.minimum())) {
                 assertThat(answer.statusCode()).as("%s %s", role, operation).isNotIn(401, 403, 405, 500);
             } else {
                 assertThat(caller.error(answer)).as("%s %s", role, operation).isEqualTo("403 forbidden");
                 assertThat(caller.json(answer).path("reason").asText())
                         .isEqualTo("this needs the role %s, and '%s' is %s"
                                 .formatted(
-                                        operation.least().word(), role == Role.VIEWER ? "vera" : "olga", role.word()));
+                                        operation.minimum().code(),
+                                        role == Role.VIEWER ? "vera" : "olga",
+                                        role.code()));
             }
         }
     }
 
     @Test
-    void letsEverybodyHaveWhatTellsNothingOfTheFarm() throws Exception {
+    void letsEverybodyHaveWhatShowsNothingOfTheFarm() throws Exception {
         ApiClient nobody = new ApiClient(api.uri(), null);
         for (String path : List.of("/health", "/metrics", "/openapi.json")) {
             assertThat(nobody.send("GET", path, null).statusCode()).as(path).isEqualTo(200);
@@ -164,7 +166,7 @@ class RolesIT {
     }
 
     @Test
-    void takesNewTokensUpAndKeepsTheOldOnesWhereTheFileIsBad() throws Exception {
+    void takesNewTokensUpAndRetainsTheOldOnesWhereTheFileIsBad() throws Exception {
         ApiClient late = new ApiClient(api.uri(), "token-of-a-late-one");
         String before = Files.readString(tokens);
         assertThat(late.send("GET", "/api/domains", null).statusCode()).isEqualTo(401);

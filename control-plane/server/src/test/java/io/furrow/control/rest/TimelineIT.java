@@ -99,7 +99,7 @@ class TimelineIT {
     }
 
     @Test
-    void refusesWhatIsNoPartOfAMission() throws Exception {
+    void rejectsWhatIsNoPartOfAMission() throws Exception {
         assertRefused("/api/recordings/sowing/timeline", "404 unknown-mission");
         assertRefused("/api/recordings/deleted/timeline", "404 unknown-mission");
         assertRefused(TIMELINE + "?buckets=0", "400 wrong-member");

@@ -28,7 +28,7 @@ public final class FieldPicture {
     private FieldPicture() {}
 
     /** A PNG of {@value #WIDTH} × {@value #HEIGHT} pixels; the same for the same view. */
-    public static byte[] png(View view) {
+    public static byte[] png(CameraView view) {
         BufferedImage image = new BufferedImage(WIDTH, HEIGHT, BufferedImage.TYPE_INT_RGB);
         int sun = (int) (Math.floorMod(view.time().toEpochMilli() / 1000, 60L) * WIDTH / 60);
         for (int y = 0; y < HEIGHT; y++) {
@@ -36,12 +36,12 @@ public final class FieldPicture {
                 image.setRGB(x, y, y < HORIZON ? sky(x, y, sun) : ground(x, y));
             }
         }
-        view.sightings().forEach(seen -> draw(image, seen));
+        view.visibleRobots().forEach(seen -> draw(image, seen));
         return encode(image);
     }
 
     /** A block with two wheels, the larger the nearer. */
-    private static void draw(BufferedImage image, View.Sighting seen) {
+    private static void draw(BufferedImage image, CameraView.VisibleRobot seen) {
         int size = (int) Math.min(60, Math.max(6, 300 / seen.meters()));
         int middle = (int) (WIDTH / 2d * (1 + seen.aside()));
         int ground = HORIZON + size;

@@ -15,15 +15,15 @@ import io.furrow.model.device.DeviceStatus;
  * the next sequence tries again.
  */
 public final class DeviceReconciler {
-    private final Map<String, Device> devices = new HashMap<>();
+    private final Map<String, RunningDevice> devices = new HashMap<>();
 
     /**
      * State of a device.
      *
-     * @param asked the newest record, null if the device was deleted and has yet to be stopped
+     * @param requested the newest record, null if the device was deleted and has yet to be stopped
      * @param runs the running device of the key; null if none runs
      */
-    private record Device(DesiredDevice asked, long sequence, DesiredDevice runs) {}
+    private record RunningDevice(DesiredDevice requested, long sequence, DesiredDevice runs) {}
 
     /** A step for the host of the devices. */
     public sealed interface Step {
@@ -49,23 +49,23 @@ public final class DeviceReconciler {
      * @return the step; empty if the record is out of date, or of a device that was never simulated here
      */
     public Optional<Step> take(String key, DesiredDevice desired) {
-        Device known = devices.getOrDefault(key, new Device(null, -1, null));
+        RunningDevice existing = devices.getOrDefault(key, new RunningDevice(null, -1, null));
         if (desired == null) {
-            devices.put(key, new Device(null, known.sequence, known.runs));
-            if (known.runs == null) {
+            devices.put(key, new RunningDevice(null, existing.sequence, existing.runs));
+            if (existing.runs == null) {
                 devices.remove(key);
                 return Optional.empty();
             }
-            return Optional.of(new Step.Stop(key, known.runs));
+            return Optional.of(new Step.Stop(key, existing.runs));
         }
-        if (desired.version().sequence() <= known.sequence) {
+        if (desired.version().sequence() <= existing.sequence) {
             return Optional.empty();
         }
-        if (!desired.simulated() && known.asked == null) {
+        if (!desired.simulated() && existing.requested == null) {
             return Optional.empty();
         }
-        devices.put(key, new Device(desired, desired.version().sequence(), known.runs));
-        return Optional.of(step(key, desired, known.runs));
+        devices.put(key, new RunningDevice(desired, desired.version().sequence(), existing.runs));
+        return Optional.of(step(key, desired, existing.runs));
     }
 
     private static Step step(String key, DesiredDevice desired, DesiredDevice runs) {
@@ -98,20 +98,22 @@ public final class DeviceReconciler {
      * @return the record for the status topic under the step's key; empty for a tombstone
      */
     public Optional<DeviceStatus> done(Step step, String failure) {
-        Device known = devices.get(step.key());
-        if (known.asked == null) {
+        RunningDevice existing = devices.get(step.key());
+        if (existing.requested == null) {
             devices.remove(step.key());
             return Optional.empty();
         }
-        DesiredDevice runs = failure == null && known.asked.running() && known.asked.simulated() ? known.asked : null;
-        devices.put(step.key(), new Device(known.asked, known.sequence, runs));
+        DesiredDevice runs = failure == null && existing.requested.running() && existing.requested.simulated()
+                ? existing.requested
+                : null;
+        devices.put(step.key(), new RunningDevice(existing.requested, existing.sequence, runs));
         DeviceStatus.State state = DeviceStatus.State.STOPPED;
         if (failure != null) {
             state = DeviceStatus.State.FAILED;
         } else if (runs != null) {
             state = DeviceStatus.State.RUNNING;
         }
-        return Optional.of(new DeviceStatus(known.sequence, state, failure));
+        return Optional.of(new DeviceStatus(existing.sequence, state, failure));
     }
 
     /** Number of running devices. */

@@ -70,8 +70,8 @@ final class ConnectionOpener implements AutoCloseable {
     }
 
     /** Closes a connection in the background. */
-    void close(MqttConnection line) {
-        threads.execute(line::close);
+    void close(MqttConnection connection) {
+        threads.execute(connection::close);
     }
 
     /** Stops retries, and waits for attempts in progress. */

@@ -33,9 +33,9 @@ import io.furrow.simulators.scenario.SimulatedDevice.Identity;
 final class Connections implements AutoCloseable {
     static final int MAX_OWN = 500;
 
-    private static final int OWN_KEPT = 20_000;
+    private static final int OWN_MAX_MESSAGES = 20_000;
     private static final long OWN_BYTES = 2L << 20;
-    private static final int GATEWAY_KEPT = 400_000;
+    private static final int GATEWAY_MAX_MESSAGES = 400_000;
     private static final long GATEWAY_BYTES = 128L << 20;
 
     private final FleetAccess access;
@@ -68,7 +68,7 @@ final class Connections implements AutoCloseable {
         private final boolean gateway;
         private final Set<String> devices = new LinkedHashSet<>();
         private MqttConnection.Plan plan;
-        private MqttConnection line;
+        private MqttConnection connection;
         private MqttConnection next;
         private boolean ended;
 
@@ -87,7 +87,7 @@ final class Connections implements AutoCloseable {
          */
         void open() throws IOException {
             MqttConnection opened = MqttConnection.open(access.mqtt(), plan(), this::received);
-            MqttConnection needless = keep(opened);
+            MqttConnection needless = retain(opened);
             if (needless != null) {
                 needless.close();
             }
@@ -102,7 +102,7 @@ final class Connections implements AutoCloseable {
             MqttConnection.Plan fresh = plans.get();
             boolean same = fresh.equals(plan);
             plan = fresh;
-            return !same && line != null;
+            return !same && connection != null;
         }
 
         private void received(String topic, byte[] payload) {
@@ -111,12 +111,12 @@ final class Connections implements AutoCloseable {
         }
 
         /** Returns the connection that is not needed; null if there is none. */
-        private synchronized MqttConnection keep(MqttConnection opened) {
+        private synchronized MqttConnection retain(MqttConnection opened) {
             if (ended) {
                 return opened;
             }
-            if (line == null) {
-                line = opened;
+            if (connection == null) {
+                connection = opened;
                 return null;
             }
             MqttConnection before = next;
@@ -129,9 +129,9 @@ final class Connections implements AutoCloseable {
             if (next == null) {
                 return Optional.empty();
             }
-            MqttConnection before = line;
+            MqttConnection before = connection;
             next.takeOver(before);
-            line = next;
+            connection = next;
             next = null;
             return Optional.of(before);
         }
@@ -141,19 +141,19 @@ final class Connections implements AutoCloseable {
         }
 
         synchronized boolean isOpen() {
-            return line != null;
+            return connection != null;
         }
 
-        synchronized Optional<MqttConnection> line() {
-            return Optional.ofNullable(line);
+        synchronized Optional<MqttConnection> connection() {
+            return Optional.ofNullable(connection);
         }
 
         /** Ends it; returns its connections, to be closed. */
         private synchronized List<MqttConnection> end() {
             ended = true;
             List<MqttConnection> last =
-                    Stream.of(line, next).filter(Objects::nonNull).toList();
-            line = null;
+                    Stream.of(connection, next).filter(Objects::nonNull).toList();
+            connection = null;
             next = null;
             return last;
         }
@@ -194,13 +194,14 @@ final class Connections implements AutoCloseable {
     private MqttConnection.Plan own(Identity device) {
         MqttAccess.Login login = access.logins().device().apply(device);
         String commands = topic(device.mission(), device.id()) + "cmd";
-        return new MqttConnection.Plan(login, device.id(), List.of(commands), OWN_KEPT, OWN_BYTES);
+        return new MqttConnection.Plan(login, device.id(), List.of(commands), OWN_MAX_MESSAGES, OWN_BYTES);
     }
 
     private MqttConnection.Plan gateway(String mission) {
         MqttAccess.Login login = access.logins().gateway().apply(mission);
         String commands = topic(mission, "+") + "cmd";
-        return new MqttConnection.Plan(login, "gateway-" + mission, List.of(commands), GATEWAY_KEPT, GATEWAY_BYTES);
+        return new MqttConnection.Plan(
+                login, "gateway-" + mission, List.of(commands), GATEWAY_MAX_MESSAGES, GATEWAY_BYTES);
     }
 
     /** Prefix of a device's topics. */
@@ -227,9 +228,9 @@ final class Connections implements AutoCloseable {
     Collection<MqttConnection> change() {
         List<MqttConnection> replaced = new ArrayList<>();
         for (Channel channel : all) {
-            channel.change().ifPresent(line -> {
+            channel.change().ifPresent(connection -> {
                 retopic(channel);
-                replaced.add(line);
+                replaced.add(connection);
             });
         }
         return replaced;
@@ -269,12 +270,14 @@ final class Connections implements AutoCloseable {
      */
     void send(String device, String end, ObjectNode json) {
         byte[] payload = json.toString().getBytes(StandardCharsets.UTF_8);
-        of(device).flatMap(Channel::line).ifPresent(line -> line.send(topics.get(device) + end, payload));
+        of(device)
+                .flatMap(Channel::connection)
+                .ifPresent(connection -> connection.send(topics.get(device) + end, payload));
     }
 
     /** Sends waiting messages and reconnects. */
     void push() {
-        lines().forEach(MqttConnection::push);
+        connections().forEach(MqttConnection::push);
     }
 
     int count() {
@@ -287,19 +290,19 @@ final class Connections implements AutoCloseable {
     }
 
     private long sum(ToLongFunction<MqttConnection> count) {
-        return lines().stream().mapToLong(count).sum();
+        return connections().stream().mapToLong(count).sum();
     }
 
-    private List<MqttConnection> lines() {
-        List<MqttConnection> lines = new ArrayList<>();
-        all.forEach(channel -> channel.line().ifPresent(lines::add));
-        return lines;
+    private List<MqttConnection> connections() {
+        List<MqttConnection> connections = new ArrayList<>();
+        all.forEach(channel -> channel.connection().ifPresent(connections::add));
+        return connections;
     }
 
     @Override
     public void close() {
-        Set<MqttConnection> lines = new HashSet<>();
-        all.forEach(channel -> lines.addAll(channel.end()));
-        lines.parallelStream().forEach(MqttConnection::close);
+        Set<MqttConnection> connections = new HashSet<>();
+        all.forEach(channel -> connections.addAll(channel.end()));
+        connections.parallelStream().forEach(MqttConnection::close);
     }
 }

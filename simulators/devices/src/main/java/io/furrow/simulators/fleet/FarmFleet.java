@@ -20,7 +20,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.model.event.FiwareScope;
-import io.furrow.simulators.device.IotAgent;
+import io.furrow.simulators.device.IotAgentClient;
 import io.furrow.simulators.scenario.Farm;
 import io.furrow.simulators.scenario.SimulatedDevice;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
@@ -35,8 +35,8 @@ public final class FarmFleet implements AutoCloseable {
     private static final Duration POLL_INTERVAL_WITHOUT_DEVICES = Duration.ofMillis(100);
 
     private final Clock clock;
-    private final FarmSimulation scene = new FarmSimulation();
-    private final ReportScheduler timetable = new ReportScheduler();
+    private final FarmSimulation simulation = new FarmSimulation();
+    private final ReportScheduler scheduler = new ReportScheduler();
     private final Queue<Runnable> changes = new ConcurrentLinkedQueue<>();
     private final Connections connections;
     private final ConnectionOpener opener = new ConnectionOpener();
@@ -44,7 +44,7 @@ public final class FarmFleet implements AutoCloseable {
     private final Map<String, Member> joining = new HashMap<>();
     private final FleetEvents events;
     private final Robots robots;
-    private final Commands commands;
+    private final DeviceCommandExecutor commands;
     private final LongAdder reports = new LongAdder();
     private final Thread thread = new Thread(this::run, "simulated-farm");
     private volatile Tally tally = new Tally(0, 0, 0);
@@ -73,8 +73,8 @@ public final class FarmFleet implements AutoCloseable {
         this.clock = clock;
         this.connections = connections;
         this.events = events;
-        this.robots = new Robots(access.fiware(), scene, events);
-        this.commands = new Commands(scene, connections, this::send);
+        this.robots = new Robots(access.fiware(), simulation, events);
+        this.commands = new DeviceCommandExecutor(simulation, connections, this::send);
         thread.setDaemon(true);
     }
 
@@ -85,7 +85,7 @@ public final class FarmFleet implements AutoCloseable {
      * @throws IOException if the IoT Agent or the MQTT broker is unavailable or refuses; nothing keeps running then
      */
     public static FarmFleet start(Farm farm, FleetAccess access) throws IOException, InterruptedException {
-        new IotAgent(access.fiware()).provision(farm.apiKey(), Registrations.of(farm));
+        new IotAgentClient(access.fiware()).provision(farm.apiKey(), DeviceRegistrationFactory.of(farm));
         return start(farm, access, Connections.MAX_OWN, Clock.systemUTC());
     }
 
@@ -138,8 +138,8 @@ public final class FarmFleet implements AutoCloseable {
     public void remove(String device) {
         changes.add(() -> {
             joining.remove(device);
-            timetable.remove(device);
-            scene.remove(device);
+            scheduler.remove(device);
+            simulation.remove(device);
             robots.remove(device);
             commands.remove(device);
             connections.remove(device).forEach(opener::close);
@@ -209,7 +209,7 @@ public final class FarmFleet implements AutoCloseable {
             }
             long wait = draining
                     ? POLL_INTERVAL.toNanos()
-                    : timetable.next().map(this::untilDue).orElse(POLL_INTERVAL_WITHOUT_DEVICES.toNanos());
+                    : scheduler.next().map(this::untilDue).orElse(POLL_INTERVAL_WITHOUT_DEVICES.toNanos());
             if (wait > 0 && !closed) {
                 LockSupport.parkNanos(wait);
             }
@@ -228,10 +228,10 @@ public final class FarmFleet implements AutoCloseable {
         Instant now = clock.instant();
         commands.obey(now);
         robots.obey(now);
-        for (Optional<ReportScheduler.Due> due = draining ? Optional.empty() : timetable.take(now);
+        for (Optional<ReportScheduler.Due> due = draining ? Optional.empty() : scheduler.take(now);
                 due.isPresent() && !closed && !draining;
-                due = timetable.take(now)) {
-            scene.report(due.get().device(), due.get().time()).ifPresent(this::send);
+                due = scheduler.take(now)) {
+            simulation.report(due.get().device(), due.get().time()).ifPresent(this::send);
         }
         connections.change().forEach(opener::close);
         connections.push();
@@ -262,14 +262,14 @@ public final class FarmFleet implements AutoCloseable {
         Member member = joining.remove(id);
         if (member != null) {
             admit(member, now);
-            scene.report(member.device(), now).ifPresent(this::send);
+            simulation.report(member.device(), now).ifPresent(this::send);
         }
     }
 
     private void admit(Member member, Instant now) {
         SimulatedDevice device = member.device();
-        scene.add(device, member.since(), now);
-        timetable.add(device, now);
+        simulation.add(device, member.since(), now);
+        scheduler.add(device, now);
         commands.add(device);
         if (device instanceof Robot robot) {
             robots.add(robot, member.scope());

@@ -16,8 +16,8 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.position.Position;
+import io.furrow.simulators.camera.CameraView;
 import io.furrow.simulators.camera.FieldPicture;
-import io.furrow.simulators.camera.View;
 import io.furrow.simulators.robot.FirosEntity;
 import io.furrow.simulators.robot.RobotState;
 import io.furrow.simulators.robot.Trajectory;
@@ -48,7 +48,7 @@ final class FarmSimulation {
         if (device instanceof Robot robot) {
             robots.put(robot.id(), robot);
             double driven = Math.max(0, Duration.between(since, now).toNanos() / NANOS);
-            keep(robot, RobotState.starting(now, robot.driven() + driven));
+            store(robot, RobotState.starting(now, robot.driven() + driven));
         }
     }
 
@@ -95,17 +95,17 @@ final class FarmSimulation {
 
     /** Stops a robot, or lets it continue, from that time on. */
     void command(Robot robot, boolean stop, Instant now) {
-        keep(robot, advance(robot, now).commanded(stop));
+        store(robot, advance(robot, now).commanded(stop));
     }
 
     private RobotState advance(Robot robot, Instant now) {
-        Map<String, Position> others = robot.model().meeting() > 0 ? places : Map.of();
+        Map<String, Position> others = robot.model().encounterDistance() > 0 ? places : Map.of();
         RobotState state = robot.model().advance(states.get(robot.id()), now, others);
-        keep(robot, state);
+        store(robot, state);
         return state;
     }
 
-    private void keep(Robot robot, RobotState state) {
+    private void store(Robot robot, RobotState state) {
         states.put(robot.id(), state);
         places.put(robot.id(), robot.model().pose(state).place());
     }
@@ -139,7 +139,7 @@ final class FarmSimulation {
                 .filter(robot -> !robot.getKey().equals(camera.place().carrier()))
                 .map(Map.Entry::getValue)
                 .toList();
-        View view = new View(now, pose.place(), heading, robotsAround);
+        CameraView view = new CameraView(now, pose.place(), heading, robotsAround);
         ObjectNode json = NODES.objectNode().put("img", Base64.getEncoder().encodeToString(FieldPicture.png(view)));
         shown(camera.battery(), json, now);
         return Optional.of(new Report.Measures(camera.id(), located(json, pose.place(), camera.place(), now)));
@@ -170,7 +170,7 @@ final class FarmSimulation {
     private static Report update(Robot robot, RobotState state) {
         SimulatedDevice.Identity who = robot.identity();
         EntityBuilder entity = FirosEntity.of(who.entity(), robot.model(), state);
-        if (robot.tellsMission()) {
+        if (robot.reportsMission()) {
             entity.text("Domain", who.domain()).text("Mission", who.mission());
         }
         return new Report.Update(who.id(), entity.build());

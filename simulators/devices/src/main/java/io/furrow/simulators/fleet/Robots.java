@@ -15,17 +15,17 @@ final class Robots {
     private static final String RESTART = "restart";
 
     private final FleetSettings settings;
-    private final FarmSimulation scene;
+    private final FarmSimulation simulation;
     private final FleetEvents events;
-    private final Map<FiwareScope, RobotLink> links = new HashMap<>();
+    private final Map<FiwareScope, RobotClient> clients = new HashMap<>();
     private final Map<String, Robot> robots = new HashMap<>();
-    private final Map<String, RobotLink> linkOf = new HashMap<>();
+    private final Map<String, RobotClient> clientOf = new HashMap<>();
     private final Map<String, Instant> restarting = new HashMap<>();
     private Instant polled = Instant.MIN;
 
-    Robots(FleetSettings settings, FarmSimulation scene, FleetEvents events) {
+    Robots(FleetSettings settings, FarmSimulation simulation, FleetEvents events) {
         this.settings = settings;
-        this.scene = scene;
+        this.simulation = simulation;
         this.events = events;
     }
 
@@ -34,14 +34,14 @@ final class Robots {
     }
 
     void add(Robot robot, FiwareScope scope) {
-        RobotLink link = links.computeIfAbsent(scope, this::link);
-        link.add(robot.id(), robot.identity().entity());
+        RobotClient client = clients.computeIfAbsent(scope, this::client);
+        client.add(robot.id(), robot.identity().entity());
         robots.put(robot.id(), robot);
-        linkOf.put(robot.id(), link);
+        clientOf.put(robot.id(), client);
     }
 
-    private RobotLink link(FiwareScope scope) {
-        return new RobotLink(
+    private RobotClient client(FiwareScope scope) {
+        return new RobotClient(
                 new FleetSettings(
                                 settings.contextBroker(), null, null, null, null, scope.service(), scope.servicePath())
                         .withToken(settings.token()),
@@ -51,42 +51,42 @@ final class Robots {
     void remove(String device) {
         Robot robot = robots.remove(device);
         if (robot != null) {
-            linkOf.remove(device).remove(robot.identity().entity());
+            clientOf.remove(device).remove(robot.identity().entity());
         }
     }
 
     void send(Report.Update update) {
-        RobotLink link = linkOf.get(update.device());
-        if (link != null) {
-            link.update(update.entity());
+        RobotClient client = clientOf.get(update.device());
+        if (client != null) {
+            client.update(update.entity());
         }
     }
 
     /** Executes the commands received since the last call. */
     void obey(Instant now) {
-        links.values().forEach(link -> link.orders().forEach(order -> obey(link, order, now)));
+        clients.values().forEach(client -> client.orders().forEach(order -> obey(client, order, now)));
     }
 
-    private void obey(RobotLink link, RobotLink.Order order, Instant now) {
+    private void obey(RobotClient client, RobotClient.Order order, Instant now) {
         Robot robot = robots.get(order.device());
-        switch (order.word()) {
+        switch (order.command()) {
             case "Running", "Resume", "Stop" -> {
-                scene.command(robot, order.word().equals("Stop"), now);
-                link.answer(order.entity(), true, order.word());
+                simulation.command(robot, order.command().equals("Stop"), now);
+                client.answer(order.entity(), true, order.command());
             }
             case "on", "off" -> {
-                scene.switchTo(robot, order.word().equals("on"), now);
-                link.answer(order.entity(), true, order.word());
+                simulation.switchTo(robot, order.command().equals("on"), now);
+                client.answer(order.entity(), true, order.command());
             }
             case RESTART -> {
-                Instant until = now.plus(Commands.RESTART);
-                scene.restart(robot.id(), until);
+                Instant until = now.plus(DeviceCommandExecutor.RESTART);
+                simulation.restart(robot.id(), until);
                 restarting.put(robot.id(), until);
-                link.restart(order.entity());
+                client.restart(order.entity());
             }
             // Without the word itself: the context broker refuses some characters in texts.
             default ->
-                link.answer(order.entity(), false, "no such command: use Running, Stop, Resume, on, off or restart");
+                client.answer(order.entity(), false, "no such command: use Running, Stop, Resume, on, off or restart");
         }
     }
 
@@ -96,7 +96,7 @@ final class Robots {
             boolean back = !now.isBefore(each.getValue());
             Robot robot = robots.get(each.getKey());
             if (back && robot != null) {
-                linkOf.get(robot.id()).answer(robot.identity().entity(), true, RESTART);
+                clientOf.get(robot.id()).answer(robot.identity().entity(), true, RESTART);
             }
             return back;
         });
@@ -107,8 +107,8 @@ final class Robots {
         if (Duration.between(polled, now).compareTo(POLL_INTERVAL) >= 0) {
             polled = now;
             endRestarts(now);
-            links.values().forEach(RobotLink::publishResults);
-            links.values().forEach(RobotLink::poll);
+            clients.values().forEach(RobotClient::publishResults);
+            clients.values().forEach(RobotClient::poll);
         }
     }
 }

@@ -135,18 +135,18 @@ public final class DeviceHostCommand implements Callable<Integer> {
 
     private int runUntilStopped() throws IOException, InterruptedException {
         DeviceHost host = DeviceHost.start(settings());
-        AtomicBoolean asked = new AtomicBoolean();
+        AtomicBoolean requested = new AtomicBoolean();
         Runtime.getRuntime()
                 .addShutdownHook(new Thread(
                         () -> {
-                            asked.set(true);
+                            requested.set(true);
                             host.close();
                         },
                         "device-host-stop"));
         spec.commandLine().getOut().println("Desired devices run until this is stopped.");
         spec.commandLine().getOut().flush();
         host.await();
-        return asked.get() ? 0 : 1;
+        return requested.get() ? 0 : 1;
     }
 
     private HostSettings settings() throws IOException {

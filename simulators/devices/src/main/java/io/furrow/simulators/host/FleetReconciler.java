@@ -27,8 +27,8 @@ import io.furrow.simulators.desired.DeviceReconciler.Step;
 import io.furrow.simulators.fleet.FarmFleet;
 import io.furrow.simulators.robot.WorkField;
 import io.furrow.simulators.scenario.DesiredDeviceReader;
+import io.furrow.simulators.scenario.InvalidScenarioException;
 import io.furrow.simulators.scenario.SimulatedDevice;
-import io.furrow.simulators.scenario.UnusableScenarioException;
 
 /**
  * Reconciles a fleet with the desired devices. A device that cannot be created is retried when a field or robot appears
@@ -40,7 +40,7 @@ final class FleetReconciler {
 
     private final Consumer<Collection<FarmFleet.Member>> add;
     private final Consumer<String> remove;
-    private final StatusPublisher board;
+    private final StatusPublisher statusPublisher;
     private final long seed;
     private final DeviceReconciler reconciler = new DeviceReconciler();
     private final Map<String, DesiredDevice> desired = new HashMap<>();
@@ -56,16 +56,19 @@ final class FleetReconciler {
      * @param remove removes a device from it
      */
     FleetReconciler(
-            Consumer<Collection<FarmFleet.Member>> add, Consumer<String> remove, StatusPublisher board, long seed) {
+            Consumer<Collection<FarmFleet.Member>> add,
+            Consumer<String> remove,
+            StatusPublisher statusPublisher,
+            long seed) {
         this.add = add;
         this.remove = remove;
-        this.board = board;
+        this.statusPublisher = statusPublisher;
         this.seed = seed;
         this.reader = new DesiredDeviceReader(Map.of(), seed);
     }
 
     /** Changes the fields for new devices; running ones stay as they are. */
-    void know(Map<String, WorkField> fields) {
+    void update(Map<String, WorkField> fields) {
         reader = new DesiredDeviceReader(fields, seed);
         start(retried());
     }
@@ -120,7 +123,7 @@ final class FleetReconciler {
             }
             Step step = reconciler.take(key, device).orElse(null);
             if (step == null && device == null) {
-                board.ended(key, null);
+                statusPublisher.ended(key, null);
             } else if (step != null) {
                 end(step);
                 if (step instanceof Step.Start || step instanceof Step.Replace) {
@@ -140,13 +143,13 @@ final class FleetReconciler {
             remove.accept(replace.before().device());
         } else if (step instanceof Step.Stop stop) {
             remove.accept(stop.before().device());
-            board.ended(step.key(), reconciler.done(step, null).orElse(null));
+            statusPublisher.ended(step.key(), reconciler.done(step, null).orElse(null));
         } else if (step instanceof Step.Confirm) {
             DeviceStatus status = reconciler.done(step, null).orElse(null);
             if (status != null && status.state() == DeviceStatus.State.RUNNING) {
-                board.confirmed(step.key(), status);
+                statusPublisher.confirmed(step.key(), status);
             } else {
-                board.ended(step.key(), status);
+                statusPublisher.ended(step.key(), status);
             }
         }
     }
@@ -165,10 +168,10 @@ final class FleetReconciler {
             try {
                 FarmFleet.Member member = member(step.key(), device);
                 DeviceStatus running = reconciler.done(step, null).orElseThrow();
-                board.begun(step.key(), device.device(), running);
+                statusPublisher.begun(step.key(), device.device(), running);
                 missions.computeIfAbsent(device.version().mission(), none -> new ArrayList<>())
                         .add(member);
-            } catch (UnusableScenarioException e) {
+            } catch (InvalidScenarioException e) {
                 failed(step, device, e.getMessage());
             } catch (RuntimeException e) { // such as unforeseen geometry; other devices shall run
                 LOG.warn("device {} cannot be simulated", device.device(), e);
@@ -180,22 +183,22 @@ final class FleetReconciler {
 
     private void failed(Step step, DesiredDevice device, String reason) {
         stuck.put(step.key(), new Step.Start(step.key(), device));
-        board.ended(step.key(), reconciler.done(step, reason).orElseThrow());
+        statusPublisher.ended(step.key(), reconciler.done(step, reason).orElseThrow());
     }
 
-    private FarmFleet.Member member(String key, DesiredDevice device) throws UnusableScenarioException {
+    private FarmFleet.Member member(String key, DesiredDevice device) throws InvalidScenarioException {
         DeviceVersion version = device.version();
         FiwareScope scope = new FiwareScope(version.service(), version.servicePath());
         SimulatedDevice simulated = reader.read(device);
-        String taken = board.keyOf(device.device()).orElse(key);
+        String taken = statusPublisher.keyOf(device.device()).orElse(key);
         if (!taken.equals(key)) {
-            throw new UnusableScenarioException(
+            throw new InvalidScenarioException(
                     "device", "'%s' runs here already, for %s".formatted(device.device(), taken));
         }
         if (version.carriedBy() != null) {
             DesiredDevice carrier = desired.get(scope.identity(version.carriedBy()));
             if (carrier == null || !ROBOT.equals(carrier.type()) || !carrier.running()) {
-                throw new UnusableScenarioException(
+                throw new InvalidScenarioException(
                         "carriedBy", "'%s' is no robot that runs here".formatted(version.carriedBy()));
             }
         }
@@ -203,9 +206,9 @@ final class FleetReconciler {
     }
 
     /** Deletes statuses of devices that are no longer on the topic. */
-    void forgetAllBut(Set<String> said) {
-        said.stream()
+    void forgetAllBut(Set<String> reported) {
+        reported.stream()
                 .filter(key -> !desired.containsKey(key) && !unresolved.containsKey(key))
-                .forEach(key -> board.ended(key, null));
+                .forEach(key -> statusPublisher.ended(key, null));
     }
 }

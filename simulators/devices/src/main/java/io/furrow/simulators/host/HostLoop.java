@@ -29,13 +29,13 @@ final class HostLoop implements AutoCloseable {
     private static final Duration RETRY_BACKOFF = Duration.ofSeconds(1);
 
     private final Clock clock = Clock.systemUTC();
-    private final DesiredRecords records;
+    private final DesiredStateConsumer records;
     private final StatusRecords statuses;
     private final FarmFleet fleet;
-    private final StatusPublisher board;
-    private final FleetReconciler hosting;
+    private final StatusPublisher statusPublisher;
+    private final FleetReconciler reconciler;
     private final FarmSecretCheck secret;
-    private final KnownFields fields = new KnownFields();
+    private final FieldCache fields = new FieldCache();
     private final Queue<Runnable> events = new ConcurrentLinkedQueue<>();
     private volatile boolean caughtUp;
     private volatile Instant lastPoll;
@@ -46,13 +46,13 @@ final class HostLoop implements AutoCloseable {
                 .withToken(settings.token());
         this.secret = new FarmSecretCheck(settings.secret());
         FleetAccess access = new FleetAccess(fiware, settings.mqtt(), FleetAccess.Logins.of(secret));
-        this.records = new DesiredRecords(
+        this.records = new DesiredStateConsumer(
                 kafka,
                 List.of(Topics.DEVICES, Topics.MISSION_DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS, Topics.SECRETS));
         this.statuses = new StatusRecords(kafka);
-        this.board = new StatusPublisher(statuses::publish);
+        this.statusPublisher = new StatusPublisher(statuses::publish);
         this.fleet = FarmFleet.open(access, mission -> secret.get().apiKey(mission), new EventQueue());
-        this.hosting = new FleetReconciler(fleet::add, fleet::remove, board, settings.seed());
+        this.reconciler = new FleetReconciler(fleet::add, fleet::remove, statusPublisher, settings.seed());
     }
 
     boolean isCaughtUp() {
@@ -100,16 +100,16 @@ final class HostLoop implements AutoCloseable {
         }
         if (fresh.containsKey(Topics.FIELDS)) {
             fields.take(fresh.get(Topics.FIELDS));
-            hosting.know(fields.at(System.currentTimeMillis()));
+            reconciler.update(fields.at(System.currentTimeMillis()));
         }
         if (fresh.containsKey(Topics.MISSION_DEVICES)) {
-            hosting.takeLists(fresh.get(Topics.MISSION_DEVICES));
+            reconciler.takeLists(fresh.get(Topics.MISSION_DEVICES));
         }
         if (fresh.containsKey(Topics.DEVICES)) {
-            hosting.take(read(fresh.get(Topics.DEVICES)));
+            reconciler.take(read(fresh.get(Topics.DEVICES)));
         }
         if (!caughtUp && records.isCaughtUp()) {
-            hosting.forgetAllBut(statuses.keys());
+            reconciler.forgetAllBut(statuses.keys());
             caughtUp = true;
         }
         for (Runnable next = events.poll(); next != null; next = events.poll()) {
@@ -134,12 +134,12 @@ final class HostLoop implements AutoCloseable {
     private final class EventQueue implements FleetEvents {
         @Override
         public void up(String device) {
-            events.add(() -> board.up(device));
+            events.add(() -> statusPublisher.up(device));
         }
 
         @Override
         public void failed(String device, int attempts, String reason) {
-            events.add(() -> board.failed(device, attempts, reason));
+            events.add(() -> statusPublisher.failed(device, attempts, reason));
         }
     }
 }

@@ -9,9 +9,9 @@ import java.util.concurrent.TimeUnit;
 import java.util.concurrent.locks.LockSupport;
 import java.util.stream.IntStream;
 
+import io.furrow.simulators.device.DeviceRegistration;
 import io.furrow.simulators.device.FleetSettings;
-import io.furrow.simulators.device.IotAgent;
-import io.furrow.simulators.device.Registration;
+import io.furrow.simulators.device.IotAgentClient;
 import io.furrow.simulators.mqtt.MqttAccess;
 import io.furrow.simulators.mqtt.MqttConnection;
 
@@ -54,7 +54,7 @@ public final class LoadFleet implements AutoCloseable {
      * @throws IOException if the IoT Agent is unavailable or refuses
      */
     public static void provision(FleetSettings settings, LoadPlan plan) throws IOException, InterruptedException {
-        new IotAgent(settings)
+        new IotAgentClient(settings)
                 .provision(
                         API_KEY,
                         IntStream.range(0, plan.devices())
@@ -179,15 +179,15 @@ public final class LoadFleet implements AutoCloseable {
         }
     }
 
-    private static Registration registration(LoadPlan plan, int device) {
-        return new Registration(
+    private static DeviceRegistration registration(LoadPlan plan, int device) {
+        return new DeviceRegistration(
                 id(plan, device),
-                new Registration.Entity("urn:ngsi-ld:Device:" + id(plan, device), "Device"),
+                new DeviceRegistration.Entity("urn:ngsi-ld:Device:" + id(plan, device), "Device"),
                 List.of(
-                        new Registration.Attribute("time", "Time", "Integer"),
-                        new Registration.Attribute("stat", "Status", "Boolean"),
-                        new Registration.Attribute("payload", "Payload", "String")),
-                new Registration.MissionOf(plan.domain(), plan.mission()),
+                        new DeviceRegistration.Attribute("time", "Time", "Integer"),
+                        new DeviceRegistration.Attribute("stat", "Status", "Boolean"),
+                        new DeviceRegistration.Attribute("payload", "Payload", "String")),
+                new DeviceRegistration.MissionOf(plan.domain(), plan.mission()),
                 List.of());
     }
 

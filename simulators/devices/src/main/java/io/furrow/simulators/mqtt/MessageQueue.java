@@ -10,10 +10,10 @@ import java.util.TreeMap;
 final class MessageQueue {
     private static final int BYTES_BESIDES = 250;
 
-    private final int most;
-    private final long mostBytes;
+    private final int maxMessages;
+    private final long maxBytes;
     private final TreeMap<Long, Message> waiting = new TreeMap<>();
-    private final TreeMap<Long, Message> underWay = new TreeMap<>();
+    private final TreeMap<Long, Message> inFlight = new TreeMap<>();
     private long number;
     private long acknowledged;
     private long dropped;
@@ -27,19 +27,19 @@ final class MessageQueue {
     }
 
     /**
-     * @param most waiting messages
+     * @param maxMessages waiting messages
      *
-     * @param mostBytes memory of all messages, approximate
+     * @param maxBytes memory of all messages, approximate
      */
-    MessageQueue(int most, long mostBytes) {
-        this.most = most;
-        this.mostBytes = mostBytes;
+    MessageQueue(int maxMessages, long maxBytes) {
+        this.maxMessages = maxMessages;
+        this.maxBytes = maxBytes;
     }
 
     void add(Message message) {
         waiting.put(number++, message);
         bytes += message.bytes();
-        while (waiting.size() > most || bytes > mostBytes && waiting.size() > 1) {
+        while (waiting.size() > maxMessages || bytes > maxBytes && waiting.size() > 1) {
             bytes -= waiting.pollFirstEntry().getValue().bytes();
             dropped++;
         }
@@ -51,12 +51,12 @@ final class MessageQueue {
     }
 
     void sent(long sent) {
-        underWay.put(sent, waiting.remove(sent));
+        inFlight.put(sent, waiting.remove(sent));
     }
 
     /** Accepts an acknowledgement, also a late one, when the message waits again. */
     void acknowledged(long sent) {
-        Message message = underWay.remove(sent);
+        Message message = inFlight.remove(sent);
         if (message == null) {
             message = waiting.remove(sent);
         }
@@ -68,22 +68,22 @@ final class MessageQueue {
 
     /** After a disconnect no message in flight is sure to have arrived. */
     void broken() {
-        waiting.putAll(underWay);
-        underWay.clear();
+        waiting.putAll(inFlight);
+        inFlight.clear();
     }
 
     /** The number of the oldest message in flight; null if none is. */
-    Long oldestUnderWay() {
-        return underWay.isEmpty() ? null : underWay.firstKey();
+    Long oldestInFlight() {
+        return inFlight.isEmpty() ? null : inFlight.firstKey();
     }
 
-    int underWay() {
-        return underWay.size();
+    int inFlight() {
+        return inFlight.size();
     }
 
     /** Messages not acknowledged yet. */
     int open() {
-        return waiting.size() + underWay.size();
+        return waiting.size() + inFlight.size();
     }
 
     long acknowledged() {

@@ -35,7 +35,7 @@ public final class MqttConnection implements MqttCallbackExtended, AutoCloseable
      * Time for a broker to accept or refuse. Paho itself waits forever for a broker that does not answer, or where a
      * connection is cut while Paho starts its threads.
      */
-    static final Duration ANSWERED_WITHIN = Duration.ofSeconds(15);
+    static final Duration RESPONSE_TIMEOUT = Duration.ofSeconds(15);
 
     /** Enough for 10,000 in a second; brokers drop what they are given faster than they can take it. */
     private static final int INFLIGHT = 100;
@@ -49,9 +49,9 @@ public final class MqttConnection implements MqttCallbackExtended, AutoCloseable
     private final MqttAccess access;
     private final MqttAccess.Login login;
     private final MqttAsyncClient client;
-    private MessageQueue outbox;
+    private MessageQueue queue;
     private final Queue<Long> acknowledgements = new ConcurrentLinkedQueue<>();
-    private final BiConsumer<String, byte[]> heard;
+    private final BiConsumer<String, byte[]> received;
     private final String[] topics;
     private final int inflight;
     private volatile boolean closed;
@@ -66,61 +66,62 @@ public final class MqttConnection implements MqttCallbackExtended, AutoCloseable
      * @param login user name and password
      * @param name start of the client id; its end is random, so that two fleets do not evict each other
      * @param topics subscribed to, again after each reconnect
-     * @param keptMessages how many may wait for the broker, at QoS 1
-     * @param keptBytes memory that they may take, about
+     * @param maxMessages how many may wait for the broker, at QoS 1
+     * @param maxBytes memory that they may take, about
      * @param inflight how many may be sent and not acknowledged
      */
     public record Plan(
             MqttAccess.Login login,
             String name,
             Collection<String> topics,
-            int keptMessages,
-            long keptBytes,
+            int maxMessages,
+            long maxBytes,
             int inflight) {
         /** With {@value #INFLIGHT} messages in flight. */
-        public Plan(MqttAccess.Login login, String name, Collection<String> topics, int keptMessages, long keptBytes) {
-            this(login, name, topics, keptMessages, keptBytes, INFLIGHT);
+        public Plan(MqttAccess.Login login, String name, Collection<String> topics, int maxMessages, long maxBytes) {
+            this(login, name, topics, maxMessages, maxBytes, INFLIGHT);
         }
     }
 
-    private MqttConnection(MqttAccess access, Plan plan, MqttAsyncClient client, BiConsumer<String, byte[]> heard) {
+    private MqttConnection(MqttAccess access, Plan plan, MqttAsyncClient client, BiConsumer<String, byte[]> received) {
         this.access = access;
         this.login = plan.login();
-        this.outbox = new MessageQueue(plan.keptMessages(), plan.keptBytes());
+        this.queue = new MessageQueue(plan.maxMessages(), plan.maxBytes());
         this.topics = plan.topics().toArray(String[]::new);
         this.inflight = plan.inflight();
         this.client = client;
-        this.heard = heard;
+        this.received = received;
     }
 
     /**
      * Connects.
      *
-     * @param heard receives topic and payload of messages, on a thread of the client
+     * @param received receives topic and payload of messages, on a thread of the client
      * @throws IOException naming broker and user, if the broker is unavailable, refuses, or does not answer
      */
-    public static MqttConnection open(MqttAccess access, Plan plan, BiConsumer<String, byte[]> heard)
+    public static MqttConnection open(MqttAccess access, Plan plan, BiConsumer<String, byte[]> received)
             throws IOException {
-        return open(access, plan, heard, ANSWERED_WITHIN);
+        return open(access, plan, received, RESPONSE_TIMEOUT);
     }
 
-    static MqttConnection open(MqttAccess access, Plan plan, BiConsumer<String, byte[]> heard, Duration answeredWithin)
+    static MqttConnection open(
+            MqttAccess access, Plan plan, BiConsumer<String, byte[]> received, Duration responseTimeout)
             throws IOException {
         String id = plan.name() + "-" + UUID.randomUUID().toString().substring(0, 8);
         boolean open = false;
-        MqttConnection line = null;
+        MqttConnection connection = null;
         try {
             MqttAsyncClient client = new MqttAsyncClient(access.broker().toString(), id, new MemoryPersistence());
-            line = new MqttConnection(access, plan, client, heard);
-            client.setCallback(line);
-            client.connect(line.options()).waitForCompletion(answeredWithin.toMillis());
+            connection = new MqttConnection(access, plan, client, received);
+            client.setCallback(connection);
+            client.connect(connection.options()).waitForCompletion(responseTimeout.toMillis());
             open = true;
-            return line;
+            return connection;
         } catch (MqttException e) {
             throw new IOException(access.refusal(plan.login(), e), e);
         } finally {
-            if (!open && line != null) {
-                line.close();
+            if (!open && connection != null) {
+                connection.close();
             }
         }
     }
@@ -129,14 +130,14 @@ public final class MqttConnection implements MqttCallbackExtended, AutoCloseable
      * Takes over the unacknowledged messages of another connection of the same device, which must not be used any more.
      */
     public void takeOver(MqttConnection other) {
-        outbox = other.outbox;
-        outbox.broken();
+        queue = other.queue;
+        queue.broken();
     }
 
     /** Publishes a message, at once if connected; with QoS 0 only then. */
     public void send(String topic, byte[] payload) {
         if (access.qos() == 1) {
-            outbox.add(new MessageQueue.Message(topic, payload));
+            queue.add(new MessageQueue.Message(topic, payload));
             push();
         } else if (ready()) {
             publish(topic, payload, 0, null);
@@ -146,27 +147,27 @@ public final class MqttConnection implements MqttCallbackExtended, AutoCloseable
     /** Sends waiting messages; reconnects if needed, at most once a second. */
     public void push() {
         for (Long number = acknowledgements.poll(); number != null; number = acknowledgements.poll()) {
-            outbox.acknowledged(number);
+            queue.acknowledged(number);
         }
         disconnectIfStalled();
         if (!ready()) {
-            outbox.broken();
+            queue.broken();
             return;
         }
-        for (Map.Entry<Long, MessageQueue.Message> next = outbox.first();
-                next != null && outbox.underWay() < inflight;
-                next = outbox.first()) {
+        for (Map.Entry<Long, MessageQueue.Message> next = queue.first();
+                next != null && queue.inFlight() < inflight;
+                next = queue.first()) {
             MessageQueue.Message message = next.getValue();
             if (!publish(message.topic(), message.payload(), 1, new Acknowledgement(next.getKey()))) {
                 return;
             }
-            outbox.sent(next.getKey());
+            queue.sent(next.getKey());
         }
     }
 
     /** A broker that dropped a message acknowledges it only when it comes again over another connection. */
     private void disconnectIfStalled() {
-        Long oldest = outbox.oldestUnderWay();
+        Long oldest = queue.oldestInFlight();
         if (oldest == null || !oldest.equals(watched)) {
             watched = oldest;
             watchedSince = System.nanoTime();
@@ -183,17 +184,17 @@ public final class MqttConnection implements MqttCallbackExtended, AutoCloseable
 
     /** Messages acknowledged by the broker, at QoS 1. */
     public long acknowledged() {
-        return outbox.acknowledged();
+        return queue.acknowledged();
     }
 
     /** Messages not acknowledged yet, at QoS 1. */
     public int open() {
-        return outbox.open();
+        return queue.open();
     }
 
     /** Messages dropped because too many waited. */
     public long dropped() {
-        return outbox.dropped();
+        return queue.dropped();
     }
 
     @Override
@@ -219,7 +220,7 @@ public final class MqttConnection implements MqttCallbackExtended, AutoCloseable
 
     @Override
     public void messageArrived(String topic, MqttMessage message) {
-        heard.accept(topic, message.getPayload());
+        received.accept(topic, message.getPayload());
     }
 
     @Override

@@ -14,16 +14,16 @@ import io.furrow.model.position.Position;
  * A robot on its way. Of two robots that come near each other the one with the smaller id continues; the other, if it has it ahead,
  * waits until it has passed, but not longer than its patience, so that no two wait forever.
  *
- * @param meeting meters within which it lets another robot pass; 0 to ignore others
- * @param patience maximum time of waiting for another
+ * @param encounterDistance meters within which it lets another robot pass; 0 to ignore others
+ * @param maxWait maximum time of waiting for another
  */
-public record RobotModel(String id, Trajectory way, double meeting, Duration patience) {
+public record RobotModel(String id, Trajectory way, double encounterDistance, Duration maxWait) {
     private static final double NANOS = 1e9;
 
     public RobotModel {
-        if (!(meeting >= 0) || patience.isNegative()) {
-            throw new IllegalArgumentException(
-                    "meeting distance and patience must not be negative: %s m, %s".formatted(meeting, patience));
+        if (!(encounterDistance >= 0) || maxWait.isNegative()) {
+            throw new IllegalArgumentException("meeting distance and patience must not be negative: %s m, %s"
+                    .formatted(encounterDistance, maxWait));
         }
     }
 
@@ -51,7 +51,7 @@ public record RobotModel(String id, Trajectory way, double meeting, Duration pat
         }
         Optional<String> met = met(state, others);
         boolean passes = met.isPresent()
-                && (met.get().equals(state.passing()) || state.waited().compareTo(patience) >= 0);
+                && (met.get().equals(state.passing()) || state.waited().compareTo(maxWait) >= 0);
         if (met.isPresent() && !passes) {
             return new RobotState(
                     now, state.driven(), Activity.WAITING, state.waited().plus(step), null);
@@ -65,7 +65,7 @@ public record RobotModel(String id, Trajectory way, double meeting, Duration pat
         Trajectory.Pose pose = pose(state);
         return others.keySet().stream()
                 .filter(other -> other.compareTo(id) < 0)
-                .filter(other -> distance(pose, others.get(other)) < meeting)
+                .filter(other -> distance(pose, others.get(other)) < encounterDistance)
                 .filter(other -> ahead(pose, others.get(other)))
                 .min(Comparator.comparingDouble((String other) -> distance(pose, others.get(other)))
                         .thenComparing(Comparator.naturalOrder()));
@@ -73,7 +73,7 @@ public record RobotModel(String id, Trajectory way, double meeting, Duration pat
 
     private String stillNear(RobotState state, Map<String, Position> others) {
         Position other = state.passing() == null ? null : others.get(state.passing());
-        return other != null && distance(pose(state), other) < meeting ? state.passing() : null;
+        return other != null && distance(pose(state), other) < encounterDistance ? state.passing() : null;
     }
 
     private double distance(Trajectory.Pose pose, Position other) {

@@ -126,10 +126,10 @@ public final class Trajectory {
         }
         double time = seconds % lap;
         int stretch = stretchAt(time);
-        double gone = (time - leaves[stretch]) * speed;
+        double driven = (time - leaves[stretch]) * speed;
         double length = points[stretch].distance(points[stretch + 1]);
-        if (gone <= length) {
-            Coordinate here = between(points[stretch], points[stretch + 1], gone / length);
+        if (driven <= length) {
+            Coordinate here = between(points[stretch], points[stretch + 1], driven / length);
             return new Pose(here, plane.toPosition(here), headings[stretch], false);
         }
         return turningAfter(stretch, time - leaves[stretch] - length / speed);

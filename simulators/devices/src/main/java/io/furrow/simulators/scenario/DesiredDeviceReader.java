@@ -28,7 +28,7 @@ public final class DesiredDeviceReader {
     private static final Map<String, Duration> PERIODS =
             Map.of("Robot", Duration.ofSeconds(1), "Camera", Duration.ofSeconds(10));
     private static final String ROBOT = "Robot";
-    private static final Set<String> KNOWN = Set.of("Thermometer", "WeatherStation", "Camera", ROBOT);
+    private static final Set<String> SIMULATED_TYPES = Set.of("Thermometer", "WeatherStation", "Camera", ROBOT);
     private static final List<String> NO_PARAMETERS = List.of(
             "type",
             "id",
@@ -61,9 +61,9 @@ public final class DesiredDeviceReader {
     /**
      * Creates the device. Times of its faults and its way count from the start of the desired record.
      *
-     * @throws UnusableScenarioException naming the setting, the mistake and the remedy
+     * @throws InvalidScenarioException naming the setting, the mistake and the remedy
      */
-    public SimulatedDevice read(DesiredDevice desired) throws UnusableScenarioException {
+    public SimulatedDevice read(DesiredDevice desired) throws InvalidScenarioException {
         Identity identity = new Identity(
                 desired.device(),
                 desired.version().id(),
@@ -77,7 +77,7 @@ public final class DesiredDeviceReader {
         if (desired.settings().has("faults")) {
             entry.set("faults", desired.settings().get("faults"));
         }
-        if (!KNOWN.contains(desired.type()) && desired.settings().has("attributes")) {
+        if (!SIMULATED_TYPES.contains(desired.type()) && desired.settings().has("attributes")) {
             ArrayNode attributes = entry.putArray("attributes");
             desired.settings()
                     .get("attributes")
@@ -88,15 +88,15 @@ public final class DesiredDeviceReader {
         FaultReader faults =
                 new FaultReader(Instant.ofEpochMilli(desired.version().from()));
         return new GroupReader(where, faults, seed)
-                .single(JsonMembers.of(entry, ""), identity, number(identity.entity()));
+                .single(ScenarioObjectReader.of(entry, ""), identity, number(identity.entity()));
     }
 
-    private static ObjectNode parameters(ObjectNode settings) throws UnusableScenarioException {
+    private static ObjectNode parameters(ObjectNode settings) throws InvalidScenarioException {
         ObjectNode entry = NODES.objectNode();
         if (settings.get("parameters") instanceof ObjectNode parameters) {
             for (String name : NO_PARAMETERS) {
                 if (parameters.has(name)) {
-                    throw new UnusableScenarioException(
+                    throw new InvalidScenarioException(
                             "parameters." + name, "is no parameter; say it of the device itself");
                 }
             }
@@ -106,12 +106,12 @@ public final class DesiredDeviceReader {
     }
 
     /** Writes the place of the device into its entry; returns the reader with the fields named there. */
-    private PlaceReader place(DesiredDevice desired, ObjectNode entry) throws UnusableScenarioException {
+    private PlaceReader place(DesiredDevice desired, ObjectNode entry) throws InvalidScenarioException {
         ObjectNode settings = desired.settings();
         String carrier = desired.version().carriedBy();
         boolean robot = desired.type().equals(ROBOT);
         if (robot && carrier != null) {
-            throw new UnusableScenarioException("carriedBy", "a robot goes by itself; leave it out");
+            throw new InvalidScenarioException("carriedBy", "a robot goes by itself; leave it out");
         }
         if (carrier != null) {
             entry.put("carriedBy", deviceOf(carrier));
@@ -129,7 +129,7 @@ public final class DesiredDeviceReader {
             return places;
         }
         if (!settings.has("area")) {
-            throw new UnusableScenarioException(
+            throw new InvalidScenarioException(
                     "area",
                     robot
                             ? "is missing; a robot needs an area, which it works row by row, or a path"
@@ -138,7 +138,7 @@ public final class DesiredDeviceReader {
         return area(settings, entry, robot);
     }
 
-    private PlaceReader area(ObjectNode settings, ObjectNode entry, boolean robot) throws UnusableScenarioException {
+    private PlaceReader area(ObjectNode settings, ObjectNode entry, boolean robot) throws InvalidScenarioException {
         JsonNode area = settings.get("area");
         String field = area.isObject() ? "area" : area.asText();
         if (robot) {
@@ -155,7 +155,7 @@ public final class DesiredDeviceReader {
         return area.isObject() ? drawnPlaces((ObjectNode) area) : places;
     }
 
-    private PlaceReader drawnPlaces(ObjectNode area) throws UnusableScenarioException {
+    private PlaceReader drawnPlaces(ObjectNode area) throws InvalidScenarioException {
         if (area != drawnArea) {
             drawnPlaces = new PlaceReader(Map.of("area", drawn(area)));
             drawnArea = area;
@@ -163,19 +163,19 @@ public final class DesiredDeviceReader {
         return drawnPlaces;
     }
 
-    private static WorkField drawn(ObjectNode area) throws UnusableScenarioException {
+    private static WorkField drawn(ObjectNode area) throws InvalidScenarioException {
         try {
             return WorkField.largestOf("area", area);
         } catch (IllegalArgumentException e) {
-            UnusableScenarioException refused = new UnusableScenarioException("area", e.getMessage());
+            InvalidScenarioException refused = new InvalidScenarioException("area", e.getMessage());
             refused.initCause(e);
             throw refused;
         }
     }
 
-    private static ArrayNode route(JsonNode path) throws UnusableScenarioException {
+    private static ArrayNode route(JsonNode path) throws InvalidScenarioException {
         if (path.isEmpty()) {
-            throw new UnusableScenarioException("path", "has no point; give at least one [longitude, latitude]");
+            throw new InvalidScenarioException("path", "has no point; give at least one [longitude, latitude]");
         }
         ArrayNode route = NODES.arrayNode();
         for (JsonNode point : path) {

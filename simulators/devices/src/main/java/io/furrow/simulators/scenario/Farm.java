@@ -30,13 +30,14 @@ public record Farm(String apiKey, List<SimulatedDevice> devices) {
      * Reads a farm from its file; the same file and start always give the same farm.
      *
      * @param start base of {@code after} in faults
-     * @throws UnusableScenarioException naming the member, the mistake and the remedy
+     * @throws InvalidScenarioException naming the member, the mistake and the remedy
      */
     public static Farm read(InputStream json, Instant start) throws IOException {
         try {
-            return new FarmReader(start).farm(JsonMembers.of(NgsiJson.mapper().readTree(json), ""));
+            return new FarmReader(start)
+                    .farm(ScenarioObjectReader.of(NgsiJson.mapper().readTree(json), ""));
         } catch (JsonProcessingException e) {
-            UnusableScenarioException refused = new UnusableScenarioException(
+            InvalidScenarioException refused = new InvalidScenarioException(
                     "line " + e.getLocation().getLineNr(), "is not valid JSON: " + JsonProblem.words(e));
             refused.initCause(e);
             throw refused;

@@ -28,17 +28,17 @@ final class FarmReader {
         this.start = start;
     }
 
-    Farm farm(JsonMembers file) throws UnusableScenarioException {
+    Farm farm(ScenarioObjectReader file) throws InvalidScenarioException {
         PlaceReader places = new PlaceReader(fields(file));
         GroupReader groups = new GroupReader(places, new FaultReader(start), file.whole("seed", 0, Long.MAX_VALUE, 0));
         String apiKey = name(file, "apiKey");
         List<SimulatedDevice> devices = new ArrayList<>();
-        for (JsonMembers mission : file.objects("missions")) {
+        for (ScenarioObjectReader mission : file.objects("missions")) {
             List<SimulatedDevice> loose = new ArrayList<>();
-            Map<SimulatedDevice, JsonMembers> from = new LinkedHashMap<>();
+            Map<SimulatedDevice, ScenarioObjectReader> from = new LinkedHashMap<>();
             String domain = name(mission, "domain");
             String named = name(mission, "mission");
-            for (JsonMembers group : mission.objects("devices")) {
+            for (ScenarioObjectReader group : mission.objects("devices")) {
                 for (SimulatedDevice device : groups.devices(group, domain, named)) {
                     register(device, group);
                     loose.add(device);
@@ -54,7 +54,7 @@ final class FarmReader {
         return new Farm(apiKey, List.copyOf(devices));
     }
 
-    private static Map<String, WorkField> fields(JsonMembers file) throws UnusableScenarioException {
+    private static Map<String, WorkField> fields(ScenarioObjectReader file) throws InvalidScenarioException {
         Map<String, WorkField> fields = new LinkedHashMap<>();
         if (!file.has("fields")) {
             return fields;
@@ -65,10 +65,10 @@ final class FarmReader {
             try {
                 WorkField field = WorkField.of(feature);
                 if (fields.put(field.id(), field) != null) {
-                    throw new UnusableScenarioException(at, "field '" + field.id() + "' is defined twice");
+                    throw new InvalidScenarioException(at, "field '" + field.id() + "' is defined twice");
                 }
             } catch (IllegalArgumentException e) {
-                UnusableScenarioException refused = new UnusableScenarioException(at, e.getMessage());
+                InvalidScenarioException refused = new InvalidScenarioException(at, e.getMessage());
                 refused.initCause(e);
                 throw refused;
             }
@@ -76,7 +76,7 @@ final class FarmReader {
         return fields;
     }
 
-    private static String name(JsonMembers json, String member) throws UnusableScenarioException {
+    private static String name(ScenarioObjectReader json, String member) throws InvalidScenarioException {
         String name = json.text(member);
         if (!NAME.matcher(name).matches()) {
             throw json.refused(member, "must be 1 to 64 of A-Z a-z 0-9 _ -, not '" + name + "'");
@@ -84,7 +84,7 @@ final class FarmReader {
         return name;
     }
 
-    private void register(SimulatedDevice device, JsonMembers group) throws UnusableScenarioException {
+    private void register(SimulatedDevice device, ScenarioObjectReader group) throws InvalidScenarioException {
         if (!NAME.matcher(device.id()).matches()) {
             throw group.refused("id", "must be 1 to 64 of A-Z a-z 0-9 _ -, not '" + device.id() + "'");
         }
@@ -95,8 +95,8 @@ final class FarmReader {
         }
     }
 
-    private static void free(Map<String, String> taken, String value, JsonMembers group, String member)
-            throws UnusableScenarioException {
+    private static void free(Map<String, String> taken, String value, ScenarioObjectReader group, String member)
+            throws InvalidScenarioException {
         String by = taken.put(value, group.path());
         if (by != null) {
             throw group.refused(member, "'%s' is taken by %s; give it another".formatted(value, by));
@@ -104,7 +104,8 @@ final class FarmReader {
     }
 
     /** Resolves the carrier: the robot of the same number, or the one robot that carries the whole group. */
-    private SimulatedDevice carried(SimulatedDevice device, JsonMembers group) throws UnusableScenarioException {
+    private SimulatedDevice carried(SimulatedDevice device, ScenarioObjectReader group)
+            throws InvalidScenarioException {
         if (device instanceof Sensor sensor && sensor.place().carrier() != null) {
             return new Sensor(
                     sensor.identity(), sensor.period(), found(sensor.place(), device, group), sensor.quantities());
@@ -121,9 +122,10 @@ final class FarmReader {
         return device;
     }
 
-    private Place found(Place place, SimulatedDevice device, JsonMembers group) throws UnusableScenarioException {
-        String said = group.text("carriedBy");
-        for (String carrier : List.of(place.carrier(), said)) {
+    private Place found(Place place, SimulatedDevice device, ScenarioObjectReader group)
+            throws InvalidScenarioException {
+        String carriedBy = group.text("carriedBy");
+        for (String carrier : List.of(place.carrier(), carriedBy)) {
             if (device.identity().mission().equals(robots.get(carrier))) {
                 return new Place(place.where(), null, carrier);
             }

@@ -9,9 +9,9 @@ import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-import io.furrow.simulators.signal.Draw;
-import io.furrow.simulators.signal.Fault;
-import io.furrow.simulators.signal.Span;
+import io.furrow.simulators.signal.RandomStream;
+import io.furrow.simulators.signal.SensorFault;
+import io.furrow.simulators.signal.TimeWindow;
 
 /** Reads the faults of a device: {@code "faults": [{"kind": "drift", "perHour": 2, "after": "PT10M"}]}. */
 final class FaultReader {
@@ -24,7 +24,7 @@ final class FaultReader {
     }
 
     /** @param attribute affected attribute; null for all */
-    record Wrong(String attribute, Fault fault) {}
+    record Wrong(String attribute, SensorFault fault) {}
 
     /**
      * The faults of one device of a group.
@@ -32,14 +32,14 @@ final class FaultReader {
      * @param number of the device in its group, from 1
      * @param attributes names; a fault that names none affects the first
      */
-    List<Wrong> faults(JsonMembers device, long number, long seed, List<String> attributes)
-            throws UnusableScenarioException {
+    List<Wrong> faults(ScenarioObjectReader device, long number, long seed, List<String> attributes)
+            throws InvalidScenarioException {
         List<Wrong> faults = new ArrayList<>();
         if (!device.has("faults")) {
             return faults;
         }
-        for (JsonMembers each : device.objects("faults")) {
-            Wrong wrong = wrong(each, Draw.seed(seed, "fault " + faults.size()), attributes);
+        for (ScenarioObjectReader each : device.objects("faults")) {
+            Wrong wrong = wrong(each, RandomStream.seed(seed, "fault " + faults.size()), attributes);
             boolean mine = isFor(each, number);
             each.end();
             if (mine) {
@@ -49,12 +49,12 @@ final class FaultReader {
         return faults;
     }
 
-    private Wrong wrong(JsonMembers json, long seed, List<String> attributes) throws UnusableScenarioException {
+    private Wrong wrong(ScenarioObjectReader json, long seed, List<String> attributes) throws InvalidScenarioException {
         Instant from = start.plus(json.duration("after", Duration.ZERO));
-        Span during = new Span(from, json.has("for") ? from.plus(json.duration("for")) : null);
+        TimeWindow during = new TimeWindow(from, json.has("for") ? from.plus(json.duration("for")) : null);
         String kind = json.text("kind");
         if (kind.equals("silent")) {
-            return new Wrong(null, new Fault.Silent(during));
+            return new Wrong(null, new SensorFault.Silent(during));
         }
         if (attributes.isEmpty()) {
             throw json.refused("kind", "'%s' is no fault of this device; it can only be silent".formatted(kind));
@@ -64,12 +64,13 @@ final class FaultReader {
             throw json.refused(
                     "attribute", "'%s' is not shown; shown are %s".formatted(attribute, String.join(", ", attributes)));
         }
-        Fault fault = switch (kind) {
+        SensorFault fault = switch (kind) {
             case "stuck" ->
-                new Fault.Stuck(during, json.has("value") ? Double.valueOf(json.number("value", -MAX, MAX)) : null);
-            case "drift" -> new Fault.Drift(during, json.number("perHour", -MAX, MAX));
+                new SensorFault.Stuck(
+                        during, json.has("value") ? Double.valueOf(json.number("value", -MAX, MAX)) : null);
+            case "drift" -> new SensorFault.Drift(during, json.number("perHour", -MAX, MAX));
             case "spikes" ->
-                new Fault.Spikes(during, json.number("share", 0, 1), json.number("height", -MAX, MAX), seed);
+                new SensorFault.Spikes(during, json.number("share", 0, 1), json.number("height", -MAX, MAX), seed);
             default ->
                 throw json.refused(
                         "kind", "'%s' is no kind of fault; use stuck, drift, spikes or silent".formatted(kind));
@@ -78,7 +79,7 @@ final class FaultReader {
     }
 
     /** {@code "numbers": [2, 5]} selects devices of the group; all without it. */
-    private static boolean isFor(JsonMembers fault, long number) throws UnusableScenarioException {
+    private static boolean isFor(ScenarioObjectReader fault, long number) throws InvalidScenarioException {
         if (!fault.has("numbers")) {
             return true;
         }

@@ -5,16 +5,16 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.OptionalDouble;
 
-import io.furrow.simulators.device.Registration;
+import io.furrow.simulators.device.DeviceRegistration;
 import io.furrow.simulators.robot.RobotModel;
 import io.furrow.simulators.robot.Trajectory;
 import io.furrow.simulators.scenario.SimulatedDevice.Identity;
 import io.furrow.simulators.scenario.SimulatedDevice.Place;
 import io.furrow.simulators.scenario.SimulatedDevice.Quantity;
 import io.furrow.simulators.signal.Curves;
-import io.furrow.simulators.signal.Draw;
+import io.furrow.simulators.signal.RandomStream;
 import io.furrow.simulators.signal.Signal;
-import io.furrow.simulators.signal.Span;
+import io.furrow.simulators.signal.TimeWindow;
 import io.furrow.simulators.signal.Weather;
 
 /**
@@ -37,7 +37,8 @@ final class GroupReader {
         this.seed = seed;
     }
 
-    List<SimulatedDevice> devices(JsonMembers group, String domain, String mission) throws UnusableScenarioException {
+    List<SimulatedDevice> devices(ScenarioObjectReader group, String domain, String mission)
+            throws InvalidScenarioException {
         String type = group.text("type");
         String id = group.text("id");
         boolean many = group.has("count");
@@ -53,18 +54,19 @@ final class GroupReader {
     }
 
     /** Reads an entry without identity. */
-    SimulatedDevice single(JsonMembers entry, Identity identity, long number) throws UnusableScenarioException {
+    SimulatedDevice single(ScenarioObjectReader entry, Identity identity, long number) throws InvalidScenarioException {
         SimulatedDevice device = device(entry, identity, number);
         entry.end();
         return device;
     }
 
-    private SimulatedDevice device(JsonMembers group, Identity identity, long number) throws UnusableScenarioException {
+    private SimulatedDevice device(ScenarioObjectReader group, Identity identity, long number)
+            throws InvalidScenarioException {
         Duration period = group.duration("period");
         if (period.isZero()) {
             throw group.refused("period", "must be longer than PT0S");
         }
-        long own = Draw.seed(seed, identity.mission() + "/" + identity.id());
+        long own = RandomStream.seed(seed, identity.mission() + "/" + identity.id());
         return switch (identity.type()) {
             case "Thermometer" -> sensor(group, identity, number, own, thermometer(weather(group, own)));
             case "WeatherStation" -> sensor(group, identity, number, own, station(weather(group, own)));
@@ -75,8 +77,8 @@ final class GroupReader {
     }
 
     /** Reads a custom type, which lists its attributes. */
-    private SimulatedDevice other(JsonMembers group, Identity identity, long number, long own)
-            throws UnusableScenarioException {
+    private SimulatedDevice other(ScenarioObjectReader group, Identity identity, long number, long own)
+            throws InvalidScenarioException {
         if (!group.has("attributes")) {
             throw group.refused(
                     "type",
@@ -84,15 +86,16 @@ final class GroupReader {
                             .formatted(identity.type()));
         }
         List<Quantity> quantities = new ArrayList<>();
-        for (JsonMembers attribute : group.objects("attributes")) {
+        for (ScenarioObjectReader attribute : group.objects("attributes")) {
             String name = attribute.text("name");
             double low = attribute.number("low", -MAX, MAX, 0);
             double high = attribute.number("high", low, MAX, low + 100);
             Signal middle = time -> OptionalDouble.of((low + high) / 2);
-            Signal signal = middle.plus(Curves.wandering((high - low) / 2, WANDERS, Draw.seed(own, name)));
+            Signal signal = middle.plus(Curves.wandering((high - low) / 2, WANDERS, RandomStream.seed(own, name)));
             String type = attribute.text("type", "Float");
             quantities.add(new Quantity(
-                    new Registration.Attribute(attribute.text("object_id", name), name, type), signal.rounded(2)));
+                    new DeviceRegistration.Attribute(attribute.text("object_id", name), name, type),
+                    signal.rounded(2)));
             attribute.end();
         }
         if (quantities.isEmpty()) {
@@ -101,8 +104,9 @@ final class GroupReader {
         return sensor(group, identity, number, own, quantities);
     }
 
-    private SimulatedDevice sensor(JsonMembers group, Identity identity, long number, long own, List<Quantity> sound)
-            throws UnusableScenarioException {
+    private SimulatedDevice sensor(
+            ScenarioObjectReader group, Identity identity, long number, long own, List<Quantity> sound)
+            throws InvalidScenarioException {
         List<Quantity> all = new ArrayList<>(sound);
         all.addAll(battery(group, own));
         List<String> names =
@@ -114,10 +118,10 @@ final class GroupReader {
         return new SimulatedDevice.Sensor(identity, group.duration("period"), place(group, number, own), shown);
     }
 
-    private SimulatedDevice camera(JsonMembers group, Identity identity, long number, long own)
-            throws UnusableScenarioException {
+    private SimulatedDevice camera(ScenarioObjectReader group, Identity identity, long number, long own)
+            throws InvalidScenarioException {
         Double heading = group.has("heading") ? Double.valueOf(group.number("heading", 0, 360)) : null;
-        List<Span> silent = faults.faults(group, number, own, List.of()).stream()
+        List<TimeWindow> silent = faults.faults(group, number, own, List.of()).stream()
                 .map(wrong -> wrong.fault().during())
                 .toList();
         return new SimulatedDevice.Camera(
@@ -125,17 +129,19 @@ final class GroupReader {
     }
 
     /** The charge of its battery, if the entry says how long one lasts. */
-    private static List<Quantity> battery(JsonMembers group, long own) throws UnusableScenarioException {
+    private static List<Quantity> battery(ScenarioObjectReader group, long own) throws InvalidScenarioException {
         if (!group.has("battery")) {
             return List.of();
         }
         Duration life = atLeastAMillisecond(group, "battery");
         return List.of(quantity(
-                "bat", "battery", Curves.charge(life, Draw.seed(own, "battery")).rounded(3)));
+                "bat",
+                "battery",
+                Curves.charge(life, RandomStream.seed(own, "battery")).rounded(3)));
     }
 
-    private SimulatedDevice robot(JsonMembers group, Identity identity, Duration period)
-            throws UnusableScenarioException {
+    private SimulatedDevice robot(ScenarioObjectReader group, Identity identity, Duration period)
+            throws InvalidScenarioException {
         Trajectory way = places.way(group);
         RobotModel model = new RobotModel(
                 identity.id(),
@@ -146,7 +152,8 @@ final class GroupReader {
         return new SimulatedDevice.Robot(identity, period, model, driven, group.truth("tellsMission", true));
     }
 
-    private static Duration atLeastAMillisecond(JsonMembers json, String name) throws UnusableScenarioException {
+    private static Duration atLeastAMillisecond(ScenarioObjectReader json, String name)
+            throws InvalidScenarioException {
         Duration duration = json.duration(name);
         if (duration.toMillis() < 1) {
             throw json.refused(name, "must be at least PT0.001S");
@@ -154,9 +161,9 @@ final class GroupReader {
         return duration;
     }
 
-    private Place place(JsonMembers group, long number, long own) throws UnusableScenarioException {
+    private Place place(ScenarioObjectReader group, long number, long own) throws InvalidScenarioException {
         if (!group.has("carriedBy")) {
-            return places.place(group, Draw.seed(own, "place"));
+            return places.place(group, RandomStream.seed(own, "place"));
         }
         PlaceReader.once(group, "area", "at", "route", "carriedBy");
         // A group may be carried by a group, the nth by the nth: resolved when all devices are known.
@@ -164,7 +171,7 @@ final class GroupReader {
         return new Place(group.reported("where", ""), null, group.has("count") ? carrier + "-" + number : carrier);
     }
 
-    private static Weather weather(JsonMembers group, long own) throws UnusableScenarioException {
+    private static Weather weather(ScenarioObjectReader group, long own) throws InvalidScenarioException {
         return new Weather(group.number("meanCelsius", COLDEST, HOTTEST, 18), own);
     }
 
@@ -195,6 +202,6 @@ final class GroupReader {
     }
 
     private static Quantity quantity(String objectId, String name, Signal signal) {
-        return new Quantity(new Registration.Attribute(objectId, name, "Float"), signal);
+        return new Quantity(new DeviceRegistration.Attribute(objectId, name, "Float"), signal);
     }
 }

@@ -12,7 +12,7 @@ import org.locationtech.jts.geom.Envelope;
 import io.furrow.model.position.Position;
 import io.furrow.simulators.robot.Trajectory;
 import io.furrow.simulators.robot.WorkField;
-import io.furrow.simulators.signal.Draw;
+import io.furrow.simulators.signal.RandomStream;
 
 /**
  * Reads the place of a device: {@code at} a place, along a {@code route}, within an {@code area}, or in {@code rows} of
@@ -35,7 +35,7 @@ final class PlaceReader {
     }
 
     /** The place of a device that is not carried. */
-    SimulatedDevice.Place place(JsonMembers device, long seed) throws UnusableScenarioException {
+    SimulatedDevice.Place place(ScenarioObjectReader device, long seed) throws InvalidScenarioException {
         once(device, "area", "at", "route", "carriedBy");
         String where = device.reported("where", device.reported("area", ""));
         if (device.has("area")) {
@@ -52,7 +52,7 @@ final class PlaceReader {
     }
 
     /** The way of a robot. */
-    Trajectory way(JsonMembers device) throws UnusableScenarioException {
+    Trajectory way(ScenarioObjectReader device) throws InvalidScenarioException {
         once(device, "rows", "route");
         if (!device.has("rows")) {
             if (!device.has("route")) {
@@ -60,7 +60,7 @@ final class PlaceReader {
             }
             return route(device);
         }
-        JsonMembers rows = device.object("rows");
+        ScenarioObjectReader rows = device.object("rows");
         WorkField field = field(rows, "field");
         Double bearing = rows.has("bearing") ? Double.valueOf(rows.number("bearing", 0, 360)) : null;
         Trajectory.Work work =
@@ -76,19 +76,19 @@ final class PlaceReader {
     }
 
     /** Refuses more than one of several members that describe the place. */
-    static void once(JsonMembers device, String... names) throws UnusableScenarioException {
-        String said = null;
+    static void once(ScenarioObjectReader device, String... names) throws InvalidScenarioException {
+        String source = null;
         for (String name : names) {
-            if (device.has(name) && said != null) {
-                throw device.refused(name, "says again where the device is, after %s; leave one out".formatted(said));
+            if (device.has(name) && source != null) {
+                throw device.refused(name, "says again where the device is, after %s; leave one out".formatted(source));
             }
-            said = device.has(name) ? name : said;
+            source = device.has(name) ? name : source;
         }
     }
 
-    private Trajectory route(JsonMembers device) throws UnusableScenarioException {
+    private Trajectory route(ScenarioObjectReader device) throws InvalidScenarioException {
         List<Position> points = new ArrayList<>();
-        for (JsonMembers point : device.objects("route")) {
+        for (ScenarioObjectReader point : device.objects("route")) {
             points.add(position(point));
         }
         if (points.isEmpty()) {
@@ -97,7 +97,7 @@ final class PlaceReader {
         return Trajectory.along(points, pace(device));
     }
 
-    private static Trajectory.Pace pace(JsonMembers device) throws UnusableScenarioException {
+    private static Trajectory.Pace pace(ScenarioObjectReader device) throws InvalidScenarioException {
         return new Trajectory.Pace(device.number("speed", 0.01, MAX_SPEED, 1), device.number("turnRate", 1, 3600, 90));
     }
 
@@ -105,13 +105,13 @@ final class PlaceReader {
         return Trajectory.along(List.of(place), new Trajectory.Pace(1, 90));
     }
 
-    private static Position position(JsonMembers point) throws UnusableScenarioException {
+    private static Position position(ScenarioObjectReader point) throws InvalidScenarioException {
         Position position = new Position(point.number("latitude", -90, 90), point.number("longitude", -180, 180));
         point.end();
         return position;
     }
 
-    private WorkField field(JsonMembers device, String name) throws UnusableScenarioException {
+    private WorkField field(ScenarioObjectReader device, String name) throws InvalidScenarioException {
         WorkField field = fields.get(device.text(name));
         if (field == null) {
             throw device.refused(
@@ -128,7 +128,7 @@ final class PlaceReader {
     private static Position somewhereIn(WorkField field, long seed) {
         Envelope extent = field.area().getEnvelopeInternal();
         for (int number = 0; number < TRIES; number++) {
-            var draw = Draw.of(seed, number);
+            var draw = RandomStream.of(seed, number);
             Coordinate place = new Coordinate(
                     extent.getMinX() + draw.nextDouble() * extent.getWidth(),
                     extent.getMinY() + draw.nextDouble() * extent.getHeight());

@@ -4,11 +4,11 @@ import java.time.Duration;
 import java.util.Collection;
 import java.util.List;
 
-import io.furrow.simulators.device.Registration;
+import io.furrow.simulators.device.DeviceRegistration;
 import io.furrow.simulators.robot.RobotModel;
 import io.furrow.simulators.robot.Trajectory;
 import io.furrow.simulators.signal.Signal;
-import io.furrow.simulators.signal.Span;
+import io.furrow.simulators.signal.TimeWindow;
 
 /** A device of a farm, from which all its reports follow at given times. */
 public sealed interface SimulatedDevice {
@@ -52,7 +52,7 @@ public sealed interface SimulatedDevice {
     record Place(String where, Trajectory way, String carrier) {}
 
     /** A quantity measured by a sensor. */
-    record Quantity(Registration.Attribute attribute, Signal signal) {}
+    record Quantity(DeviceRegistration.Attribute attribute, Signal signal) {}
 
     /** A thermometer or weather station; silent when none of its quantities has a reading. */
     record Sensor(Identity identity, Duration period, Place place, List<Quantity> quantities)
@@ -66,15 +66,20 @@ public sealed interface SimulatedDevice {
      * @param battery its charge as an additional attribute; empty if it reports none
      */
     record Camera(
-            Identity identity, Duration period, Place place, Double heading, List<Span> silent, List<Quantity> battery)
+            Identity identity,
+            Duration period,
+            Place place,
+            Double heading,
+            List<TimeWindow> silent,
+            List<Quantity> battery)
             implements SimulatedDevice {}
 
     /**
      * A robot.
      *
      * @param driven seconds of its way behind it at the start
-     * @param tellsMission whether it reports {@code Domain} and {@code Mission}, which FIROS does not
+     * @param reportsMission whether it reports {@code Domain} and {@code Mission}, which FIROS does not
      */
-    record Robot(Identity identity, Duration period, RobotModel model, double driven, boolean tellsMission)
+    record Robot(Identity identity, Duration period, RobotModel model, double driven, boolean reportsMission)
             implements SimulatedDevice {}
 }

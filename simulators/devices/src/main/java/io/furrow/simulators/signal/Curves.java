@@ -19,8 +19,8 @@ public final class Curves {
 
     /** Normally distributed noise of mean 0, different in each millisecond. */
     public static Signal noise(double deviation, long seed) {
-        return time ->
-                OptionalDouble.of(deviation * Draw.of(seed, time.toEpochMilli()).nextGaussian());
+        return time -> OptionalDouble.of(
+                deviation * RandomStream.of(seed, time.toEpochMilli()).nextGaussian());
     }
 
     /** Wanders smoothly between {@code -width} and {@code width}: drawn once per {@code pace}, a cosine in between. */
@@ -29,8 +29,8 @@ public final class Curves {
         return time -> {
             long number = Math.floorDiv(time.toEpochMilli(), step);
             double share = Math.floorMod(time.toEpochMilli(), step) / (double) step;
-            double before = 2 * Draw.of(seed, number).nextDouble() - 1;
-            double after = 2 * Draw.of(seed, number + 1).nextDouble() - 1;
+            double before = 2 * RandomStream.of(seed, number).nextDouble() - 1;
+            double after = 2 * RandomStream.of(seed, number + 1).nextDouble() - 1;
             double weight = (1 - Math.cos(Math.PI * share)) / 2;
             return OptionalDouble.of(width * (before + weight * (after - before)));
         };
@@ -41,7 +41,7 @@ public final class Curves {
      * the seed.
      */
     public static Signal charge(Duration life, long seed) {
-        double phase = Draw.of(seed, 0).nextDouble();
+        double phase = RandomStream.of(seed, 0).nextDouble();
         return time -> {
             double lives = time.toEpochMilli() / (double) life.toMillis() + phase;
             return OptionalDouble.of(1 - (1 - MIN_CHARGE) * (lives - Math.floor(lives)));

@@ -73,7 +73,7 @@ public record Weather(double meanCelsius, long seed) {
     }
 
     private long part(String name) {
-        return Draw.seed(seed, name);
+        return RandomStream.seed(seed, name);
     }
 
     private static double value(Signal signal, Instant time) {

@@ -31,15 +31,15 @@ class FieldPictureTest {
     @Test
     void isTheSameForTheSameViewAndChangesWithTime() {
         assertThat(FieldPicture.png(view(List.of(north(20))))).isEqualTo(FieldPicture.png(view(List.of(north(20)))));
-        assertThat(FieldPicture.png(new View(TIME.plusSeconds(1), PLACE, 0, List.of())))
+        assertThat(FieldPicture.png(new CameraView(TIME.plusSeconds(1), PLACE, 0, List.of())))
                 .isNotEqualTo(FieldPicture.png(view(List.of())));
     }
 
     @Test
     void seesTheFarthestFirstAndNothingBehindItOrOutOfSight() {
-        View view = view(List.of(north(20), north(40), north(-20), north(70)));
+        CameraView view = view(List.of(north(20), north(40), north(-20), north(70)));
 
-        assertThat(view.sightings())
+        assertThat(view.visibleRobots())
                 .extracting(seen -> Math.round(seen.meters()))
                 .containsExactly(40L, 20L);
     }
@@ -73,8 +73,8 @@ class FieldPictureTest {
         return Arrays.copyOf(columns, count);
     }
 
-    private static View view(List<Position> robots) {
-        return new View(TIME, PLACE, 0, robots);
+    private static CameraView view(List<Position> robots) {
+        return new CameraView(TIME, PLACE, 0, robots);
     }
 
     private static Position north(double meters) {

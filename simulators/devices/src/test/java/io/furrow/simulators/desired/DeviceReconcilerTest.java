@@ -75,7 +75,7 @@ class DeviceReconcilerTest {
     }
 
     @Test
-    void saysWhyADeviceFailedAndTriesAnewWithTheNextSequence() {
+    void reportsWhyADeviceFailedAndTriesAnewWithTheNextSequence() {
         Step start = reconciler.take(KEY, desired(1, true, 18)).orElseThrow();
         assertThat(reconciler.done(start, "there is no field 'x'"))
                 .contains(new DeviceStatus(1, DeviceStatus.State.FAILED, "there is no field 'x'"));
@@ -124,9 +124,9 @@ class DeviceReconcilerTest {
             newest.merge(
                     key, record, (a, b) -> a.version().sequence() >= b.version().sequence() ? a : b);
             Optional<Step> step = reconciler.take(key, record);
-            step.ifPresent(asked -> {
-                perform(asked, runs);
-                reconciler.done(asked, null).ifPresent(status -> statuses.put(key, status));
+            step.ifPresent(requested -> {
+                perform(requested, runs);
+                reconciler.done(requested, null).ifPresent(status -> statuses.put(key, status));
             });
         }
 

@@ -27,7 +27,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.position.PositionReading;
 import io.furrow.simulators.device.FleetSettings;
-import io.furrow.simulators.device.Listener;
+import io.furrow.simulators.device.MqttTestClient;
 import io.furrow.simulators.scenario.Farm;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -50,7 +50,7 @@ class FarmFleetTest {
     private static EmbeddedMqtt mqtt;
     private static FiwareStandIn fiware;
     private FarmFleet fleet;
-    private Listener listener;
+    private MqttTestClient listener;
 
     @BeforeAll
     static void startEnds() throws Exception {
@@ -96,52 +96,52 @@ class FarmFleetTest {
 
     @Test
     void putsManyDevicesOfAMissionOnOneConnectionWithTheirOwnTopics() throws Exception {
-        listener = new Listener(settings("plough"));
+        listener = new MqttTestClient(settings("plough"));
         fleet = FarmFleet.start(farm(), access("plough"), 4, Clock.systemUTC());
 
         await().untilAsserted(() -> {
             for (String device : List.of("t-1", "t-2", "t-3", "c", "w")) {
-                assertThat(listener.heard("/k/" + device + "/attrs")).isNotEmpty();
+                assertThat(listener.received("/k/" + device + "/attrs")).isNotEmpty();
             }
         });
         assertThat(fleet.connections()).isEqualTo(2);
-        listener.say("/k/t-2/cmd", "{\"off\":\"\"}");
+        listener.publish("/k/t-2/cmd", "{\"off\":\"\"}");
         await().untilAsserted(() ->
-                assertThat(listener.heard("/k/t-2/cmdexe")).singleElement().hasToString("{\"off\":\"ok\"}"));
-        assertThat(listener.heard("/k/t-1/cmdexe")).isEmpty();
+                assertThat(listener.received("/k/t-2/cmdexe")).singleElement().hasToString("{\"off\":\"ok\"}"));
+        assertThat(listener.received("/k/t-1/cmdexe")).isEmpty();
     }
 
     @Test
     void switchesADeviceOffAndOn() throws Exception {
-        listener = new Listener(settings("plough"));
+        listener = new MqttTestClient(settings("plough"));
         fleet = FarmFleet.start(farm(), access("plough"), 500, Clock.systemUTC());
-        await().until(() -> !listener.heard("/k/t-1/attrs").isEmpty());
+        await().until(() -> !listener.received("/k/t-1/attrs").isEmpty());
 
-        listener.say("/k/t-1/cmd", "{\"off\":\"\"}");
+        listener.publish("/k/t-1/cmd", "{\"off\":\"\"}");
         await().until(() -> !lastStatus());
-        int heard = listener.heard("/k/t-1/attrs").size();
+        int received = listener.received("/k/t-1/attrs").size();
         long reports = fleet.reports();
         await().until(() -> fleet.reports() > reports + 30);
-        assertThat(listener.heard("/k/t-1/attrs")).hasSize(heard);
+        assertThat(listener.received("/k/t-1/attrs")).hasSize(received);
 
-        listener.say("/k/t-1/cmd", "{\"on\":\"\"}");
+        listener.publish("/k/t-1/cmd", "{\"on\":\"\"}");
         await().until(this::lastStatus);
     }
 
     @Test
-    void answersACommandThatNobodyKnows() throws Exception {
-        listener = new Listener(settings("plough"));
+    void answersACommandThatNobodyImplements() throws Exception {
+        listener = new MqttTestClient(settings("plough"));
         fleet = FarmFleet.start(farm(), access("plough"), 500, Clock.systemUTC());
 
-        listener.say("/k/t-1/cmd", "off!");
-        listener.say("/k/t-1/cmd", "{\"dance\":\"\"}");
+        listener.publish("/k/t-1/cmd", "off!");
+        listener.publish("/k/t-1/cmd", "{\"dance\":\"\"}");
 
-        await().until(() -> !listener.heard("/k/t-1/cmdexe").isEmpty());
-        assertThat(listener.heard("/k/t-1/cmdexe")).singleElement().hasToString("{\"dance\":\"unknown command\"}");
+        await().until(() -> !listener.received("/k/t-1/cmdexe").isEmpty());
+        assertThat(listener.received("/k/t-1/cmdexe")).singleElement().hasToString("{\"dance\":\"unknown command\"}");
     }
 
     @Test
-    void stopsARobotByItsAttributeAndSaysWhatBecameOfIt() throws Exception {
+    void stopsARobotByItsAttributeAndReportsWhatBecameOfIt() throws Exception {
         fleet = FarmFleet.start(farm(), access("plough"));
         await().untilAsserted(() -> assertThat(entity("Robot:r").value("cmd")).contains(TextNode.valueOf("")));
 
@@ -215,8 +215,8 @@ class FarmFleetTest {
     }
 
     private boolean lastStatus() {
-        List<JsonNode> heard = listener.heard("/k/t-1/attrs");
-        return heard.get(heard.size() - 1).path("stat").booleanValue();
+        List<JsonNode> received = listener.received("/k/t-1/attrs");
+        return received.get(received.size() - 1).path("stat").booleanValue();
     }
 
     private static Farm farm() throws IOException {

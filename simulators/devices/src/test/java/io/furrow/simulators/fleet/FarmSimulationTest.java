@@ -35,12 +35,12 @@ class FarmSimulationTest {
             """;
 
     private Farm farm;
-    private FarmSimulation scene;
+    private FarmSimulation simulation;
 
     @BeforeEach
     void read() throws IOException {
         farm = Farm.read(new ByteArrayInputStream(FARM.getBytes(StandardCharsets.UTF_8)), START);
-        scene = scene();
+        simulation = simulation();
     }
 
     @Test
@@ -56,9 +56,9 @@ class FarmSimulationTest {
     }
 
     @Test
-    void saysNothingOfASilentDevice() {
-        assertThat(scene.report(device("t"), START.plusSeconds(59))).isPresent();
-        assertThat(scene.report(device("t"), START.plusSeconds(60))).isEmpty();
+    void reportsNothingOfASilentDevice() {
+        assertThat(simulation.report(device("t"), START.plusSeconds(59))).isPresent();
+        assertThat(simulation.report(device("t"), START.plusSeconds(60))).isEmpty();
     }
 
     @Test
@@ -76,36 +76,37 @@ class FarmSimulationTest {
     }
 
     @Test
-    void stopsARobotWhenItIsTold() {
+    void stopsARobotOnCommand() {
         update(START.plusSeconds(10));
-        scene.command((Robot) device("r"), true, START.plusSeconds(15));
+        simulation.command((Robot) device("r"), true, START.plusSeconds(15));
 
         assertThat(meters(update(START.plusSeconds(60)))).isEqualTo(30, within(0.01));
         assertThat(update(START.plusSeconds(61)).text("state").orElseThrow()).contains("Stopped");
 
-        scene.command((Robot) device("r"), false, START.plusSeconds(100));
+        simulation.command((Robot) device("r"), false, START.plusSeconds(100));
         assertThat(meters(update(START.plusSeconds(105)))).isEqualTo(40, within(0.01));
     }
 
     @Test
-    void isSilentWhileItIsOffAndSaysSoOnce() {
-        Optional<Report> last = scene.switchTo(device("t"), false, START.plusSeconds(1));
+    void isSilentWhileItIsOffAndReportsSoOnce() {
+        Optional<Report> last = simulation.switchTo(device("t"), false, START.plusSeconds(1));
 
         assertThat(((Report.Measures) last.orElseThrow()).json())
                 .hasToString("{\"stat\":false,\"time\":1780300801000}");
-        assertThat(scene.switchTo(device("t"), false, START.plusSeconds(2))).isEmpty();
-        assertThat(scene.report(device("t"), START.plusSeconds(3))).isEmpty();
-        assertThat(scene.switchTo(device("t"), true, START.plusSeconds(4))).isEmpty();
-        assertThat(scene.report(device("t"), START.plusSeconds(5))).isPresent();
+        assertThat(simulation.switchTo(device("t"), false, START.plusSeconds(2)))
+                .isEmpty();
+        assertThat(simulation.report(device("t"), START.plusSeconds(3))).isEmpty();
+        assertThat(simulation.switchTo(device("t"), true, START.plusSeconds(4))).isEmpty();
+        assertThat(simulation.report(device("t"), START.plusSeconds(5))).isPresent();
     }
 
     @Test
     void isSilentWhileItRestartsAndSwitchedOnAfterThat() {
-        scene.switchTo(device("t"), false, START.plusSeconds(1));
-        scene.restart("t", START.plusSeconds(5));
+        simulation.switchTo(device("t"), false, START.plusSeconds(1));
+        simulation.restart("t", START.plusSeconds(5));
 
-        assertThat(scene.report(device("t"), START.plusMillis(4999))).isEmpty();
-        assertThat(scene.report(device("t"), START.plusSeconds(5))).isPresent();
+        assertThat(simulation.report(device("t"), START.plusMillis(4999))).isEmpty();
+        assertThat(simulation.report(device("t"), START.plusSeconds(5))).isPresent();
     }
 
     @Test
@@ -119,29 +120,29 @@ class FarmSimulationTest {
     }
 
     @Test
-    void saysNothingOfWhatIsCarriedByARobotThatIsGone() {
-        scene.remove("r");
+    void reportsNothingOfWhatIsCarriedByARobotThatIsGone() {
+        simulation.remove("r");
 
-        assertThat(scene.report(device("on-robot"), START.plusSeconds(1))).isEmpty();
-        assertThat(scene.report(device("c"), START.plusSeconds(1))).isEmpty();
+        assertThat(simulation.report(device("on-robot"), START.plusSeconds(1))).isEmpty();
+        assertThat(simulation.report(device("c"), START.plusSeconds(1))).isEmpty();
     }
 
     @Test
     void showsTheSameAtTheSameTimes() {
-        assertThat(hour(scene())).isEqualTo(hour(scene())).hasSizeGreaterThan(300);
+        assertThat(hour(simulation())).isEqualTo(hour(simulation())).hasSizeGreaterThan(300);
     }
 
-    private List<Report> hour(FarmSimulation scene) {
+    private List<Report> hour(FarmSimulation simulation) {
         List<Report> reports = new ArrayList<>();
         for (int second = 0; second < 3600; second += 30) {
             for (SimulatedDevice device : farm.devices()) {
-                scene.report(device, START.plusSeconds(second)).ifPresent(reports::add);
+                simulation.report(device, START.plusSeconds(second)).ifPresent(reports::add);
             }
         }
         return reports;
     }
 
-    private FarmSimulation scene() {
+    private FarmSimulation simulation() {
         FarmSimulation made = new FarmSimulation();
         farm.devices().forEach(device -> made.add(device, START, START));
         return made;
@@ -152,11 +153,11 @@ class FarmSimulationTest {
     }
 
     private ObjectNode measures(String id, Instant now) {
-        return ((Report.Measures) scene.report(device(id), now).orElseThrow()).json();
+        return ((Report.Measures) simulation.report(device(id), now).orElseThrow()).json();
     }
 
     private Entity update(Instant now) {
-        return ((Report.Update) scene.report(device("r"), now).orElseThrow()).entity();
+        return ((Report.Update) simulation.report(device("r"), now).orElseThrow()).entity();
     }
 
     private SimulatedDevice device(String id) {

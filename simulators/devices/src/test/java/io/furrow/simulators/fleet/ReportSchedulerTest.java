@@ -24,14 +24,14 @@ class ReportSchedulerTest {
     @ValueSource(longs = {1, 2, 3, 4, 5})
     void letsEachDeviceReportOnceInItsPeriod(long seed) {
         SplittableRandom random = new SplittableRandom(seed);
-        ReportScheduler timetable = new ReportScheduler();
+        ReportScheduler scheduler = new ReportScheduler();
         for (int i = 0; i < 100; i++) {
-            timetable.add(device("d" + i, Duration.ofMillis(random.nextLong(100, 5000))), START);
+            scheduler.add(device("d" + i, Duration.ofMillis(random.nextLong(100, 5000))), START);
         }
 
         Map<String, List<Instant>> reports = new HashMap<>();
         Instant before = START;
-        for (ReportScheduler.Due due : until(timetable, START.plusSeconds(60), random)) {
+        for (ReportScheduler.Due due : until(scheduler, START.plusSeconds(60), random)) {
             assertThat(due.time()).isAfterOrEqualTo(before);
             before = due.time();
             reports.computeIfAbsent(due.device().id(), id -> new ArrayList<>()).add(due.time());
@@ -52,13 +52,13 @@ class ReportSchedulerTest {
 
     @Test
     void spreadsDevicesOverTheirPeriod() {
-        ReportScheduler timetable = new ReportScheduler();
+        ReportScheduler scheduler = new ReportScheduler();
         for (int i = 0; i < 1000; i++) {
-            timetable.add(device("d" + i, Duration.ofSeconds(1)), START);
+            scheduler.add(device("d" + i, Duration.ofSeconds(1)), START);
         }
 
         int[] tenths = new int[10];
-        for (ReportScheduler.Due due : until(timetable, START.plusMillis(999), new SplittableRandom(1))) {
+        for (ReportScheduler.Due due : until(scheduler, START.plusMillis(999), new SplittableRandom(1))) {
             tenths[(int) (Duration.between(START, due.time()).toMillis() / 100)]++;
         }
 
@@ -70,53 +70,53 @@ class ReportSchedulerTest {
 
     @Test
     void leavesOutWhatIsTooLate() {
-        ReportScheduler timetable = new ReportScheduler();
-        timetable.add(device("d", Duration.ofSeconds(1)), START);
+        ReportScheduler scheduler = new ReportScheduler();
+        scheduler.add(device("d", Duration.ofSeconds(1)), START);
 
-        assertThat(all(timetable, START.plusSeconds(10))).hasSize(11);
-        assertThat(all(timetable, START.plusSeconds(3610)).size()).isBetween(1, 2);
-        assertThat(timetable.next()).contains(START.plusSeconds(3611));
+        assertThat(all(scheduler, START.plusSeconds(10))).hasSize(11);
+        assertThat(all(scheduler, START.plusSeconds(3610)).size()).isBetween(1, 2);
+        assertThat(scheduler.next()).contains(START.plusSeconds(3611));
     }
 
     @Test
     void forgetsADevice() {
-        ReportScheduler timetable = new ReportScheduler();
-        timetable.add(device("a", Duration.ofSeconds(1)), START);
-        timetable.add(device("b", Duration.ofSeconds(1)), START);
-        timetable.remove("a");
-        timetable.remove("unknown");
+        ReportScheduler scheduler = new ReportScheduler();
+        scheduler.add(device("a", Duration.ofSeconds(1)), START);
+        scheduler.add(device("b", Duration.ofSeconds(1)), START);
+        scheduler.remove("a");
+        scheduler.remove("unknown");
 
-        assertThat(all(timetable, START.plusSeconds(5)))
+        assertThat(all(scheduler, START.plusSeconds(5)))
                 .hasSize(5)
                 .allMatch(due -> due.device().id().equals("b"));
-        timetable.remove("b");
-        assertThat(timetable.next()).isEmpty();
+        scheduler.remove("b");
+        assertThat(scheduler.next()).isEmpty();
     }
 
     @Test
     void hasADeviceOnceThatIsAddedTwice() {
-        ReportScheduler timetable = new ReportScheduler();
-        timetable.add(device("a", Duration.ofSeconds(1)), START);
-        timetable.add(device("a", Duration.ofSeconds(2)), START);
+        ReportScheduler scheduler = new ReportScheduler();
+        scheduler.add(device("a", Duration.ofSeconds(1)), START);
+        scheduler.add(device("a", Duration.ofSeconds(2)), START);
 
-        assertThat(all(timetable, START.plusSeconds(10))).hasSize(5);
+        assertThat(all(scheduler, START.plusSeconds(10))).hasSize(5);
     }
 
-    private static List<ReportScheduler.Due> all(ReportScheduler timetable, Instant end) {
+    private static List<ReportScheduler.Due> all(ReportScheduler scheduler, Instant end) {
         List<ReportScheduler.Due> taken = new ArrayList<>();
-        for (Optional<ReportScheduler.Due> due = timetable.take(end); due.isPresent(); due = timetable.take(end)) {
+        for (Optional<ReportScheduler.Due> due = scheduler.take(end); due.isPresent(); due = scheduler.take(end)) {
             taken.add(due.get());
         }
         return taken;
     }
 
     /** Taken at random times. */
-    private static List<ReportScheduler.Due> until(ReportScheduler timetable, Instant end, SplittableRandom random) {
+    private static List<ReportScheduler.Due> until(ReportScheduler scheduler, Instant end, SplittableRandom random) {
         List<ReportScheduler.Due> taken = new ArrayList<>();
         for (Instant now = START; now.isBefore(end); now = now.plusMillis(random.nextLong(1, 300))) {
-            taken.addAll(all(timetable, now));
+            taken.addAll(all(scheduler, now));
         }
-        taken.addAll(all(timetable, end));
+        taken.addAll(all(scheduler, end));
         return taken;
     }
 

@@ -17,8 +17,8 @@ import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
 
 /** Hears all measures, each told by topic and time; its session outlives the broker's restarts, so that it misses none. */
-record Subscriber(MqttAsyncClient client, Set<String> heard) implements AutoCloseable {
-    static Subscriber to(Mosquitto broker, String name) throws Exception {
+record Subscriber(MqttAsyncClient client, Set<String> received) implements AutoCloseable {
+    static Subscriber to(FleetMosquitto broker, String name) throws Exception {
         MqttAsyncClient client = new MqttAsyncClient(broker.uri().toString(), name, new MemoryPersistence());
         Set<String> measures = ConcurrentHashMap.newKeySet();
         client.setCallback(new MqttCallback() {
@@ -56,7 +56,7 @@ record Subscriber(MqttAsyncClient client, Set<String> heard) implements AutoClos
                 // It is being opened already.
             }
         }
-        return heard;
+        return received;
     }
 
     /** With the user of the settings for all devices, at QoS 1. */

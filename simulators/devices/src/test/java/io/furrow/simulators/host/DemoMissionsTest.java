@@ -79,7 +79,7 @@ class DemoMissionsTest {
 
     /** A yard with a sensor in it would have an average. */
     @Test
-    void keepsWeatherStationAndCameraOutOfFieldsAndYard() throws IOException {
+    void excludesWeatherStationAndCameraFromFieldsAndYard() throws IOException {
         for (SimulatedDevice device :
                 List.of(devices.get("urn:ngsi-ld:WeatherStation:1"), devices.get("urn:ngsi-ld:Camera:1"))) {
             assertThat(fieldsAt(place(device, Duration.ZERO))).as(device.id()).isEmpty();
@@ -107,7 +107,7 @@ class DemoMissionsTest {
     }
 
     @Test
-    void keepsTheCanaryOutOfTheFields() throws IOException {
+    void excludesTheCanaryFromTheFields() throws IOException {
         for (Sensor sensor : of("canary", Sensor.class)) {
             assertThat(fieldsAt(place(sensor, Duration.ZERO))).as(sensor.id()).isEmpty();
         }
@@ -139,12 +139,12 @@ class DemoMissionsTest {
                 .hasSize(2)
                 .allSatisfy(robot -> assertThat(robot.period()).isEqualTo(Duration.ofMillis(500)));
         List<Beat> beats = work(Duration.ofSeconds(secondsBetweenStarts), Duration.ofHours(1));
-        List<Duration> meetings = starts(beats, beat -> beat.meters() <= CLOSE_METERS);
+        List<Duration> encounters = starts(beats, beat -> beat.meters() <= CLOSE_METERS);
 
-        assertThat(meetings.get(0)).isLessThan(Duration.ofSeconds(10));
-        assertThat(meetings).hasSizeGreaterThan(100);
-        for (int i = 1; i < meetings.size(); i++) {
-            assertThat(meetings.get(i).minus(meetings.get(i - 1)))
+        assertThat(encounters.get(0)).isLessThan(Duration.ofSeconds(10));
+        assertThat(encounters).hasSizeGreaterThan(100);
+        for (int i = 1; i < encounters.size(); i++) {
+            assertThat(encounters.get(i).minus(encounters.get(i - 1)))
                     .isBetween(Duration.ofSeconds(20), Duration.ofSeconds(35));
         }
         assertThat(beats).allSatisfy(beat -> assertThat(beat.meters()).isGreaterThan(2));
@@ -153,9 +153,10 @@ class DemoMissionsTest {
     @Test
     void letsTheSecondRobotStopForTheFirstAndGoOn() {
         List<Beat> beats = work(Duration.ZERO, Duration.ofHours(1));
-        int meetings = starts(beats, beat -> beat.meters() <= CLOSE_METERS).size();
+        int encounters = starts(beats, beat -> beat.meters() <= CLOSE_METERS).size();
 
-        assertThat(starts(beats, beat -> beat.second() == Activity.WAITING)).hasSizeBetween(meetings - 1, meetings + 1);
+        assertThat(starts(beats, beat -> beat.second() == Activity.WAITING))
+                .hasSizeBetween(encounters - 1, encounters + 1);
         assertThat(starts(beats, beat -> beat.first() == Activity.WAITING)).isEmpty();
         assertThat(beats.stream()
                         .filter(beat -> beat.second() == Activity.RUNNING)
@@ -165,7 +166,7 @@ class DemoMissionsTest {
     }
 
     @Test
-    void keepsAllOthersApart() {
+    void separatesAllOthers() {
         List<SimulatedDevice> all = List.copyOf(devices.values());
         for (int second = 0; second < 600; second++) {
             Duration time = Duration.ofSeconds(second);

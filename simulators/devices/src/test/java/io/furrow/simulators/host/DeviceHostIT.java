@@ -17,10 +17,10 @@ import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.topic.Topics;
-import io.furrow.simulators.device.Listener;
+import io.furrow.simulators.device.MqttTestClient;
 
-import static io.furrow.simulators.host.HostBench.entity;
-import static io.furrow.simulators.host.HostBench.topic;
+import static io.furrow.simulators.host.HostFixture.entity;
+import static io.furrow.simulators.host.HostFixture.topic;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -33,13 +33,13 @@ class DeviceHostIT {
     @TempDir
     private static Path directory;
 
-    private static HostBench bench;
+    private static HostFixture bench;
     private DeviceHost host;
-    private Listener listener;
+    private MqttTestClient listener;
 
     @BeforeAll
     static void startBench() throws Exception {
-        bench = new HostBench(directory);
+        bench = new HostFixture(directory);
     }
 
     @AfterAll
@@ -60,9 +60,9 @@ class DeviceHostIT {
     }
 
     @Test
-    void runsWhatIsDesiredFromWhenTheBrokerKnowsIt() throws Exception {
+    void runsWhatIsDesiredFromWhenTheBrokerAcceptsIt() throws Exception {
         String device = entity("Thermometer", "late", 1);
-        long sequence = bench.want("late", device, true, YARD);
+        long sequence = bench.addDesired("late", device, true, YARD);
         await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(bench.status(device)).hasValueSatisfying(status -> {
                     assertThat(status.state()).isEqualTo(State.FAILED);
@@ -76,7 +76,7 @@ class DeviceHostIT {
                 .untilAsserted(() ->
                         assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
         await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(listener.heard(topic("late", device, "attrs")))
+                .untilAsserted(() -> assertThat(listener.received(topic("late", device, "attrs")))
                         .hasSizeGreaterThan(3));
     }
 
@@ -91,8 +91,8 @@ class DeviceHostIT {
 
         await().atMost(TIMEOUT).until(host::isCaughtUp);
         await().atMost(TIMEOUT).until(() -> host.fleet().connections() == 1);
-        int heard = heard("anew", device);
-        await().atMost(TIMEOUT).until(() -> heard("anew", device) > heard);
+        int received = received("anew", device);
+        await().atMost(TIMEOUT).until(() -> received("anew", device) > received);
         assertThat(host.isAlive()).isTrue();
         bench.delete(device);
     }
@@ -103,7 +103,7 @@ class DeviceHostIT {
         String deleted = run("end", 2);
         String goesOn = run("end", 3);
 
-        long sequence = bench.want("end", stopped, false, YARD);
+        long sequence = bench.addDesired("end", stopped, false, YARD);
         bench.delete(deleted);
 
         await().atMost(TIMEOUT)
@@ -112,10 +112,10 @@ class DeviceHostIT {
         await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(bench.status(deleted)).isEmpty());
         await().atMost(TIMEOUT).until(() -> host.fleet().connections() == 1);
-        int before = heard("end", stopped) + heard("end", deleted);
-        int other = heard("end", goesOn);
-        await().atMost(TIMEOUT).until(() -> heard("end", goesOn) > other + 10);
-        assertThat(heard("end", stopped) + heard("end", deleted)).isEqualTo(before);
+        int before = received("end", stopped) + received("end", deleted);
+        int other = received("end", goesOn);
+        await().atMost(TIMEOUT).until(() -> received("end", goesOn) > other + 10);
+        assertThat(received("end", stopped) + received("end", deleted)).isEqualTo(before);
         bench.delete(goesOn);
     }
 
@@ -125,7 +125,7 @@ class DeviceHostIT {
         String gone = run("again", 2);
         host.close();
         bench.delete(gone);
-        long sequence = bench.want("again", device, true, "{\"path\": [[-3.5, 40.31]]}");
+        long sequence = bench.addDesired("again", device, true, "{\"path\": [[-3.5, 40.31]]}");
 
         host = DeviceHost.start(bench.settings());
 
@@ -135,16 +135,16 @@ class DeviceHostIT {
         await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(bench.status(gone)).isEmpty());
         await().atMost(TIMEOUT)
-                .until(() -> listener.heard(topic("again", device, "attrs")).stream()
+                .until(() -> listener.received(topic("again", device, "attrs")).stream()
                         .anyMatch(json -> json.path("lon").doubleValue() == -3.5));
         bench.delete(device);
     }
 
     @Test
-    void saysWhichSettingIsWrongAndTriesAgainWhenTheFieldComes() throws Exception {
+    void reportsWhichSettingIsWrongAndTriesAgainWhenTheFieldComes() throws Exception {
         String device = entity("Thermometer", "field", 1);
         bench.admit("field", device);
-        bench.want("field", device, true, "{\"area\": \"orchard\"}");
+        bench.addDesired("field", device, true, "{\"area\": \"orchard\"}");
         await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(bench.status(device))
                         .hasValueSatisfying(
@@ -166,7 +166,7 @@ class DeviceHostIT {
         String robot = entity("Robot", "carry", 1);
         String camera = entity("Camera", "carry", 1);
         bench.admit("carry", camera);
-        bench.want(
+        bench.addDesired(
                 "carry",
                 camera,
                 true,
@@ -175,30 +175,32 @@ class DeviceHostIT {
                 .untilAsserted(() -> assertThat(bench.status(camera).map(DeviceStatus::reason))
                         .contains("carriedBy: '" + robot + "' is no robot that runs here"));
 
-        bench.want("carry", robot, true, "{\"path\": [[-3.48, 40.31], [-3.48, 40.32]], \"speed\": 2}");
+        bench.addDesired("carry", robot, true, "{\"path\": [[-3.48, 40.31], [-3.48, 40.32]], \"speed\": 2}");
 
         await().atMost(TIMEOUT).untilAsserted(() -> {
             assertThat(bench.status(robot).map(DeviceStatus::state)).contains(State.RUNNING);
             assertThat(bench.status(camera).map(DeviceStatus::state)).contains(State.RUNNING);
-            assertThat(listener.heard(topic("carry", camera, "attrs"))).last().satisfies(json -> {
-                assertThat(json.path("lat").doubleValue()).isGreaterThan(40.31);
-                assertThat(json.path("bat").doubleValue()).isBetween(0.2, 1d);
-            });
+            assertThat(listener.received(topic("carry", camera, "attrs")))
+                    .last()
+                    .satisfies(json -> {
+                        assertThat(json.path("lat").doubleValue()).isGreaterThan(40.31);
+                        assertThat(json.path("bat").doubleValue()).isBetween(0.2, 1d);
+                    });
         });
         bench.delete(camera);
         bench.delete(robot);
     }
 
     @Test
-    void restartsADeviceAndSaysWhenItIsBack() throws Exception {
+    void restartsADeviceAndReportsWhenItIsBack() throws Exception {
         String device = run("restart", 1);
-        listener.say(topic("restart", device, "cmd"), "{\"restart\": \"\"}");
+        listener.publish(topic("restart", device, "cmd"), "{\"restart\": \"\"}");
 
         await().atMost(TIMEOUT)
-                .untilAsserted(() -> assertThat(listener.heard(topic("restart", device, "cmdexe")))
+                .untilAsserted(() -> assertThat(listener.received(topic("restart", device, "cmdexe")))
                         .singleElement()
                         .hasToString("{\"restart\":\"ok\"}"));
-        List<Long> times = listener.heard(topic("restart", device, "attrs")).stream()
+        List<Long> times = listener.received(topic("restart", device, "attrs")).stream()
                 .map(json -> json.path("time").longValue())
                 .toList();
         long longest = 0;
@@ -212,26 +214,26 @@ class DeviceHostIT {
     @Test
     void connectsAgainWithTheNewCredentialsOfADevice() throws Exception {
         String device = run("stolen", 1);
-        bench.passwords.remove(HostBench.SECRET.device("stolen", device).user());
-        FarmSecret.Login login = HostBench.SECRET.device("stolen", device, 1);
+        bench.passwords.remove(HostFixture.SECRET.device("stolen", device).user());
+        FarmSecret.Login login = HostFixture.SECRET.device("stolen", device, 1);
         bench.passwords.put(login.user(), login.password());
 
-        long sequence = bench.wantRotated("stolen", device, YARD, 1);
+        long sequence = bench.addRotated("stolen", device, YARD, 1);
 
         await().atMost(TIMEOUT)
                 .untilAsserted(() ->
                         assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        int before = heard("stolen", device);
-        await().atMost(TIMEOUT).until(() -> heard("stolen", device) > before + 3);
+        int before = received("stolen", device);
+        await().atMost(TIMEOUT).until(() -> received("stolen", device) > before + 3);
         bench.delete(device);
     }
 
     @Test
     void takesUpASecretThatIsRotatedWhileItsDevicesGoOn() throws Exception {
         String device = run("rotated", 1);
-        bench.putFingerprints(HostBench.SECRET);
+        bench.putFingerprints(HostFixture.SECRET);
         Instant now = Instant.now();
-        FarmSecret rotated = HostBench.SECRET.rotated(now, now.plusSeconds(60), false);
+        FarmSecret rotated = HostFixture.SECRET.rotated(now, now.plusSeconds(60), false);
         FarmSecret.Login login = rotated.device("rotated", device);
         bench.passwords.put(login.user(), login.password());
 
@@ -240,15 +242,15 @@ class DeviceHostIT {
         String second = entity("Thermometer", "rotated", 2);
         FarmSecret.Login other = rotated.device("rotated", second);
         bench.passwords.put(other.user(), other.password());
-        long sequence = bench.want("rotated", second, true, YARD);
+        long sequence = bench.addDesired("rotated", second, true, YARD);
 
         await().atMost(TIMEOUT)
                 .untilAsserted(() ->
                         assertThat(bench.status(second)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        bench.passwords.remove(HostBench.SECRET.device("rotated", device).user());
-        int before = heard("rotated", device);
-        await().atMost(TIMEOUT).until(() -> heard("rotated", device) > before + 10);
-        bench.secret = HostBench.SECRET;
+        bench.passwords.remove(HostFixture.SECRET.device("rotated", device).user());
+        int before = received("rotated", device);
+        await().atMost(TIMEOUT).until(() -> received("rotated", device) > before + 10);
+        bench.secret = HostFixture.SECRET;
         bench.delete(device);
         bench.delete(second);
     }
@@ -256,15 +258,15 @@ class DeviceHostIT {
     private String run(String mission, int number) throws Exception {
         String device = entity("Thermometer", mission, number);
         bench.admit(mission, device);
-        long sequence = bench.want(mission, device, true, YARD);
+        long sequence = bench.addDesired(mission, device, true, YARD);
         await().atMost(TIMEOUT).untilAsserted(() -> {
             assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null));
-            assertThat(heard(mission, device)).isPositive();
+            assertThat(received(mission, device)).isPositive();
         });
         return device;
     }
 
-    private int heard(String mission, String device) {
-        return listener.heard(topic(mission, device, "attrs")).size();
+    private int received(String mission, String device) {
+        return listener.received(topic(mission, device, "attrs")).size();
     }
 }

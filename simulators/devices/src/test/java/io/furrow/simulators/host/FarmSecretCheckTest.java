@@ -20,7 +20,7 @@ class FarmSecretCheckTest {
     private final FarmSecretCheck check = new FarmSecretCheck(() -> given);
 
     @Test
-    void refusesTheSecretOfAnotherFarmSayingWhatToDo() {
+    void rejectsTheSecretOfAnotherFarmSayingWhatToDo() {
         FarmSecret farms = FarmSecret.generate();
 
         assertThatThrownBy(() -> check.take(record(farms)))

@@ -39,9 +39,9 @@ class FleetReconcilerTest {
 
     private final Set<String> running = new TreeSet<>();
     private final Map<String, DeviceStatus> statuses = new HashMap<>();
-    private final StatusPublisher board = new StatusPublisher((key, status) -> statuses.put(key, status));
+    private final StatusPublisher statusPublisher = new StatusPublisher((key, status) -> statuses.put(key, status));
     private final Fleet fleet = new Fleet();
-    private final FleetReconciler hosting = new FleetReconciler(fleet::add, fleet::remove, board, 0);
+    private final FleetReconciler reconciler = new FleetReconciler(fleet::add, fleet::remove, statusPublisher, 0);
 
     /** Records which devices should run. */
     private final class Fleet {
@@ -59,12 +59,12 @@ class FleetReconcilerTest {
     @Test
     void startsReplacesAndStops() {
         take("t-1", desired("t-1", 1, true, path(-3.5)));
-        board.up("t-1");
+        statusPublisher.up("t-1");
         take("t-1", desired("t-1", 2, true, path(-3.4)));
         assertThat(running).containsExactly("t-1");
         assertThat(statuses).containsEntry("t-1", status(1, State.RUNNING));
 
-        board.up("t-1");
+        statusPublisher.up("t-1");
         assertThat(statuses).containsEntry("t-1", status(2, State.RUNNING));
 
         take("t-1", desired("t-1", 3, false, path(-3.4)));
@@ -79,8 +79,8 @@ class FleetReconcilerTest {
                 desired("t-1", 1, true, JsonNodeFactory.instance.objectNode().put("area", "orchard")));
         assertThat(statuses.get("t-1").reason()).startsWith("area: there is no field 'orchard'");
 
-        hosting.know(Map.of("orchard", WorkField.of(NgsiJson.mapper().readTree(FIELD))));
-        board.up("t-1");
+        reconciler.update(Map.of("orchard", WorkField.of(NgsiJson.mapper().readTree(FIELD))));
+        statusPublisher.up("t-1");
 
         assertThat(running).containsExactly("t-1");
         assertThat(statuses).containsEntry("t-1", status(1, State.RUNNING));
@@ -92,7 +92,7 @@ class FleetReconcilerTest {
                 "t-1",
                 desired("t-1", 1, true, JsonNodeFactory.instance.objectNode().put("area", "orchard")));
         take("t-1", null);
-        hosting.know(Map.of("orchard", WorkField.of(NgsiJson.mapper().readTree(FIELD))));
+        reconciler.update(Map.of("orchard", WorkField.of(NgsiJson.mapper().readTree(FIELD))));
 
         assertThat(running).isEmpty();
         assertThat(statuses).containsEntry("t-1", null);
@@ -110,18 +110,18 @@ class FleetReconcilerTest {
         take("t-1", device);
         assertThat(running).isEmpty();
         assertThat(statuses).isEmpty();
-        hosting.forgetAllBut(Set.of("t-1"));
+        reconciler.forgetAllBut(Set.of("t-1"));
         assertThat(statuses).isEmpty();
 
-        hosting.takeLists(Map.of(list.key(), list.toBytes()));
-        board.up("t-1");
+        reconciler.takeLists(Map.of(list.key(), list.toBytes()));
+        statusPublisher.up("t-1");
         assertThat(running).containsExactly("t-1");
         assertThat(statuses).containsEntry("t-1", status(6, State.RUNNING));
 
         take("t-1", inGroup(desired("t-1", 9, true, JsonNodeFactory.instance.objectNode()), 8));
         take("t-1", desired("t-1", 10, false, JsonNodeFactory.instance.objectNode()));
         assertThat(running).isEmpty();
-        hosting.takeLists(Map.of(list.key(), new MissionDeviceList("weeding", 0, 8, list.devices()).toBytes()));
+        reconciler.takeLists(Map.of(list.key(), new MissionDeviceList("weeding", 0, 8, list.devices()).toBytes()));
         assertThat(running).isEmpty();
     }
 
@@ -148,10 +148,10 @@ class FleetReconcilerTest {
     }
 
     @Test
-    void takesBackWhatIsSaidOfDevicesThatNobodyWants() {
+    void takesBackWhatIsReportedOfDevicesThatAreNotDesired() {
         take("t-1", desired("t-1", 1, true, path(-3.5)));
-        board.up("t-1");
-        hosting.forgetAllBut(Set.of("t-1", "t-2"));
+        statusPublisher.up("t-1");
+        reconciler.forgetAllBut(Set.of("t-1", "t-2"));
 
         assertThat(statuses).containsEntry("t-1", status(1, State.RUNNING)).containsEntry("t-2", null);
     }
@@ -171,16 +171,16 @@ class FleetReconcilerTest {
             topic.put(id, device);
             batch.put(id, device);
             if (random.nextInt(3) == 0) {
-                hosting.take(batch);
+                reconciler.take(batch);
                 batch.clear();
                 List<String> up = new ArrayList<>(running);
                 Collections.shuffle(up, new java.util.Random(random.nextLong()));
-                up.subList(0, up.size() / 2).forEach(board::up);
+                up.subList(0, up.size() / 2).forEach(statusPublisher::up);
             }
         }
-        hosting.take(batch);
-        hosting.take(topic);
-        running.forEach(board::up);
+        reconciler.take(batch);
+        reconciler.take(topic);
+        running.forEach(statusPublisher::up);
 
         topic.forEach((id, device) -> {
             boolean runs = device != null && device.running();
@@ -199,7 +199,7 @@ class FleetReconcilerTest {
     private void take(String key, DesiredDevice device) {
         Map<String, DesiredDevice> record = new HashMap<>();
         record.put(key, device);
-        hosting.take(record);
+        reconciler.take(record);
     }
 
     private static ObjectNode path(double longitude) {

@@ -15,10 +15,10 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.FarmSecret;
-import io.furrow.simulators.device.Listener;
+import io.furrow.simulators.device.MqttTestClient;
 
-import static io.furrow.simulators.host.HostBench.entity;
-import static io.furrow.simulators.host.HostBench.topic;
+import static io.furrow.simulators.host.HostFixture.entity;
+import static io.furrow.simulators.host.HostFixture.topic;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -31,12 +31,12 @@ class KilledHostIT {
     @TempDir
     private Path directory;
 
-    private HostBench bench;
+    private HostFixture bench;
     private final List<Process> processes = new ArrayList<>();
 
     @BeforeEach
     void start() throws Exception {
-        bench = new HostBench(directory.resolve("kafka"));
+        bench = new HostFixture(directory.resolve("kafka"));
     }
 
     @AfterEach
@@ -49,36 +49,37 @@ class KilledHostIT {
 
     @Test
     void takesUpWhatWasDesiredWhileItWasDead() throws Exception {
-        String stays = entity("Thermometer", "killed", 1);
+        String remaining = entity("Thermometer", "killed", 1);
         String stopped = entity("Thermometer", "killed", 2);
         String comes = entity("Thermometer", "killed", 3);
-        bench.admit("killed", stays);
+        bench.admit("killed", remaining);
         bench.admit("killed", stopped);
         bench.admit("killed", comes);
-        long first = bench.want("killed", stays, true, YARD);
-        long second = bench.want("killed", stopped, true, YARD);
+        long first = bench.addDesired("killed", remaining, true, YARD);
+        long second = bench.addDesired("killed", stopped, true, YARD);
         Process host = host();
         await().atMost(TIMEOUT).untilAsserted(() -> {
-            assertThat(bench.status(stays)).contains(new DeviceStatus(first, State.RUNNING, null));
+            assertThat(bench.status(remaining)).contains(new DeviceStatus(first, State.RUNNING, null));
             assertThat(bench.status(stopped)).contains(new DeviceStatus(second, State.RUNNING, null));
         });
 
         host.destroyForcibly().waitFor();
-        long end = bench.want("killed", stopped, false, YARD);
-        long begin = bench.want("killed", comes, true, YARD);
+        long end = bench.addDesired("killed", stopped, false, YARD);
+        long begin = bench.addDesired("killed", comes, true, YARD);
         host();
 
         await().atMost(TIMEOUT).untilAsserted(() -> {
-            assertThat(bench.status(stays)).contains(new DeviceStatus(first, State.RUNNING, null));
+            assertThat(bench.status(remaining)).contains(new DeviceStatus(first, State.RUNNING, null));
             assertThat(bench.status(stopped)).contains(new DeviceStatus(end, State.STOPPED, null));
             assertThat(bench.status(comes)).contains(new DeviceStatus(begin, State.RUNNING, null));
         });
-        try (Listener listener = bench.listener()) {
+        try (MqttTestClient listener = bench.listener()) {
             await().atMost(TIMEOUT).untilAsserted(() -> {
-                assertThat(listener.heard(topic("killed", stays, "attrs"))).isNotEmpty();
-                assertThat(listener.heard(topic("killed", comes, "attrs"))).isNotEmpty();
+                assertThat(listener.received(topic("killed", remaining, "attrs")))
+                        .isNotEmpty();
+                assertThat(listener.received(topic("killed", comes, "attrs"))).isNotEmpty();
             });
-            assertThat(listener.heard(topic("killed", stopped, "attrs"))).isEmpty();
+            assertThat(listener.received(topic("killed", stopped, "attrs"))).isEmpty();
         }
     }
 
@@ -95,7 +96,7 @@ class KilledHostIT {
     @Test
     void endsWithASentenceWhereTheFarmHasAnotherSecret() throws Exception {
         bench.putFingerprints(FarmSecret.generate());
-        bench.want("killed", entity("Thermometer", "killed", 1), true, YARD);
+        bench.addDesired("killed", entity("Thermometer", "killed", 1), true, YARD);
 
         Process host = host();
 
@@ -103,7 +104,7 @@ class KilledHostIT {
         assertThat(Files.readString(directory.resolve("host-0.log")))
                 .contains(
                         "this farm has another secret",
-                        HostBench.SECRET.toString(),
+                        HostFixture.SECRET.toString(),
                         "a copy of the control plane's file");
         assertThat(bench.statuses()).isEmpty();
     }
@@ -119,7 +120,7 @@ class KilledHostIT {
     }
 
     private Process host() throws Exception {
-        return run(Files.writeString(directory.resolve("secret"), HostBench.SECRET_TEXT), "host-" + processes.size());
+        return run(Files.writeString(directory.resolve("secret"), HostFixture.SECRET_TEXT), "host-" + processes.size());
     }
 
     private Process run(Path secret, String name) throws Exception {

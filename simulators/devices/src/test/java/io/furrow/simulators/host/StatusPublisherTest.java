@@ -11,8 +11,8 @@ import io.furrow.model.device.DeviceStatus.State;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class StatusPublisherTest {
-    private final List<String> said = new ArrayList<>();
-    private final StatusPublisher board = new StatusPublisher((key, status) -> said.add(
+    private final List<String> published = new ArrayList<>();
+    private final StatusPublisher statusPublisher = new StatusPublisher((key, status) -> published.add(
             status == null
                     ? key + " gone"
                     : "%s %d %s%s"
@@ -23,48 +23,48 @@ class StatusPublisherTest {
                                     status.reason() == null ? "" : ": " + status.reason())));
 
     @Test
-    void saysThatADeviceRunsOnlyOnceItsConnectionStands() {
-        board.begun("k", "d", running(1));
-        assertThat(said).isEmpty();
+    void reportsThatADeviceRunsOnlyOnceItsConnectionStands() {
+        statusPublisher.begun("k", "d", running(1));
+        assertThat(published).isEmpty();
 
-        board.up("d");
+        statusPublisher.up("d");
 
-        assertThat(said).containsExactly("k 1 running");
+        assertThat(published).containsExactly("k 1 running");
     }
 
     @Test
-    void saysWhyADeviceDoesNotComeUpWhenItWasTriedOftenAndThatItDidInTheEnd() {
-        board.begun("k", "d", running(1));
+    void reportsWhyADeviceDoesNotComeUpWhenItWasTriedOftenAndThatItDidInTheEnd() {
+        statusPublisher.begun("k", "d", running(1));
         for (int attempts = 1; attempts < StatusPublisher.MAX_ATTEMPTS; attempts++) {
-            board.failed("d", attempts, "refused");
+            statusPublisher.failed("d", attempts, "refused");
         }
-        assertThat(said).isEmpty();
+        assertThat(published).isEmpty();
 
-        board.failed("d", StatusPublisher.MAX_ATTEMPTS, "refused");
-        board.confirmed("k", running(2));
-        board.up("d");
+        statusPublisher.failed("d", StatusPublisher.MAX_ATTEMPTS, "refused");
+        statusPublisher.confirmed("k", running(2));
+        statusPublisher.up("d");
 
-        assertThat(said).containsExactly("k 1 failed: refused", "k 2 failed: refused", "k 2 running");
+        assertThat(published).containsExactly("k 1 failed: refused", "k 2 failed: refused", "k 2 running");
     }
 
     @Test
     void goesOnUnderTheNextSequenceOnceItIsUp() {
-        board.begun("k", "d", running(1));
-        board.up("d");
-        board.confirmed("k", running(2));
+        statusPublisher.begun("k", "d", running(1));
+        statusPublisher.up("d");
+        statusPublisher.confirmed("k", running(2));
 
-        assertThat(said).containsExactly("k 1 running", "k 2 running");
+        assertThat(published).containsExactly("k 1 running", "k 2 running");
     }
 
     @Test
     void takesNoNoticeOfTheConnectionOfADeviceThatIsGone() {
-        board.begun("k", "d", running(1));
-        board.ended("k", null);
-        board.up("d");
-        board.failed("d", 100, "refused");
+        statusPublisher.begun("k", "d", running(1));
+        statusPublisher.ended("k", null);
+        statusPublisher.up("d");
+        statusPublisher.failed("d", 100, "refused");
 
-        assertThat(said).containsExactly("k gone");
-        assertThat(board.keyOf("d")).isEmpty();
+        assertThat(published).containsExactly("k gone");
+        assertThat(statusPublisher.keyOf("d")).isEmpty();
     }
 
     private static DeviceStatus running(long sequence) {

@@ -13,9 +13,9 @@ import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.simulators.device.FiwareEnds;
+import io.furrow.simulators.device.FiwareServers;
 import io.furrow.simulators.device.FleetSettings;
-import io.furrow.simulators.device.Listener;
+import io.furrow.simulators.device.MqttTestClient;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -23,11 +23,11 @@ import static org.awaitility.Awaitility.await;
 
 @Tag("full")
 class LoadFleetTest {
-    private static FiwareEnds ends;
+    private static FiwareServers ends;
 
     @BeforeAll
     static void start() throws IOException {
-        ends = new FiwareEnds();
+        ends = new FiwareServers();
     }
 
     @AfterAll
@@ -45,35 +45,35 @@ class LoadFleetTest {
         LoadPlan plan = plan(20, Duration.ofMillis(50), 1_000, Duration.ofMillis(520));
         assertThat(plan.messages()).isEqualTo(200);
 
-        try (Listener listener = new Listener(ends.settings());
+        try (MqttTestClient listener = new MqttTestClient(ends.settings());
                 LoadFleet load = LoadFleet.start(ends.settings(), plan)) {
             load.await();
             assertThat(load.sent()).isEqualTo(200);
             assertThat(load.acknowledged()).isEqualTo(200);
-            await().until(() -> listener.heard().size() >= 200);
+            await().until(() -> listener.received().size() >= 200);
 
-            List<Listener.Heard> heard = listener.heard();
-            assertThat(heard).hasSize(200);
-            assertThat(heard.stream().map(message -> payload(message.json())))
+            List<MqttTestClient.Heard> received = listener.received();
+            assertThat(received).hasSize(200);
+            assertThat(received.stream().map(message -> payload(message.json())))
                     .doesNotHaveDuplicates()
                     .allSatisfy(text -> assertThat(text).hasSize(1_000).matches("[A-Za-z0-9.]+"));
-            assertThat(heard.stream().map(message -> head(message.json()))).doesNotHaveDuplicates();
-            Map<String, Long> shares =
-                    heard.stream().collect(Collectors.groupingBy(Listener.Heard::topic, Collectors.counting()));
+            assertThat(received.stream().map(message -> head(message.json()))).doesNotHaveDuplicates();
+            Map<String, Long> shares = received.stream()
+                    .collect(Collectors.groupingBy(MqttTestClient.Heard::topic, Collectors.counting()));
             assertThat(shares).hasSize(20).containsEntry("/furrow-load/load-00007/attrs", 10L);
             assertThat(shares.values()).containsOnly(10L);
         }
     }
 
     @Test
-    void spreadsTheDevicesOverThePeriodAndKeepsToTheSchedule() throws Exception {
+    void spreadsTheDevicesOverThePeriodAndFollowsTheSchedule() throws Exception {
         LoadPlan plan = plan(10, Duration.ofMillis(200), 100, Duration.ofMillis(600));
-        try (Listener listener = new Listener(ends.settings());
+        try (MqttTestClient listener = new MqttTestClient(ends.settings());
                 LoadFleet load = LoadFleet.start(ends.settings(), plan)) {
             load.await();
-            await().until(() -> listener.heard().size() == 30);
+            await().until(() -> listener.received().size() == 30);
 
-            long[] times = listener.heard().stream()
+            long[] times = listener.received().stream()
                     .mapToLong(message -> message.json().path("time").longValue())
                     .sorted()
                     .toArray();
@@ -90,11 +90,12 @@ class LoadFleetTest {
 
         LoadFleet.provision(ends.settings(), plan);
 
-        List<FiwareEnds.Asked> asked = ends.asked("/iot/devices");
-        assertThat(asked.stream().map(request -> request.body().path("devices").size()))
+        List<FiwareServers.ReceivedRequest> requested = ends.requested("/iot/devices");
+        assertThat(requested.stream()
+                        .map(request -> request.body().path("devices").size()))
                 .hasSize(52)
                 .startsWith(100, 50, 1);
-        JsonNode device = asked.get(51).body().at("/devices/0");
+        JsonNode device = requested.get(51).body().at("/devices/0");
         assertThat(device.path("device_id").textValue()).isEqualTo("load-00149");
         assertThat(device.path("attributes").findValuesAsText("name")).containsExactly("Time", "Status", "Payload");
         assertThat(device.path("static_attributes").findValuesAsText("value")).containsExactly("bench", "load");
@@ -147,7 +148,7 @@ class LoadFleetTest {
     }
 
     @Test
-    void saysWhenItWasClosedBeforeTheEnd() throws Exception {
+    void reportsWhenItWasClosedBeforeTheEnd() throws Exception {
         LoadFleet load = LoadFleet.start(ends.settings(), plan(1, Duration.ofSeconds(1), 100, Duration.ofSeconds(100)));
         await().until(() -> load.acknowledged() == 1);
         load.close();
@@ -158,7 +159,7 @@ class LoadFleetTest {
     }
 
     @Test
-    void refusesAPayloadThatCannotNumberTheMessages() {
+    void rejectsAPayloadThatCannotNumberTheMessages() {
         assertThatThrownBy(() -> plan(1, Duration.ofSeconds(1), 39, Duration.ofSeconds(1)))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContaining("at least 40");

@@ -20,84 +20,84 @@ class MessageQueueTest {
     @ValueSource(longs = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10})
     void bringsEveryMessageInOrderHoweverOftenTheConnectionBreaks(long seed) {
         SplittableRandom random = new SplittableRandom(seed);
-        MessageQueue outbox = new MessageQueue(1000, MUCH);
+        MessageQueue queue = new MessageQueue(1000, MUCH);
         List<Integer> arrived = new ArrayList<>();
         List<Long> onTheirWayBack = new ArrayList<>();
         int added = 0;
-        while (added < 500 || outbox.open() > 0) {
+        while (added < 500 || queue.open() > 0) {
             if (added < 500) {
-                outbox.add(message(added++));
+                queue.add(message(added++));
             }
             double chance = random.nextDouble();
             if (chance < 0.1 && added < 500) {
-                outbox.broken();
-            } else if (outbox.first() != null && (chance < 0.8 || added == 500)) {
-                long number = outbox.first().getKey();
+                queue.broken();
+            } else if (queue.first() != null && (chance < 0.8 || added == 500)) {
+                long number = queue.first().getKey();
                 if (random.nextDouble() < 0.9 || added == 500) {
-                    arrived.add(number(outbox.first().getValue()));
+                    arrived.add(number(queue.first().getValue()));
                     onTheirWayBack.add(number);
-                    outbox.sent(number);
+                    queue.sent(number);
                 } else {
-                    outbox.sent(number);
-                    outbox.broken();
+                    queue.sent(number);
+                    queue.broken();
                 }
             }
             if (chance > 0.5 || added == 500) {
-                onTheirWayBack.forEach(outbox::acknowledged);
+                onTheirWayBack.forEach(queue::acknowledged);
                 onTheirWayBack.clear();
             }
         }
 
         List<Integer> first = List.copyOf(new LinkedHashSet<>(arrived));
         assertThat(first).hasSize(500).isSorted();
-        assertThat(outbox.acknowledged()).isEqualTo(500);
-        assertThat(outbox.dropped()).isZero();
+        assertThat(queue.acknowledged()).isEqualTo(500);
+        assertThat(queue.dropped()).isZero();
     }
 
     @Test
     void dropsTheOldestWhenWhatWaitsOrIsUnderWayIsTooLarge() {
-        MessageQueue outbox = new MessageQueue(1000, 10_000);
+        MessageQueue queue = new MessageQueue(1000, 10_000);
         for (int i = 0; i < 9; i++) {
-            outbox.add(new MessageQueue.Message("t", new byte[1500]));
+            queue.add(new MessageQueue.Message("t", new byte[1500]));
         }
-        assertThat(outbox.open()).isEqualTo(5);
-        assertThat(outbox.dropped()).isEqualTo(4);
-        assertThat(outbox.first().getKey()).isEqualTo(4);
+        assertThat(queue.open()).isEqualTo(5);
+        assertThat(queue.dropped()).isEqualTo(4);
+        assertThat(queue.first().getKey()).isEqualTo(4);
 
-        outbox.sent(4);
-        outbox.acknowledged(4);
-        outbox.add(new MessageQueue.Message("t", new byte[1500]));
-        assertThat(outbox.open()).isEqualTo(5);
-        assertThat(outbox.dropped()).isEqualTo(4);
+        queue.sent(4);
+        queue.acknowledged(4);
+        queue.add(new MessageQueue.Message("t", new byte[1500]));
+        assertThat(queue.open()).isEqualTo(5);
+        assertThat(queue.dropped()).isEqualTo(4);
 
-        outbox.add(new MessageQueue.Message("t", new byte[50_000]));
-        assertThat(outbox.open()).as("one may be larger than all that fits").isEqualTo(1);
+        queue.add(new MessageQueue.Message("t", new byte[50_000]));
+        assertThat(queue.open()).as("one may be larger than all that fits").isEqualTo(1);
     }
 
     @Test
     void dropsTheOldestWhenTooManyWait() {
-        MessageQueue outbox = new MessageQueue(3, MUCH);
+        MessageQueue queue = new MessageQueue(3, MUCH);
         for (int i = 0; i < 5; i++) {
-            outbox.add(message(i));
+            queue.add(message(i));
         }
 
-        assertThat(outbox.dropped()).isEqualTo(2);
-        assertThat(number(outbox.first().getValue())).isEqualTo(2);
-        assertThat(outbox.open()).isEqualTo(3);
+        assertThat(queue.dropped()).isEqualTo(2);
+        assertThat(number(queue.first().getValue())).isEqualTo(2);
+        assertThat(queue.open()).isEqualTo(3);
     }
 
     @Test
     void countsAnAcknowledgementOnce() {
-        MessageQueue outbox = new MessageQueue(3, MUCH);
-        outbox.add(message(0));
-        outbox.sent(0);
-        outbox.broken();
+        MessageQueue queue = new MessageQueue(3, MUCH);
+        queue.add(message(0));
+        queue.sent(0);
+        queue.broken();
 
-        outbox.acknowledged(0);
-        outbox.acknowledged(0);
+        queue.acknowledged(0);
+        queue.acknowledged(0);
 
-        assertThat(outbox.acknowledged()).isEqualTo(1);
-        assertThat(outbox.open()).isZero();
+        assertThat(queue.acknowledged()).isEqualTo(1);
+        assertThat(queue.open()).isZero();
     }
 
     private static MessageQueue.Message message(int number) {

@@ -23,25 +23,25 @@ class MqttConnectionTest {
         try (ForgetfulBroker broker = new ForgetfulBroker(false)) {
             MqttConnection.Plan plan = new MqttConnection.Plan(
                     new MqttAccess.Login("farmer", "plough"), "line", List.of("/k/d/cmd"), 10, 1000);
-            try (MqttConnection line =
+            try (MqttConnection connection =
                     MqttConnection.open(new MqttAccess(broker.uri(), null, 1), plan, (topic, payload) -> {})) {
-                line.send("/k/d/attrs", "1".getBytes(StandardCharsets.UTF_8));
-                line.send("/k/d/attrs", "2".getBytes(StandardCharsets.UTF_8));
+                connection.send("/k/d/attrs", "1".getBytes(StandardCharsets.UTF_8));
+                connection.send("/k/d/attrs", "2".getBytes(StandardCharsets.UTF_8));
 
                 await().atMost(Duration.ofSeconds(60)).until(() -> {
-                    line.push();
-                    return line.open() == 0;
+                    connection.push();
+                    return connection.open() == 0;
                 });
 
                 assertThat(broker.taken()).startsWith("2").endsWith("1");
-                assertThat(line.acknowledged()).isEqualTo(2);
+                assertThat(connection.acknowledged()).isEqualTo(2);
             }
         }
     }
 
     /** As one does that hangs; without a limit each attempt would take a thread forever. */
     @Test
-    void givesUpABrokerThatAcceptsAndSaysNothing() throws Exception {
+    void givesUpABrokerThatAcceptsAndReportsNothing() throws Exception {
         try (ServerSocket silent = new ServerSocket(0, 10, InetAddress.getLoopbackAddress())) {
             URI uri = URI.create("tcp://127.0.0.1:" + silent.getLocalPort());
             MqttConnection.Plan plan =
@@ -63,17 +63,17 @@ class MqttConnectionTest {
     /** As an embedded broker does that is not ready for the subscription though it has accepted the connection. */
     @Test
     void getsOverAConnectionThatIsCutAtTheSubscriptionWithoutAWarning() throws Exception {
-        Warnings warnings = Warnings.record(MqttConnectionTest.class.getPackageName());
+        LoggedWarnings warnings = LoggedWarnings.record(MqttConnectionTest.class.getPackageName());
         try (ForgetfulBroker broker = new ForgetfulBroker(true)) {
             MqttConnection.Plan plan = new MqttConnection.Plan(
                     new MqttAccess.Login("farmer", "plough"), "line", List.of("/k/d/cmd"), 10, 1000);
-            try (MqttConnection line =
+            try (MqttConnection connection =
                     MqttConnection.open(new MqttAccess(broker.uri(), null, 1), plan, (topic, payload) -> {})) {
-                line.send("/k/d/attrs", "1".getBytes(StandardCharsets.UTF_8));
+                connection.send("/k/d/attrs", "1".getBytes(StandardCharsets.UTF_8));
 
                 await().until(() -> {
-                    line.push();
-                    return line.open() == 0;
+                    connection.push();
+                    return connection.open() == 0;
                 });
 
                 assertThat(broker.taken()).containsExactly("1");

@@ -25,7 +25,7 @@ class FirosEntityTest {
             Duration.ZERO);
 
     @Test
-    void tellsItsPositionTimeSpeedAndHeading() {
+    void reportsItsPositionTimeSpeedAndHeading() {
         Entity entity = entity(RobotState.starting(START, 20));
 
         assertThat(entity.type()).isEqualTo("ROBOT");

@@ -83,12 +83,12 @@ class RobotModelTest {
         RobotModel first = robot("robot-1", NORTHWARDS);
         RobotModel second = robot("robot-2", Trajectory.along(List.of(NORTH, SOUTH), PACE));
 
-        Meeting meeting = meet(List.of(first, second), Duration.ofSeconds(70), 0.5);
+        Encounter encounterDistance = meet(List.of(first, second), Duration.ofSeconds(70), 0.5);
 
-        assertThat(meeting.waited("robot-1")).isEmpty();
-        assertThat(meeting.waited("robot-2")).isNotEmpty();
-        assertThat(meeting.state("robot-1").driven()).isEqualTo(70, within(1e-6));
-        assertThat(meeting.state("robot-2").driven()).isBetween(60d, 69.5);
+        assertThat(encounterDistance.waited("robot-1")).isEmpty();
+        assertThat(encounterDistance.waited("robot-2")).isNotEmpty();
+        assertThat(encounterDistance.state("robot-1").driven()).isEqualTo(70, within(1e-6));
+        assertThat(encounterDistance.state("robot-2").driven()).isBetween(60d, 69.5);
     }
 
     @ParameterizedTest
@@ -101,15 +101,15 @@ class RobotModelTest {
             robots.add(robot("robot-" + i, way));
         }
 
-        Meeting meeting = meet(robots, Duration.ofHours(1), 0.5);
+        Encounter encounterDistance = meet(robots, Duration.ofHours(1), 0.5);
 
-        assertThat(meeting.waited("robot-1")).isEmpty();
+        assertThat(encounterDistance.waited("robot-1")).isEmpty();
         for (RobotModel robot : robots) {
-            assertThat(meeting.waited(robot.id()))
+            assertThat(encounterDistance.waited(robot.id()))
                     .allSatisfy(waited -> assertThat(waited).isLessThanOrEqualTo(Duration.ofMillis(20_500)));
-            assertThat(meeting.state(robot.id()).driven()).isGreaterThan(900);
+            assertThat(encounterDistance.state(robot.id()).driven()).isGreaterThan(900);
         }
-        assertThat(meeting.waited("robot-4")).isNotEmpty();
+        assertThat(encounterDistance.waited("robot-4")).isNotEmpty();
     }
 
     /** A robot that stands ahead of another does not hold it up forever. */
@@ -128,7 +128,7 @@ class RobotModelTest {
     }
 
     /** States and waiting times of robots that worked together. */
-    private record Meeting(Map<String, RobotState> states, Map<String, List<Duration>> waits) {
+    private record Encounter(Map<String, RobotState> states, Map<String, List<Duration>> waits) {
         RobotState state(String id) {
             return states.get(id);
         }
@@ -138,7 +138,7 @@ class RobotModelTest {
         }
     }
 
-    private static Meeting meet(List<RobotModel> robots, Duration time, double seconds) {
+    private static Encounter meet(List<RobotModel> robots, Duration time, double seconds) {
         Map<String, RobotState> states = new TreeMap<>();
         Map<String, List<Duration>> waits = new TreeMap<>();
         robots.forEach(robot -> states.put(robot.id(), RobotState.starting(START, 0)));
@@ -155,7 +155,7 @@ class RobotModelTest {
                 }
             }
         }
-        return new Meeting(states, waits);
+        return new Encounter(states, waits);
     }
 
     private static RobotModel robot(String id, Trajectory way) {

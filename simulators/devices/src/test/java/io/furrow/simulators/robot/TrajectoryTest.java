@@ -116,7 +116,7 @@ class TrajectoryTest {
 
     @ParameterizedTest
     @MethodSource("cases")
-    void looksWhereItGoesAndTurnsOnTheSpot(Case each) {
+    void facesWhereItGoesAndTurnsOnTheSpot(Case each) {
         int turns = 0;
         for (double time = 0; time < each.way.lap(); time += 0.5) {
             Trajectory.Pose pose = each.way.at(time);
@@ -179,7 +179,7 @@ class TrajectoryTest {
     }
 
     @Test
-    void saysWhatToDoWhereAFieldHasNoRoom() {
+    void reportsWhatToDoWhereAFieldHasNoRoom() {
         WorkField field = cases().findFirst().orElseThrow().field();
 
         assertThatThrownBy(() -> Trajectory.through(field, new Work(3, 200, null), PACE))

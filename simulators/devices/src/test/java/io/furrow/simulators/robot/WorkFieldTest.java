@@ -22,7 +22,7 @@ class WorkFieldTest {
                     {"type": "Feature", "id": "f", "geometry": {"type": "Polygon", "coordinates": [[[1, 2], [2, 2], [2, 3], [1, 3]]]}} | a ring of field 'f' is not closed: its last corner is its first, with at least two between
                     {"type": "Feature", "id": "f", "geometry": {"type": "Polygon", "coordinates": [[[1, 1], [2, 2], [2, 1], [1, 2], [1, 1]]]}} | the Polygon of field 'f' is not valid at 1.500000, 1.500000: Self-intersection
                     """)
-    void saysWhatIsWrong(String feature, String sentence) throws Exception {
+    void reportsWhatIsWrong(String feature, String sentence) throws Exception {
         var json = NgsiJson.mapper().readTree(feature);
 
         assertThatThrownBy(() -> WorkField.of(json))

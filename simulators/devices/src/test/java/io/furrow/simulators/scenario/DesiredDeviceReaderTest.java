@@ -64,7 +64,7 @@ class DesiredDeviceReaderTest {
     }
 
     @Test
-    void hasABatteryWhereTheParametersSaySo() throws Exception {
+    void hasABatteryWhereTheParametersReportSo() throws Exception {
         Sensor sensor = (Sensor) read("Thermometer", 1, "{\"path\": [[0, 0]], \"parameters\": {\"battery\": \"P7D\"}}");
         Camera camera = (Camera) read("Camera", 1, "{\"path\": [[0, 0]], \"parameters\": {\"battery\": \"P7D\"}}");
 
@@ -125,7 +125,7 @@ class DesiredDeviceReaderTest {
             """)
     void saysWhichSettingIsWrongAndWhatToDo(String type, String settings, String message) {
         assertThatThrownBy(() -> read(type, 1, settings))
-                .isInstanceOf(UnusableScenarioException.class)
+                .isInstanceOf(InvalidScenarioException.class)
                 .hasMessage(message);
     }
 

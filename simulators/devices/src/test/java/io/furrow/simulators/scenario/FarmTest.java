@@ -55,7 +55,7 @@ class FarmTest {
                         "t-2", "urn:ngsi-ld:Thermometer:t-2", "Thermometer", "farm", "weeding"));
         assertThat(device(farm, "moving", Camera.class).identity().entity()).isEqualTo("urn:x:1");
         assertThat(device(farm, "r-1", Robot.class).period()).isEqualTo(Duration.ofMillis(500));
-        assertThat(device(farm, "r-1", Robot.class).model().meeting()).isEqualTo(5);
+        assertThat(device(farm, "r-1", Robot.class).model().encounterDistance()).isEqualTo(5);
     }
 
     @Test
@@ -170,7 +170,7 @@ class FarmTest {
         assertThat(broken).isNotEqualTo(FARM);
 
         assertThatThrownBy(() -> read(broken))
-                .isInstanceOf(UnusableScenarioException.class)
+                .isInstanceOf(InvalidScenarioException.class)
                 .hasMessage(sentence);
     }
 

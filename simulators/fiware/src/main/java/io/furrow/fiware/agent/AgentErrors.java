@@ -54,7 +54,7 @@ final class AgentErrors {
                 "The request was not well formed:Missing attributes: [\"device_id\"] with: " + device);
     }
 
-    static NgsiError duplicateDevice(Device device) {
+    static NgsiError duplicateDevice(ProvisionedDevice device) {
         return new NgsiError(
                 409,
                 "DUPLICATE_DEVICE_ID",

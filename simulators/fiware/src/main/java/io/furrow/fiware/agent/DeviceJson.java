@@ -33,7 +33,7 @@ final class DeviceJson {
     private DeviceJson() {}
 
     /** For {@code GET /iot/devices}: without unknown members; attributes and commands have an {@code object_id}. */
-    static ObjectNode listed(Device device) {
+    static ObjectNode listed(ProvisionedDevice device) {
         JsonNode provisioned = device.json();
         ObjectNode json = NODES.objectNode().put("device_id", device.id());
         if (!device.apikey().isEmpty()) {
@@ -69,7 +69,7 @@ final class DeviceJson {
     }
 
     /** For the error of a duplicate device. */
-    static ObjectNode internal(Device device) {
+    static ObjectNode internal(ProvisionedDevice device) {
         ObjectNode json = NODES.objectNode().put("id", device.id());
         if (!device.apikey().isEmpty()) {
             json.put("apikey", device.apikey());

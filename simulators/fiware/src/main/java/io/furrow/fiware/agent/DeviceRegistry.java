@@ -22,10 +22,10 @@ public final class DeviceRegistry {
 
     private final Map<ServiceGroup.Key, ServiceGroup> groups = new LinkedHashMap<>();
     /** By scope and id, in the order of registration. */
-    private final Map<String, Device> devices = new LinkedHashMap<>();
+    private final Map<String, ProvisionedDevice> devices = new LinkedHashMap<>();
 
-    private final Map<Topic, Device> byTopic = new HashMap<>();
-    private final Map<String, Device> byEntity = new HashMap<>();
+    private final Map<Topic, ProvisionedDevice> byTopic = new HashMap<>();
+    private final Map<String, ProvisionedDevice> byEntity = new HashMap<>();
     private final AtomicLong revision;
     private final Clock clock;
     private int numbered;
@@ -83,7 +83,7 @@ public final class DeviceRegistry {
                 .findFirst();
     }
 
-    public synchronized void add(Device device) throws NgsiError {
+    public synchronized void add(ProvisionedDevice device) throws NgsiError {
         if (devices.containsKey(device.scope().identity(device.id()))) {
             throw AgentErrors.duplicateDevice(device);
         }
@@ -94,43 +94,43 @@ public final class DeviceRegistry {
     }
 
     synchronized void remove(FiwareScope scope, String id) throws NgsiError {
-        Device device = device(scope, id).orElseThrow(() -> AgentErrors.noDevice(id, scope));
+        ProvisionedDevice device = device(scope, id).orElseThrow(() -> AgentErrors.noDevice(id, scope));
         devices.remove(scope.identity(id));
         byTopic.remove(new Topic(device.apikey(), id));
         byEntity.remove(scope.identity(device.entityId()));
         revision.incrementAndGet();
     }
 
-    synchronized Optional<Device> device(FiwareScope scope, String id) {
+    synchronized Optional<ProvisionedDevice> device(FiwareScope scope, String id) {
         return Optional.ofNullable(devices.get(scope.identity(id)));
     }
 
-    public synchronized List<Device> devices() {
+    public synchronized List<ProvisionedDevice> devices() {
         return List.copyOf(devices.values());
     }
 
-    synchronized List<Device> devices(FiwareScope scope) {
+    synchronized List<ProvisionedDevice> devices(FiwareScope scope) {
         return devices.values().stream()
                 .filter(device -> device.scope().equals(scope))
                 .toList();
     }
 
     /** The device of a topic; a new one is registered if the group of its API key allows it. */
-    synchronized Optional<Device> behind(String apikey, String deviceId) throws NgsiError {
+    synchronized Optional<ProvisionedDevice> behind(String apikey, String deviceId) throws NgsiError {
         ServiceGroup group = groups.get(new ServiceGroup.Key(RESOURCE, apikey));
         if (group == null) {
             return Optional.empty();
         }
-        Device known = byTopic.get(new Topic(apikey, deviceId));
-        if (known != null || !group.takesUnprovisioned()) {
-            return Optional.ofNullable(known);
+        ProvisionedDevice existing = byTopic.get(new Topic(apikey, deviceId));
+        if (existing != null || !group.takesUnprovisioned()) {
+            return Optional.ofNullable(existing);
         }
-        Device device = Device.unprovisioned(group, deviceId);
+        ProvisionedDevice device = ProvisionedDevice.unprovisioned(group, deviceId);
         add(device);
         return Optional.of(device);
     }
 
-    synchronized Optional<Device> ofEntity(FiwareScope scope, String entityId) {
+    synchronized Optional<ProvisionedDevice> ofEntity(FiwareScope scope, String entityId) {
         return Optional.ofNullable(byEntity.get(scope.identity(entityId)));
     }
 }

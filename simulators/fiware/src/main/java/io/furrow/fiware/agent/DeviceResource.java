@@ -8,9 +8,9 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.http.Call;
 import io.furrow.fiware.http.NgsiError;
-import io.furrow.fiware.http.Reply;
+import io.furrow.fiware.http.NgsiRequest;
+import io.furrow.fiware.http.NgsiResponse;
 import io.furrow.model.event.FiwareScope;
 
 /** {@code /iot/devices} and {@code /iot/devices/<id>}. */
@@ -23,7 +23,7 @@ final class DeviceResource {
         this.registry = registry;
     }
 
-    Reply answer(Call call) throws NgsiError {
+    NgsiResponse answer(NgsiRequest call) throws NgsiError {
         return switch (call.method()) {
             case "POST" -> create(call);
             case "GET" -> list(call);
@@ -31,24 +31,24 @@ final class DeviceResource {
         };
     }
 
-    Reply answer(Call call, String id) throws NgsiError {
+    NgsiResponse answer(NgsiRequest call, String id) throws NgsiError {
         FiwareScope scope = call.scope();
         return switch (call.method()) {
-            case "GET" -> Reply.ok(DeviceJson.listed(find(scope, id)));
+            case "GET" -> NgsiResponse.ok(DeviceJson.listed(find(scope, id)));
             case "DELETE" -> {
                 registry.remove(scope, id);
-                yield Reply.noContent();
+                yield NgsiResponse.noContent();
             }
             default -> IotAgentApi.notFound(call);
         };
     }
 
-    private Device find(FiwareScope scope, String id) throws NgsiError {
+    private ProvisionedDevice find(FiwareScope scope, String id) throws NgsiError {
         return registry.device(scope, id).orElseThrow(() -> AgentErrors.noDevice(id));
     }
 
     /** Creates each device separately; answers the first error. */
-    private Reply create(Call call) throws NgsiError {
+    private NgsiResponse create(NgsiRequest call) throws NgsiError {
         JsonNode devices = IotAgentApi.json(call).path("devices");
         if (!devices.isArray()) {
             throw AgentErrors.wrongSyntax();
@@ -65,21 +65,21 @@ final class DeviceResource {
         if (first != null) {
             throw first;
         }
-        return Reply.json(201, NODES.objectNode());
+        return NgsiResponse.json(201, NODES.objectNode());
     }
 
-    private Device read(FiwareScope scope, JsonNode json) throws NgsiError {
+    private ProvisionedDevice read(FiwareScope scope, JsonNode json) throws NgsiError {
         Optional<ServiceGroup> group = registry.groupFor(
                 scope, json.path("apikey").asText(""), json.path("entity_type").asText(""));
-        return Device.read(scope, json, group);
+        return ProvisionedDevice.read(scope, json, group);
     }
 
-    private Reply list(Call call) throws NgsiError {
-        List<Device> all = registry.devices(call.scope());
+    private NgsiResponse list(NgsiRequest call) throws NgsiError {
+        List<ProvisionedDevice> all = registry.devices(call.scope());
         ArrayNode page = NODES.arrayNode();
         all.stream().skip(call.offset()).limit(call.limit()).forEach(device -> page.add(DeviceJson.listed(device)));
         ObjectNode list = NODES.objectNode().put("count", all.size());
         list.set("devices", page);
-        return Reply.ok(list);
+        return NgsiResponse.ok(list);
     }
 }

@@ -104,7 +104,7 @@ public final class IotAgent implements ContextBroker.Commands {
 
     @Override
     public void issue(FiwareScope scope, String entityId, Map<String, JsonNode> commands) throws NgsiError {
-        Device device = registry.ofEntity(scope, entityId).orElseThrow(NgsiError::noEntity);
+        ProvisionedDevice device = registry.ofEntity(scope, entityId).orElseThrow(NgsiError::noEntity);
         for (Map.Entry<String, JsonNode> command : commands.entrySet()) {
             // Before the message goes out: the device may answer faster than this thread continues.
             Map<String, AttributeInput> pending = new LinkedHashMap<>(
@@ -121,7 +121,7 @@ public final class IotAgent implements ContextBroker.Commands {
     }
 
     /** Refuses the whole update if the context broker would refuse an attribute. */
-    private void update(Device device, Map<String, AttributeInput> attributes) throws NgsiError {
+    private void update(ProvisionedDevice device, Map<String, AttributeInput> attributes) throws NgsiError {
         for (AttributeInput attribute : attributes.values()) {
             SyntaxRules.check(attribute);
         }
@@ -129,12 +129,12 @@ public final class IotAgent implements ContextBroker.Commands {
     }
 
     private interface Reaction {
-        void to(Device device, JsonNode json) throws NgsiError;
+        void to(ProvisionedDevice device, JsonNode json) throws NgsiError;
     }
 
     private void received(String what, String apikey, String deviceId, byte[] payload, Reaction reaction) {
         try {
-            Optional<Device> device = registry.behind(apikey, deviceId);
+            Optional<ProvisionedDevice> device = registry.behind(apikey, deviceId);
             if (device.isEmpty()) {
                 String reason =
                         "there is no device with this id and API key %s, or no service group with this key and resource %s"

@@ -7,10 +7,10 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.http.Call;
 import io.furrow.fiware.http.LoopbackServer;
 import io.furrow.fiware.http.NgsiError;
-import io.furrow.fiware.http.Reply;
+import io.furrow.fiware.http.NgsiRequest;
+import io.furrow.fiware.http.NgsiResponse;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -40,10 +40,10 @@ public final class IotAgentApi implements LoopbackServer.Endpoint {
     }
 
     @Override
-    public Reply answer(Call call) throws NgsiError {
+    public NgsiResponse answer(NgsiRequest call) throws NgsiError {
         List<String> path = call.path();
         if (path.equals(List.of("iot", "about"))) {
-            return Reply.ok(JsonNodeFactory.instance.objectNode().put("version", "3.14.0-furrow-stand-in"));
+            return NgsiResponse.ok(JsonNodeFactory.instance.objectNode().put("version", "3.14.0-furrow-stand-in"));
         }
         String resource = path.size() > 1 && path.get(0).equals("iot") ? path.get(1) : "";
         boolean ofGroups = path.size() == 2 && resource.equals("services");
@@ -51,8 +51,9 @@ public final class IotAgentApi implements LoopbackServer.Endpoint {
         if (!ofGroups && !ofDevices) {
             return notFound(call);
         }
-        List<String> missing =
-                Stream.of(Call.SERVICE, Call.SERVICE_PATH).filter(call::lacks).toList();
+        List<String> missing = Stream.of(NgsiRequest.SERVICE, NgsiRequest.SERVICE_PATH)
+                .filter(call::lacks)
+                .toList();
         if (!missing.isEmpty()) {
             throw AgentErrors.missingHeaders(missing);
         }
@@ -63,12 +64,12 @@ public final class IotAgentApi implements LoopbackServer.Endpoint {
     }
 
     /** Express' page for an unknown route. */
-    static Reply notFound(Call call) {
-        return Reply.html(404, PAGE.formatted(call.method(), "/" + String.join("/", call.path())));
+    static NgsiResponse notFound(NgsiRequest call) {
+        return NgsiResponse.html(404, PAGE.formatted(call.method(), "/" + String.join("/", call.path())));
     }
 
     /** The body; no body is an empty object. */
-    static JsonNode json(Call call) throws NgsiError {
+    static JsonNode json(NgsiRequest call) throws NgsiError {
         if (call.body().length == 0) {
             return JsonNodeFactory.instance.objectNode();
         }
@@ -81,8 +82,8 @@ public final class IotAgentApi implements LoopbackServer.Endpoint {
     }
 
     @Override
-    public Reply describe(NgsiError error) {
+    public NgsiResponse describe(NgsiError error) {
         ObjectNode json = JsonNodeFactory.instance.objectNode().put("name", error.error());
-        return Reply.json(error.status(), json.put("message", error.getMessage()));
+        return NgsiResponse.json(error.status(), json.put("message", error.getMessage()));
     }
 }

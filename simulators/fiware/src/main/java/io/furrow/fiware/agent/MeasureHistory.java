@@ -63,7 +63,7 @@ public final class MeasureHistory {
     }
 
     void measured(String apikey, String device) {
-        update(devices, apikey, device, known -> new Received(clock.millis(), known.ignored()));
+        update(devices, apikey, device, existing -> new Received(clock.millis(), existing.ignored()));
     }
 
     void unreadable(String apikey, String device, byte[] payload, String reason) {
@@ -76,9 +76,9 @@ public final class MeasureHistory {
 
     private void ignored(Map<Sender, Received> among, String apikey, String device, byte[] payload, String reason) {
         String begin = new String(payload, 0, Math.min(payload.length, MAX_PAYLOAD), StandardCharsets.UTF_8);
-        update(among, apikey, device, known -> {
-            long before = known.ignored() == null ? 0 : known.ignored().count();
-            return new Received(known.measured(), new Ignored(before + 1, clock.millis(), reason, begin));
+        update(among, apikey, device, existing -> {
+            long before = existing.ignored() == null ? 0 : existing.ignored().count();
+            return new Received(existing.measured(), new Ignored(before + 1, clock.millis(), reason, begin));
         });
     }
 

@@ -9,9 +9,9 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.fiware.http.Call;
 import io.furrow.fiware.http.NgsiError;
-import io.furrow.fiware.http.Reply;
+import io.furrow.fiware.http.NgsiRequest;
+import io.furrow.fiware.http.NgsiResponse;
 import io.furrow.model.event.FiwareScope;
 
 /** {@code /iot/services}. Lists ignore {@code limit} and {@code offset}, as the agent does. */
@@ -24,23 +24,23 @@ final class ServiceGroupResource {
         this.registry = registry;
     }
 
-    Reply answer(Call call) throws NgsiError {
+    NgsiResponse answer(NgsiRequest call) throws NgsiError {
         return switch (call.method()) {
             case "POST" -> create(call);
             case "GET" -> list(call);
             case "PUT" -> {
                 registry.change(key(call), call.scope(), ServiceGroup.members(IotAgentApi.json(call)));
-                yield Reply.noContent();
+                yield NgsiResponse.noContent();
             }
             case "DELETE" -> {
                 registry.removeGroup(key(call), call.scope());
-                yield Reply.noContent();
+                yield NgsiResponse.noContent();
             }
             default -> IotAgentApi.notFound(call);
         };
     }
 
-    private Reply create(Call call) throws NgsiError {
+    private NgsiResponse create(NgsiRequest call) throws NgsiError {
         JsonNode json = IotAgentApi.json(call);
         JsonNode list = json.path("services");
         if (!list.isArray()) {
@@ -53,10 +53,10 @@ final class ServiceGroupResource {
         for (ServiceGroup group : groups) {
             registry.add(group);
         }
-        return Reply.json(201, NODES.objectNode());
+        return NgsiResponse.json(201, NODES.objectNode());
     }
 
-    private Reply list(Call call) throws NgsiError {
+    private NgsiResponse list(NgsiRequest call) throws NgsiError {
         FiwareScope scope = call.scope();
         ArrayNode services = NODES.arrayNode();
         registry.groups(scope).forEach(group -> services.add(group.listed()));
@@ -65,11 +65,11 @@ final class ServiceGroupResource {
         }
         ObjectNode list = NODES.objectNode().put("count", services.size());
         list.set("services", services);
-        return Reply.ok(list);
+        return NgsiResponse.ok(list);
     }
 
     /** Both parameters are required, but may be empty. */
-    private static ServiceGroup.Key key(Call call) throws NgsiError {
+    private static ServiceGroup.Key key(NgsiRequest call) throws NgsiError {
         List<String> missing = Stream.of("resource", "apikey")
                 .filter(name -> call.query().get(name) == null)
                 .toList();

@@ -10,9 +10,9 @@ import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.EntityUpdate;
 import io.furrow.fiware.broker.EntityUpdate.Action;
 import io.furrow.fiware.broker.SyntaxRules;
-import io.furrow.fiware.http.Call;
 import io.furrow.fiware.http.NgsiError;
-import io.furrow.fiware.http.Reply;
+import io.furrow.fiware.http.NgsiRequest;
+import io.furrow.fiware.http.NgsiResponse;
 
 /** Updates of {@code /v2/entities/<id>/attrs} and deletions of {@code …/attrs/<name>}. */
 final class AttributeResource {
@@ -26,7 +26,7 @@ final class AttributeResource {
         this.broker = broker;
     }
 
-    Reply answer(Call call) throws NgsiError {
+    NgsiResponse answer(NgsiRequest call) throws NgsiError {
         if (!call.path().get(3).equals("attrs") || call.path().size() > ONE) {
             throw NgsiError.noService();
         }
@@ -41,7 +41,7 @@ final class AttributeResource {
         };
     }
 
-    private Reply delete(Call call) throws NgsiError {
+    private NgsiResponse delete(NgsiRequest call) throws NgsiError {
         if (!call.method().equals("DELETE")) {
             throw NgsiError.badMethod();
         }
@@ -53,17 +53,19 @@ final class AttributeResource {
         }
     }
 
-    private Reply update(Call call, Action action) throws NgsiError {
+    private NgsiResponse update(NgsiRequest call, Action action) throws NgsiError {
         JsonNode json = call.json();
         boolean clears = action == Action.REPLACE && json.isObject() && json.isEmpty();
-        return change(call, clears ? Map.of() : new EntityReader(call.option("keyValues")).attributes(json), action);
+        return change(
+                call, clears ? Map.of() : new EntityBodyReader(call.option("keyValues")).attributes(json), action);
     }
 
-    private Reply change(Call call, Map<String, AttributeInput> attributes, Action action) throws NgsiError {
+    private NgsiResponse change(NgsiRequest call, Map<String, AttributeInput> attributes, Action action)
+            throws NgsiError {
         String id = call.path().get(2);
         SyntaxRules.checkEntity(id, call.parameter("type"));
         EntityUpdate update = new EntityUpdate(id, call.parameter("type"), attributes);
         broker.update(call.scope(), update, action, call.option("forcedUpdate"), call.correlator());
-        return Reply.noContent();
+        return NgsiResponse.noContent();
     }
 }

@@ -16,9 +16,9 @@ import io.furrow.fiware.broker.EntityUpdate.Action;
 import io.furrow.fiware.broker.Rendering;
 import io.furrow.fiware.broker.StoredEntity;
 import io.furrow.fiware.broker.SyntaxRules;
-import io.furrow.fiware.http.Call;
 import io.furrow.fiware.http.NgsiError;
-import io.furrow.fiware.http.Reply;
+import io.furrow.fiware.http.NgsiRequest;
+import io.furrow.fiware.http.NgsiResponse;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -32,7 +32,7 @@ final class BatchResource {
         this.broker = broker;
     }
 
-    Reply answer(Call call) throws NgsiError {
+    NgsiResponse answer(NgsiRequest call) throws NgsiError {
         String operation = call.path().size() == 3 ? call.path().get(2) : "";
         if (!operation.equals("update") && !operation.equals("query")) {
             throw NgsiError.noService();
@@ -43,7 +43,7 @@ final class BatchResource {
         return operation.equals("query") ? query(call) : update(call);
     }
 
-    private Reply query(Call call) throws NgsiError {
+    private NgsiResponse query(NgsiRequest call) throws NgsiError {
         JsonNode body = call.json();
         if (body.has("expression") || !body.has("entities")) {
             throw NgsiError.unsupported("a query by anything but entities");
@@ -62,7 +62,7 @@ final class BatchResource {
                 new Rendering(texts(body.path("attrs")), texts(body.path("metadata")), Rendering.Format.NORMALIZED);
         ArrayNode entities = JsonNodeFactory.instance.arrayNode();
         found.stream().skip(call.offset()).limit(call.limit()).map(shown::of).forEach(entities::add);
-        return Reply.ok(entities);
+        return NgsiResponse.ok(entities);
     }
 
     private static List<String> texts(JsonNode list) {
@@ -71,10 +71,10 @@ final class BatchResource {
         return texts;
     }
 
-    private Reply update(Call call) throws NgsiError {
+    private NgsiResponse update(NgsiRequest call) throws NgsiError {
         JsonNode json = call.json();
         Action action = Action.of(json.path("actionType").asText());
-        EntityReader reader = new EntityReader(call.option("keyValues"));
+        EntityBodyReader reader = new EntityBodyReader(call.option("keyValues"));
         List<EntityUpdate> updates = new ArrayList<>();
         for (JsonNode entity : json.path("entities")) {
             updates.add(reader.entity(entity));
@@ -83,11 +83,11 @@ final class BatchResource {
             throw NgsiError.badRequest("empty entities vector");
         }
         apply(call, action, updates);
-        return Reply.noContent();
+        return NgsiResponse.noContent();
     }
 
     /** A refused entity does not stop the others. */
-    private void apply(Call call, Action action, List<EntityUpdate> updates) throws NgsiError {
+    private void apply(NgsiRequest call, Action action, List<EntityUpdate> updates) throws NgsiError {
         FiwareScope scope = call.scope();
         List<NgsiError> refused = new ArrayList<>();
         for (EntityUpdate update : updates) {
@@ -106,16 +106,16 @@ final class BatchResource {
         }
     }
 
-    private void apply(Call call, FiwareScope scope, Action action, EntityUpdate update) throws NgsiError {
-        boolean known = !broker.tenant(scope.service())
+    private void apply(NgsiRequest call, FiwareScope scope, Action action, EntityUpdate update) throws NgsiError {
+        boolean existing = !broker.tenant(scope.service())
                 .find(scope.servicePath(), update.id(), update.type())
                 .isEmpty();
-        if (!known && action != Action.APPEND) {
+        if (!existing && action != Action.APPEND) {
             throw NgsiError.noEntity(update.label());
         }
         if (action == Action.DELETE && update.attributes().isEmpty()) {
             broker.delete(scope, update.id(), update.type(), call.correlator());
-        } else if (!known) {
+        } else if (!existing) {
             broker.upsert(scope, update, call.option("forcedUpdate"), call.correlator());
         } else {
             broker.update(scope, update, action, call.option("forcedUpdate"), call.correlator());

@@ -18,10 +18,10 @@ import io.furrow.fiware.broker.Rendering;
 import io.furrow.fiware.broker.StoredEntity;
 import io.furrow.fiware.broker.SyntaxRules;
 import io.furrow.fiware.broker.Tenant;
-import io.furrow.fiware.http.Call;
 import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.NgsiRequest;
+import io.furrow.fiware.http.NgsiResponse;
 import io.furrow.fiware.http.PathFilter;
-import io.furrow.fiware.http.Reply;
 
 /** {@code GET /v2/entities}: filter, order and page. The only {@code q} is a date of the entity, at least a given one. */
 record EntityQuery(
@@ -42,7 +42,7 @@ record EntityQuery(
 
     private record Page(int offset, int limit) {}
 
-    static EntityQuery of(Call call) throws NgsiError {
+    static EntityQuery of(NgsiRequest call) throws NgsiError {
         for (String name : call.query().getNames()) {
             if (!PARAMETERS.contains(name)) {
                 throw NgsiError.unsupported("parameter '" + name + "' in a query of entities");
@@ -52,22 +52,22 @@ record EntityQuery(
         return new EntityQuery(filter(call), order(call.list("orderBy")), page, call.paths(), rendering(call));
     }
 
-    Reply reply(Call call, Tenant tenant) {
+    NgsiResponse reply(NgsiRequest call, Tenant tenant) {
         List<StoredEntity> found =
                 tenant.all(paths).stream().filter(filter).sorted(order).toList();
         ArrayNode entities = JsonNodeFactory.instance.arrayNode();
         found.stream().skip(page.offset()).limit(page.limit()).map(shown::of).forEach(entities::add);
-        return Reply.page(call, entities, found.size());
+        return NgsiResponse.page(call, entities, found.size());
     }
 
-    static Rendering rendering(Call call) {
+    static Rendering rendering(NgsiRequest call) {
         return new Rendering(
                 call.list("attrs"),
                 call.list("metadata"),
                 call.option("keyValues") ? Rendering.Format.KEY_VALUES : Rendering.Format.NORMALIZED);
     }
 
-    private static Predicate<StoredEntity> filter(Call call) throws NgsiError {
+    private static Predicate<StoredEntity> filter(NgsiRequest call) throws NgsiError {
         Predicate<String> id = names(call, "id", "idPattern");
         Predicate<String> type = names(call, "type", "typePattern");
         Predicate<StoredEntity> both = entity -> type.test(entity.type()) && id.test(entity.id());
@@ -76,7 +76,7 @@ record EntityQuery(
                 : both;
     }
 
-    private static Predicate<String> names(Call call, String exact, String pattern) throws NgsiError {
+    private static Predicate<String> names(NgsiRequest call, String exact, String pattern) throws NgsiError {
         List<String> names = call.list(exact);
         Optional<String> regex = call.parameter(pattern);
         if (!names.isEmpty() && regex.isPresent()) {

@@ -8,9 +8,9 @@ import io.furrow.fiware.broker.ContextBroker;
 import io.furrow.fiware.broker.EntityUpdate;
 import io.furrow.fiware.broker.StoredEntity;
 import io.furrow.fiware.broker.SyntaxRules;
-import io.furrow.fiware.http.Call;
 import io.furrow.fiware.http.NgsiError;
-import io.furrow.fiware.http.Reply;
+import io.furrow.fiware.http.NgsiRequest;
+import io.furrow.fiware.http.NgsiResponse;
 
 /** {@code /v2/entities} and {@code /v2/entities/<id>}. */
 final class EntityResource {
@@ -20,7 +20,7 @@ final class EntityResource {
         this.broker = broker;
     }
 
-    Reply answer(Call call) throws NgsiError {
+    NgsiResponse answer(NgsiRequest call) throws NgsiError {
         if (call.path().size() == 2) {
             return switch (call.method()) {
                 case "GET" -> EntityQuery.of(call).reply(call, broker.tenant(call.service()));
@@ -29,34 +29,34 @@ final class EntityResource {
             };
         }
         return switch (call.method()) {
-            case "GET" -> Reply.ok(EntityQuery.rendering(call).of(find(broker, call)));
+            case "GET" -> NgsiResponse.ok(EntityQuery.rendering(call).of(find(broker, call)));
             case "DELETE" -> delete(call);
             default -> throw NgsiError.badMethod();
         };
     }
 
-    private Reply create(Call call) throws NgsiError {
+    private NgsiResponse create(NgsiRequest call) throws NgsiError {
         JsonNode json = call.json();
-        EntityUpdate entity = new EntityReader(call.option("keyValues")).entity(json);
+        EntityUpdate entity = new EntityBodyReader(call.option("keyValues")).entity(json);
         String location =
                 "/v2/entities/" + entity.id() + "?type=" + entity.type().orElse(EntityUpdate.DEFAULT_TYPE);
         if (call.option("upsert")) {
-            boolean known = !broker.tenant(call.service())
+            boolean existing = !broker.tenant(call.service())
                     .find(call.scope().servicePath(), entity.id(), entity.type())
                     .isEmpty();
             broker.upsert(call.scope(), entity, call.option("forcedUpdate"), call.correlator());
-            return known ? Reply.noContent().with("Location", location) : Reply.created(location);
+            return existing ? NgsiResponse.noContent().with("Location", location) : NgsiResponse.created(location);
         }
         broker.create(call.scope(), entity, call.correlator());
-        return Reply.created(location);
+        return NgsiResponse.created(location);
     }
 
-    private Reply delete(Call call) throws NgsiError {
+    private NgsiResponse delete(NgsiRequest call) throws NgsiError {
         broker.delete(call.scope(), call.path().get(2), call.parameter("type"), call.correlator());
-        return Reply.noContent();
+        return NgsiResponse.noContent();
     }
 
-    static StoredEntity find(ContextBroker broker, Call call) throws NgsiError {
+    static StoredEntity find(ContextBroker broker, NgsiRequest call) throws NgsiError {
         String id = call.path().get(2);
         Optional<String> type = call.parameter("type");
         SyntaxRules.checkEntity(id, type);

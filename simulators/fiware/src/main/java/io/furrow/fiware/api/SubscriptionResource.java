@@ -14,10 +14,10 @@ import io.furrow.fiware.broker.Notifier;
 import io.furrow.fiware.broker.Subscription;
 import io.furrow.fiware.broker.SubscriptionDefinition;
 import io.furrow.fiware.broker.SubscriptionReader;
-import io.furrow.fiware.http.Call;
 import io.furrow.fiware.http.NgsiError;
+import io.furrow.fiware.http.NgsiRequest;
+import io.furrow.fiware.http.NgsiResponse;
 import io.furrow.fiware.http.PathFilter;
-import io.furrow.fiware.http.Reply;
 
 /** {@code /v2/subscriptions} and {@code /v2/subscriptions/<id>}. A new subscription causes no notification. */
 final class SubscriptionResource {
@@ -33,7 +33,7 @@ final class SubscriptionResource {
         this.notifier = notifier;
     }
 
-    Reply answer(Call call) throws NgsiError {
+    NgsiResponse answer(NgsiRequest call) throws NgsiError {
         if (call.path().size() == 2) {
             return switch (call.method()) {
                 case "GET" -> list(call);
@@ -45,20 +45,20 @@ final class SubscriptionResource {
             throw NgsiError.noService();
         }
         return switch (call.method()) {
-            case "GET" -> Reply.ok(find(call).json(broker.now()));
+            case "GET" -> NgsiResponse.ok(find(call).json(broker.now()));
             case "PATCH" -> patch(call);
             case "DELETE" -> delete(call);
             default -> throw NgsiError.badMethod();
         };
     }
 
-    private Reply create(Call call) throws NgsiError {
+    private NgsiResponse create(NgsiRequest call) throws NgsiError {
         SubscriptionDefinition definition = SubscriptionReader.read(call.json());
         Subscription subscription = broker.subscribe(call.service(), nextId(), call.paths(), definition);
-        return Reply.created("/v2/subscriptions/" + subscription.id());
+        return NgsiResponse.created("/v2/subscriptions/" + subscription.id());
     }
 
-    private Reply patch(Call call) throws NgsiError {
+    private NgsiResponse patch(NgsiRequest call) throws NgsiError {
         Subscription subscription = find(call);
         JsonNode patch = call.json();
         if (!patch.isObject() || patch.isEmpty()) {
@@ -67,17 +67,17 @@ final class SubscriptionResource {
         ObjectNode merged = subscription.definition().requested();
         merged.setAll((ObjectNode) patch);
         subscription.redefine(SubscriptionReader.read(merged), patch.has("status"));
-        return Reply.noContent();
+        return NgsiResponse.noContent();
     }
 
-    private Reply delete(Call call) throws NgsiError {
+    private NgsiResponse delete(NgsiRequest call) throws NgsiError {
         Subscription subscription = find(call);
         broker.tenant(call.service()).remove(subscription);
         notifier.forget(subscription.id());
-        return Reply.noContent();
+        return NgsiResponse.noContent();
     }
 
-    private Reply list(Call call) throws NgsiError {
+    private NgsiResponse list(NgsiRequest call) throws NgsiError {
         List<Subscription> all = visible(call);
         ArrayNode page = JsonNodeFactory.instance.arrayNode();
         all.stream()
@@ -85,10 +85,10 @@ final class SubscriptionResource {
                 .limit(call.limit())
                 .map(subscription -> subscription.json(broker.now()))
                 .forEach(page::add);
-        return Reply.page(call, page, all.size());
+        return NgsiResponse.page(call, page, all.size());
     }
 
-    private Subscription find(Call call) throws NgsiError {
+    private Subscription find(NgsiRequest call) throws NgsiError {
         String id = call.path().get(2);
         if (id.length() != ID_LENGTH) {
             throw NgsiError.badRequest("Invalid subscription ID: bad length - 24 chars expected");
@@ -100,7 +100,7 @@ final class SubscriptionResource {
     }
 
     /** Those created under the service path of the request; without one, all of the tenant. */
-    private List<Subscription> visible(Call call) throws NgsiError {
+    private List<Subscription> visible(NgsiRequest call) throws NgsiError {
         PathFilter paths = call.paths();
         return broker.tenant(call.service()).subscriptions().stream()
                 .filter(subscription -> paths.patterns().equals(List.of(PathFilter.EVERYWHERE))

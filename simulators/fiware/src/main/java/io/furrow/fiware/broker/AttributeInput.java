@@ -33,7 +33,7 @@ public record AttributeInput(Optional<String> type, JsonNode value, Optional<Obj
         return new AttributeInput(type, value, Optional.of(all));
     }
 
-    public Attribute created(Instant now) throws NgsiError {
+    public StoredAttribute created(Instant now) throws NgsiError {
         return attribute(
                 type.orElseGet(() -> defaultType(value)),
                 metadata.orElseGet(JsonNodeFactory.instance::objectNode),
@@ -42,15 +42,15 @@ public record AttributeInput(Optional<String> type, JsonNode value, Optional<Obj
     }
 
     /** Merges with the stored attribute; metadata not in the request stay. */
-    public Attribute merged(Attribute before, Instant now) throws NgsiError {
+    public StoredAttribute merged(StoredAttribute before, Instant now) throws NgsiError {
         ObjectNode merged = before.metadata().deepCopy();
         metadata.ifPresent(merged::setAll);
         return attribute(type.orElse(before.type()), merged, before.created(), now);
     }
 
-    private Attribute attribute(String resolvedType, ObjectNode resolvedMetadata, Instant created, Instant modified)
-            throws NgsiError {
-        return new Attribute(
+    private StoredAttribute attribute(
+            String resolvedType, ObjectNode resolvedMetadata, Instant created, Instant modified) throws NgsiError {
+        return new StoredAttribute(
                 resolvedType,
                 dated(resolvedType, value, "attribute value"),
                 datedAll(resolvedMetadata),

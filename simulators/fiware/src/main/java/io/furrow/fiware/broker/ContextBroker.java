@@ -72,7 +72,7 @@ public final class ContextBroker {
             if (!tenant.find(scope.servicePath(), request.id(), type).isEmpty()) {
                 throw NgsiError.exists();
             }
-            commit(tenant, Change.create(scope, request, now()), correlator);
+            commit(tenant, EntityChange.create(scope, request, now()), correlator);
         }
     }
 
@@ -128,7 +128,7 @@ public final class ContextBroker {
         synchronized (tenant) {
             StoredEntity before = single(tenant.find(scope.servicePath(), id, type));
             tenant.remove(before);
-            announce(tenant, Change.delete(before), correlator);
+            announce(tenant, EntityChange.delete(before), correlator);
         }
     }
 
@@ -158,12 +158,12 @@ public final class ContextBroker {
         return issued;
     }
 
-    private Change change(StoredEntity before, Map<String, AttributeInput> inputs, Action action, boolean forced)
+    private EntityChange change(StoredEntity before, Map<String, AttributeInput> inputs, Action action, boolean forced)
             throws NgsiError {
         return switch (action) {
-            case APPEND, UPDATE -> Change.merge(before, inputs, forced, now());
-            case REPLACE -> Change.replace(before, inputs, now());
-            case DELETE -> Change.without(before, inputs.keySet(), now());
+            case APPEND, UPDATE -> EntityChange.merge(before, inputs, forced, now());
+            case REPLACE -> EntityChange.replace(before, inputs, now());
+            case DELETE -> EntityChange.without(before, inputs.keySet(), now());
         };
     }
 
@@ -176,16 +176,16 @@ public final class ContextBroker {
         return refused;
     }
 
-    private void commit(Tenant tenant, Change change, Correlator correlator) {
+    private void commit(Tenant tenant, EntityChange change, Correlator correlator) {
         tenant.put(change.after());
         announce(tenant, change, correlator);
     }
 
-    private void announce(Tenant tenant, Change change, Correlator correlator) {
+    private void announce(Tenant tenant, EntityChange change, Correlator correlator) {
         Instant now = now();
         for (Subscription subscription : tenant.subscriptions()) {
             if (subscription.triggeredBy(change, now)) {
-                notifier.offer(new Notification(subscription, change, correlator.next()));
+                notifier.offer(new OutgoingNotification(subscription, change, correlator.next()));
             }
         }
     }

@@ -8,12 +8,12 @@ import java.util.concurrent.Executor;
 final class NotificationQueue {
     /** Sends and calls back on the answer or failure. */
     interface Sender {
-        void send(Notification notification, Runnable done);
+        void send(OutgoingNotification notification, Runnable done);
     }
 
     private final Executor executor;
     private final Sender sender;
-    private final Queue<Notification> waiting = new ArrayDeque<>();
+    private final Queue<OutgoingNotification> waiting = new ArrayDeque<>();
     private boolean busy;
 
     NotificationQueue(Executor executor, Sender sender) {
@@ -21,7 +21,7 @@ final class NotificationQueue {
         this.sender = sender;
     }
 
-    void offer(Notification notification) {
+    void offer(OutgoingNotification notification) {
         synchronized (this) {
             waiting.add(notification);
             if (busy) {
@@ -33,7 +33,7 @@ final class NotificationQueue {
     }
 
     private void sendNext() {
-        Notification next;
+        OutgoingNotification next;
         synchronized (this) {
             next = waiting.poll();
             if (next == null) {

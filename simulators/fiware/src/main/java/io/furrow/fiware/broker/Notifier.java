@@ -43,7 +43,7 @@ public final class Notifier implements AutoCloseable {
     private final Clock clock;
     private final HttpClient client = new HttpClient();
     private final QueuedThreadPool threads = new QueuedThreadPool(THREADS, 2);
-    private final Map<String, Outbox> outboxes = new ConcurrentHashMap<>();
+    private final Map<String, ReceiverQueue> outboxes = new ConcurrentHashMap<>();
     private volatile boolean closed;
     private final LongAdder sent = new LongAdder();
     private final LongAdder failed = new LongAdder();
@@ -77,8 +77,8 @@ public final class Notifier implements AutoCloseable {
     }
 
     /** Queues the notification; returns at once. */
-    void offer(Notification notification) {
-        outboxes.computeIfAbsent(notification.subscription().id(), id -> new Outbox())
+    void offer(OutgoingNotification notification) {
+        outboxes.computeIfAbsent(notification.subscription().id(), id -> new ReceiverQueue())
                 .offer(notification);
     }
 
@@ -100,9 +100,7 @@ public final class Notifier implements AutoCloseable {
     }
 
     public long queued() {
-        return outboxes.values().stream()
-                .mapToLong(outbox -> outbox.count.get())
-                .sum();
+        return outboxes.values().stream().mapToLong(queue -> queue.count.get()).sum();
     }
 
     @Override
@@ -112,7 +110,7 @@ public final class Notifier implements AutoCloseable {
         LifeCycle.stop(threads);
     }
 
-    private Request request(Notification notification) {
+    private Request request(OutgoingNotification notification) {
         SubscriptionDefinition definition = notification.subscription().definition();
         SubscriptionDefinition.Target target = definition.target();
         return client.newRequest(target.url())
@@ -122,7 +120,8 @@ public final class Notifier implements AutoCloseable {
                 .body(new BytesRequestContent("application/json; charset=utf-8", notification.body()));
     }
 
-    private static void headers(HttpFields.Mutable headers, Notification from, SubscriptionDefinition definition) {
+    private static void headers(
+            HttpFields.Mutable headers, OutgoingNotification from, SubscriptionDefinition definition) {
         var scope = from.change().after().scope();
         if (!scope.service().isEmpty()) {
             headers.put("Fiware-Service", scope.service());
@@ -154,18 +153,18 @@ public final class Notifier implements AutoCloseable {
     }
 
     /** The queued notifications of one subscription. */
-    private final class Outbox {
+    private final class ReceiverQueue {
         private final NotificationQueue[] lanes = new NotificationQueue[LANES];
         private final AtomicLong count = new AtomicLong();
         private final AtomicLong bytes = new AtomicLong();
 
-        private Outbox() {
+        private ReceiverQueue() {
             for (int i = 0; i < LANES; i++) {
                 lanes[i] = new NotificationQueue(threads, this::send);
             }
         }
 
-        private void offer(Notification notification) {
+        private void offer(OutgoingNotification notification) {
             StoredEntity entity = notification.change().after();
             if (count.get() >= MAX_QUEUED || bytes.get() >= MAX_QUEUED_BYTES) {
                 dropped.increment();
@@ -176,7 +175,7 @@ public final class Notifier implements AutoCloseable {
             lanes[Math.floorMod(entity.scope().identity(entity.id()).hashCode(), LANES)].offer(notification);
         }
 
-        private void send(Notification notification, Runnable done) {
+        private void send(OutgoingNotification notification, Runnable done) {
             if (closed) {
                 return;
             }

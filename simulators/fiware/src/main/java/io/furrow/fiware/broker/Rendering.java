@@ -56,7 +56,7 @@ public record Rendering(List<String> attrs, List<String> metadata, Format format
     }
 
     /** Renders an entity for a notification of the change. */
-    JsonNode of(Change change, boolean onlyChanged) {
+    JsonNode of(EntityChange change, boolean onlyChanged) {
         List<String> own = new ArrayList<>(change.after().attributes().keySet());
         if (onlyChanged) {
             own.retainAll(change.changed());
@@ -64,7 +64,7 @@ public record Rendering(List<String> attrs, List<String> metadata, Format format
         return write(change.after(), own, Optional.of(change));
     }
 
-    private JsonNode write(StoredEntity entity, List<String> own, Optional<Change> change) {
+    private JsonNode write(StoredEntity entity, List<String> own, Optional<EntityChange> change) {
         Map<String, JsonNode> written = new LinkedHashMap<>();
         for (String name : selected(own)) {
             if (Entity.BUILT_INS.contains(name)) {
@@ -97,13 +97,13 @@ public record Rendering(List<String> attrs, List<String> metadata, Format format
         return selected;
     }
 
-    private JsonNode attribute(String name, Attribute attribute, Optional<Change> change) {
+    private JsonNode attribute(String name, StoredAttribute attribute, Optional<EntityChange> change) {
         return isNormalized()
                 ? triple(attribute.type(), attribute.value(), metadata(name, attribute, change))
                 : attribute.value();
     }
 
-    private Optional<JsonNode> builtIn(String name, StoredEntity entity, Optional<Change> change) {
+    private Optional<JsonNode> builtIn(String name, StoredEntity entity, Optional<EntityChange> change) {
         return switch (name) {
             case "dateCreated" -> Optional.of(builtIn("DateTime", NgsiTime.format(entity.created())));
             case "dateModified" -> Optional.of(builtIn("DateTime", NgsiTime.format(entity.modified())));
@@ -120,7 +120,7 @@ public record Rendering(List<String> attrs, List<String> metadata, Format format
     }
 
     /** Own metadata first, then the built-in ones in Orion's order. */
-    private ObjectNode metadata(String name, Attribute attribute, Optional<Change> change) {
+    private ObjectNode metadata(String name, StoredAttribute attribute, Optional<EntityChange> change) {
         if (metadata.isEmpty()) {
             return attribute.metadata();
         }
@@ -144,7 +144,7 @@ public record Rendering(List<String> attrs, List<String> metadata, Format format
         }
     }
 
-    private void change(ObjectNode selected, String name, Change change) {
+    private void change(ObjectNode selected, String name, EntityChange change) {
         String action = change.actions().get(name);
         if (metadata.contains("actionType") && action != null) {
             selected.set("actionType", pair("Text", NODES.textNode(action)));

@@ -13,14 +13,14 @@ import io.furrow.model.event.FiwareScope;
  * An immutable state of an entity.
  *
  * @param scope tenant and service path
- * @param attributes in the order of a notification of this state, see {@link Change}
+ * @param attributes in the order of a notification of this state, see {@link EntityChange}
  * @param modified time of the last update, also of one without changes
  */
 public record StoredEntity(
         FiwareScope scope,
         String id,
         String type,
-        Map<String, Attribute> attributes,
+        Map<String, StoredAttribute> attributes,
         Instant created,
         Instant modified) {
     private static final int SMALL = 64;
@@ -32,7 +32,7 @@ public record StoredEntity(
     /** Approximate size in bytes, for the limits of queues. */
     long weight() {
         long weight = SMALL;
-        for (Attribute attribute : attributes.values()) {
+        for (StoredAttribute attribute : attributes.values()) {
             JsonNode value = attribute.value();
             weight += SMALL + (value.isTextual() ? value.textValue().length() : SMALL * (long) value.size());
         }

@@ -19,7 +19,7 @@ public final class Subscription {
     private final AtomicLong revision;
     private SubscriptionDefinition definition;
     private boolean active;
-    private Delivery delivery = Delivery.NONE;
+    private DeliveryCounters delivery = DeliveryCounters.NONE;
 
     Subscription(String id, PathFilter paths, SubscriptionDefinition definition, AtomicLong revision) {
         this.id = id;
@@ -39,7 +39,7 @@ public final class Subscription {
                 SubscriptionReader.read(state.required("definition")),
                 revision);
         subscription.active = state.required("active").asBoolean();
-        subscription.delivery = Delivery.shownIn(state.required("delivery"));
+        subscription.delivery = DeliveryCounters.shownIn(state.required("delivery"));
         return subscription;
     }
 
@@ -68,7 +68,7 @@ public final class Subscription {
     }
 
     /** Whether to notify of the change now; counts it as sent if so. */
-    synchronized boolean triggeredBy(Change change, Instant now) {
+    synchronized boolean triggeredBy(EntityChange change, Instant now) {
         boolean triggered = status(now).equals("active")
                 && paths.matches(change.after().scope().servicePath())
                 && definition.subject().covers(change)

@@ -35,8 +35,8 @@ public record SubscriptionDefinition(
      *
      * @param entities any of them
      */
-    record Subject(List<Selector> entities, Set<Change.Kind> kinds) {
-        boolean covers(Change change) {
+    record Subject(List<Selector> entities, Set<EntityChange.Kind> kinds) {
+        boolean covers(EntityChange change) {
             StoredEntity entity = change.after();
             return kinds.contains(change.kind()) && entities.stream().anyMatch(selector -> selector.matches(entity));
         }

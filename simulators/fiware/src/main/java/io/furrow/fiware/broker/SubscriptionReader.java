@@ -83,17 +83,17 @@ public final class SubscriptionReader {
         return entity.has(pattern) ? SyntaxRules.pattern(entity.get(pattern).asText()) : any -> true;
     }
 
-    private static Set<Change.Kind> kinds(JsonNode condition) throws NgsiError {
+    private static Set<EntityChange.Kind> kinds(JsonNode condition) throws NgsiError {
         if (!condition.has("alterationTypes")) {
-            return EnumSet.of(Change.Kind.CREATE, Change.Kind.CHANGE);
+            return EnumSet.of(EntityChange.Kind.CREATE, EntityChange.Kind.CHANGE);
         }
-        Set<Change.Kind> kinds = EnumSet.noneOf(Change.Kind.class);
+        Set<EntityChange.Kind> kinds = EnumSet.noneOf(EntityChange.Kind.class);
         for (String name : texts(condition, "alterationTypes")) {
             switch (name) {
-                case "entityCreate" -> kinds.add(Change.Kind.CREATE);
-                case "entityChange" -> kinds.add(Change.Kind.CHANGE);
-                case "entityUpdate" -> kinds.addAll(EnumSet.of(Change.Kind.CHANGE, Change.Kind.UPDATE));
-                case "entityDelete" -> kinds.add(Change.Kind.DELETE);
+                case "entityCreate" -> kinds.add(EntityChange.Kind.CREATE);
+                case "entityChange" -> kinds.add(EntityChange.Kind.CHANGE);
+                case "entityUpdate" -> kinds.addAll(EnumSet.of(EntityChange.Kind.CHANGE, EntityChange.Kind.UPDATE));
+                case "entityDelete" -> kinds.add(EntityChange.Kind.DELETE);
                 default -> throw NgsiError.badRequest("unknown alterationType: " + name);
             }
         }

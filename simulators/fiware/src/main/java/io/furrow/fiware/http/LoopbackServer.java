@@ -39,10 +39,10 @@ public final class LoopbackServer implements AutoCloseable {
 
     /** Answers requests. */
     public interface Endpoint {
-        Reply answer(Call call) throws NgsiError;
+        NgsiResponse answer(NgsiRequest call) throws NgsiError;
 
         /** The answer to a refused request. */
-        Reply describe(NgsiError error);
+        NgsiResponse describe(NgsiError error);
     }
 
     private final Server server;
@@ -121,8 +121,8 @@ public final class LoopbackServer implements AutoCloseable {
             return id == null || id.isBlank() ? Correlator.fresh() : new Correlator(id);
         }
 
-        private static Call call(Request request, Correlator correlator) throws IOException, NgsiError {
-            return new Call(
+        private static NgsiRequest call(Request request, Correlator correlator) throws IOException, NgsiError {
+            return new NgsiRequest(
                     request.getMethod(),
                     segments(request.getHttpURI().getPath()),
                     Request.extractQueryParameters(request, StandardCharsets.UTF_8),
@@ -157,7 +157,7 @@ public final class LoopbackServer implements AutoCloseable {
             }
         }
 
-        private static void write(Response response, Callback callback, Reply reply) {
+        private static void write(Response response, Callback callback, NgsiResponse reply) {
             response.setStatus(reply.status());
             reply.headers().forEach(response.getHeaders()::put);
             if (reply.body().length > 0) {

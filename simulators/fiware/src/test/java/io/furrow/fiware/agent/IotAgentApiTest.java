@@ -25,7 +25,7 @@ class IotAgentApiTest {
     }
 
     @Test
-    void keepsServicesAndDevicesOfEachTenant() {
+    void retainsServicesAndDevicesOfEachTenant() {
         assertThat(client.post("/iot/services", GROUP).status()).isEqualTo(201);
         assertThat(client.post("/iot/devices", DEVICE).status()).isEqualTo(201);
 
@@ -72,7 +72,7 @@ class IotAgentApiTest {
                 "POST   | /iot/services     | {} | 400 | WRONG_SYNTAX",
                 "POST   | /iot/services     | {' | 500 | SyntaxError",
             })
-    void refusesAsTheAgentDoes(String method, String path, String body, int status, String name) {
+    void rejectsAsTheAgentDoes(String method, String path, String body, int status, String name) {
         client.post("/iot/services", GROUP);
         client.post("/iot/devices", DEVICE);
 
@@ -84,7 +84,7 @@ class IotAgentApiTest {
     }
 
     @Test
-    void wantsToKnowTheTenant() {
+    void requiresTheTenant() {
         Client.Answer answer = client.as("", "").get("/iot/devices");
 
         assertThat(answer.status()).isEqualTo(400);
@@ -92,7 +92,7 @@ class IotAgentApiTest {
     }
 
     @Test
-    void saysWhichHeaderIsMissing() {
+    void reportsWhichHeaderIsMissing() {
         Client.Answer answer = client.as("", "").with("fiware-service", "farm").get("/iot/devices");
 
         assertThat(answer.json().path("message").asText()).endsWith("[\"fiware-servicepath\"]");
@@ -118,7 +118,7 @@ class IotAgentApiTest {
     }
 
     @Test
-    void listsAllGroupsOfATenantWhateverPageIsAskedFor() {
+    void listsAllGroupsOfATenantWhateverPageIsRequested() {
         for (int i = 0; i < 3; i++) {
             client.post("/iot/services", "{\"services\": [{\"apikey\": \"k%d\", \"resource\": \"\"}]}".formatted(i));
         }
@@ -137,7 +137,7 @@ class IotAgentApiTest {
     }
 
     @Test
-    void keepsOneGroupOfAResourceAndAKeyInAllTenants() {
+    void retainsOneGroupOfAResourceAndAKeyInAllTenants() {
         client.post("/iot/services", GROUP);
 
         assertThat(client.as("other", "/").post("/iot/services", GROUP).status())
@@ -147,7 +147,7 @@ class IotAgentApiTest {
     }
 
     @Test
-    void saysThatACommandReachesNobodyWithoutMqtt() {
+    void reportsThatACommandReachesNobodyWithoutMqtt() {
         client.post("/iot/services", GROUP);
         client.post("/iot/devices", DEVICE);
         Client broker = Client.of(standIn.contextBroker());

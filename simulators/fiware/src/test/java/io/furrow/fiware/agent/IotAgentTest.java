@@ -20,7 +20,7 @@ import io.furrow.fiware.Client;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
 import io.furrow.fiware.MqttDevice;
-import io.furrow.fiware.Receiver;
+import io.furrow.fiware.NotificationReceiver;
 import io.furrow.fiware.broker.NgsiTime;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -79,7 +79,7 @@ class IotAgentTest {
 
     @Test
     void turnsAMeasureIntoAnEntityAndANotification() throws MqttException {
-        try (Receiver receiver = new Receiver()) {
+        try (NotificationReceiver receiver = new NotificationReceiver()) {
             broker.post("/v2/subscriptions", """
                     {"subject": {"entities": [{"idPattern": ".*", "type": "Thermometer"}]},
                      "notification": {"http": {"url": "%s"}}}""".formatted(receiver.url("/notify")));
@@ -118,7 +118,7 @@ class IotAgentTest {
     }
 
     @Test
-    void keepsTheTimeInstantThatADeviceGives() throws MqttException {
+    void retainsTheTimeInstantThatADeviceGives() throws MqttException {
         publish("/k1/t1/attrs", "{\"temp\": 1, \"TimeInstant\": \"2026-11-21T01:00:00Z\"}");
 
         awaitValue(THERMOMETER, "TimeInstant", "2026-11-21T01:00:00.000Z");
@@ -126,7 +126,7 @@ class IotAgentTest {
 
     @Test
     void takesEachMeasureOfAnArrayAndThePrefixedTopic() throws MqttException {
-        try (Receiver receiver = new Receiver()) {
+        try (NotificationReceiver receiver = new NotificationReceiver()) {
             broker.post("/v2/subscriptions", """
                     {"subject": {"entities": [{"idPattern": ".*", "type": "Thermometer"}]}, "notification": {
                         "http": {"url": "%s"}, "attrs": ["Temperature"], "attrsFormat": "values"}}""".formatted(receiver.url("/notify")));
@@ -207,7 +207,7 @@ class IotAgentTest {
     }
 
     @Test
-    void refusesAMeasureAsAWholeThatTheContextBrokerWouldRefuse() throws MqttException {
+    void rejectsAMeasureAsAWholeThatTheContextBrokerWouldRefuse() throws MqttException {
         report();
 
         publish("/k1/t1/attrs", "{\"temp\": 22, \"note\": \"a=b\"}");

@@ -14,13 +14,13 @@ import org.junit.jupiter.params.provider.ValueSource;
 import io.furrow.fiware.Client;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
-import io.furrow.fiware.Receiver;
+import io.furrow.fiware.NotificationReceiver;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 class SubscriptionTest {
-    private final Receiver receiver = new Receiver();
+    private final NotificationReceiver receiver = new NotificationReceiver();
     private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
     private final Client client = Client.of(standIn.contextBroker());
 
@@ -133,7 +133,7 @@ class SubscriptionTest {
     }
 
     @Test
-    void keepsTheOrderOfOneEntity() {
+    void preservesTheOrderOfOneEntity() {
         subscribe("", "\"attrsFormat\": \"values\",");
         batch("agri", 1);
         for (int i = 1; i <= 50; i++) {
@@ -165,7 +165,7 @@ class SubscriptionTest {
     }
 
     @Test
-    void tellsOfADeletedEntityOnlyWhoAskedForIt() {
+    void notifiesOfADeletedEntityOnlyOnRequest() {
         subscribe("", "");
         create(subscription(
                 "/deleted",
@@ -209,7 +209,7 @@ class SubscriptionTest {
                 "condition with 'expression' | 'condition': {'expression': {'q': 'a>1'}}, | ''",
                 "condition with 'notifyOnMetadataChange' false | 'condition': {'notifyOnMetadataChange': false}, | ''",
             })
-    void refusesAnOptionOfOrionThatItDoesNotHave(String example) {
+    void rejectsAnOptionOfOrionThatItDoesNotHave(String example) {
         String[] parts = example.replace("''", "").replace('\'', '"').split("\\|");
 
         Client.Answer answer = client.post("/v2/subscriptions", subscription("/x", parts[1], parts[2]));

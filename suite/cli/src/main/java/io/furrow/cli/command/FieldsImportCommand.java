@@ -67,7 +67,7 @@ final class FieldsImportCommand implements Callable<Integer> {
     @Option(
             names = "--valid-from",
             paramLabel = "TIME",
-            converter = FieldsCommand.TimeConverter.class,
+            converter = FieldsCommandGroup.TimeConverter.class,
             description =
                     "Event time from which on the fields are so, for instance 2026-03-01T00:00:00Z. Default: now.")
     private Instant validFrom = Instant.now().truncatedTo(ChronoUnit.MILLIS);

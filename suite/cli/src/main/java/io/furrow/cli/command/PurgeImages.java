@@ -69,7 +69,7 @@ final class PurgeImages implements Callable<Integer> {
     private FileSystem files;
     private long deleted;
     private long deletedBytes;
-    private long kept;
+    private long retained;
 
     @Override
     public Integer call() throws IOException {
@@ -91,7 +91,7 @@ final class PurgeImages implements Callable<Integer> {
         PrintWriter out = spec.commandLine().getOut();
         out.printf(
                 "%s %s, %d bytes; kept %d.%n",
-                dryRun ? "Would delete" : "Deleted", Counts.of(deleted, "file"), deletedBytes, kept);
+                dryRun ? "Would delete" : "Deleted", Counts.of(deleted, "file"), deletedBytes, retained);
         out.flush();
         return 0;
     }
@@ -102,14 +102,14 @@ final class PurgeImages implements Callable<Integer> {
         FileStatus[] found = files.listStatus(folder);
         for (FileStatus one : found == null ? new FileStatus[0] : found) { // null: gone meanwhile
             if (one.isDir()) {
-                boolean gone = purge(one.getPath()) && !dryRun && files.delete(one.getPath(), false);
-                empty &= gone;
+                boolean overdue = purge(one.getPath()) && !dryRun && files.delete(one.getPath(), false);
+                empty &= overdue;
             } else if (isOld(one)) {
                 deleted++;
                 deletedBytes += one.getLen();
                 empty &= !dryRun && files.delete(one.getPath(), false);
             } else {
-                kept++;
+                retained++;
                 empty = false;
             }
         }

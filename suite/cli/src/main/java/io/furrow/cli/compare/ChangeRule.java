@@ -17,38 +17,38 @@ final class ChangeRule {
         this.range = range;
     }
 
-    List<Change> changes(Span a, Span b) {
-        List<Change> changes = new ArrayList<>();
-        if (a instanceof Average first && b instanceof Average second) {
+    List<MemberDifference> changes(AnalyticsResult a, AnalyticsResult b) {
+        List<MemberDifference> changes = new ArrayList<>();
+        if (a instanceof AverageResult first && b instanceof AverageResult second) {
             average(first, second, changes);
             return changes;
         }
-        if (a instanceof Encounter first && b instanceof Encounter second) {
+        if (a instanceof EncounterResult first && b instanceof EncounterResult second) {
             moved("closest", first.closest(), second.closest(), changes);
         }
         if (range.start(a) != range.start(b)) {
-            changes.add(new Change("start", a.start(), b.start()));
+            changes.add(new MemberDifference("start", a.start(), b.start()));
         }
         if (!a.isOpen() && !b.isOpen() && range.end(a) != range.end(b)) {
-            changes.add(new Change("end", a.end(), b.end()));
+            changes.add(new MemberDifference("end", a.end(), b.end()));
         }
         return changes;
     }
 
-    private static void average(Average a, Average b, List<Change> changes) {
+    private static void average(AverageResult a, AverageResult b, List<MemberDifference> changes) {
         moved("mean", a.mean(), b.mean(), changes);
         if (!a.suspects().equals(b.suspects())) {
-            changes.add(new Change("suspects", a.suspects(), b.suspects()));
+            changes.add(new MemberDifference("suspects", a.suspects(), b.suspects()));
         }
         if (!a.quality().equals(b.quality())) {
-            changes.add(new Change("quality", a.quality(), b.quality()));
+            changes.add(new MemberDifference("quality", a.quality(), b.quality()));
         }
     }
 
-    private static void moved(String member, double a, double b, List<Change> changes) {
+    private static void moved(String member, double a, double b, List<MemberDifference> changes) {
         boolean same = Double.isNaN(a) ? Double.isNaN(b) : Math.abs(a - b) < MIN;
         if (!same) {
-            changes.add(new Change(member, Double.isNaN(a) ? null : a, Double.isNaN(b) ? null : b));
+            changes.add(new MemberDifference(member, Double.isNaN(a) ? null : a, Double.isNaN(b) ? null : b));
         }
     }
 }

@@ -144,7 +144,7 @@ public final class CompareCommand implements Callable<Integer> {
                 range);
     }
 
-    private static FoundResults found(FoundResults results) throws UnreadableResultsException {
+    private static SideResults found(SideResults results) throws UnreadableResultsException {
         if (results.missing().containsAll(List.of(ResultKind.values()))) {
             throw new UnreadableResultsException(
                     "There are no results of %s: start analytics on it (./furrow replay start --analytics), and wait for them"

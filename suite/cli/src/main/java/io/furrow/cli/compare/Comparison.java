@@ -4,20 +4,20 @@ import java.util.EnumMap;
 import java.util.List;
 import java.util.Map;
 
-import io.furrow.cli.compare.Match.Verdict;
+import io.furrow.cli.compare.ResultMatch.Verdict;
 
 /**
  * How what analytics found on two sides differs.
  *
  * @param matches by kind, in the order of time
  */
-record Comparison(FoundResults a, FoundResults b, TimeRange range, Map<ResultKind, List<Match>> matches) {
+record Comparison(SideResults a, SideResults b, TimeRange range, Map<ResultKind, List<ResultMatch>> matches) {
     /** Compares what lies within a range. */
-    static Comparison of(FoundResults a, FoundResults b, TimeRange range) {
+    static Comparison of(SideResults a, SideResults b, TimeRange range) {
         boolean oneScope = a.scopes() <= 1 && b.scopes() <= 1;
-        Map<ResultKind, List<Match>> matches = new EnumMap<>(ResultKind.class);
+        Map<ResultKind, List<ResultMatch>> matches = new EnumMap<>(ResultKind.class);
         for (ResultKind kind : ResultKind.values()) {
-            List<Match> all = SpanMatcher.match(
+            List<ResultMatch> all = ResultMatcher.match(
                     within(range, a.spans().get(kind), oneScope),
                     within(range, b.spans().get(kind), oneScope),
                     new ChangeRule(range));
@@ -32,13 +32,13 @@ record Comparison(FoundResults a, FoundResults b, TimeRange range, Map<ResultKin
         return new Comparison(a, b, range, Map.copyOf(matches));
     }
 
-    private static boolean isEmpty(Span span) {
-        return span instanceof Average average && average.isEmpty();
+    private static boolean isEmpty(AnalyticsResult span) {
+        return span instanceof AverageResult average && average.isEmpty();
     }
 
-    private static List<Span> within(TimeRange range, List<Span> spans, boolean oneScope) {
+    private static List<AnalyticsResult> within(TimeRange range, List<AnalyticsResult> spans, boolean oneScope) {
         return spans.stream()
-                .filter(span -> span instanceof Average window ? range.contains(window) : range.overlaps(span))
+                .filter(span -> span instanceof AverageResult window ? range.contains(window) : range.overlaps(span))
                 .map(span -> oneScope ? span.of(span.subject().anyScope()) : span)
                 .toList();
     }
@@ -53,7 +53,7 @@ record Comparison(FoundResults a, FoundResults b, TimeRange range, Map<ResultKin
                 .count();
     }
 
-    List<Match> differences(ResultKind kind) {
+    List<ResultMatch> differences(ResultKind kind) {
         return matches.get(kind).stream()
                 .filter(match -> match.verdict() != Verdict.SAME)
                 .toList();

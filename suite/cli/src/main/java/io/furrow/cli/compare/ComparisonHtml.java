@@ -16,7 +16,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.cli.compare.Match.Verdict;
+import io.furrow.cli.compare.ResultMatch.Verdict;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
@@ -81,19 +81,19 @@ final class ComparisonHtml {
     }
 
     private ObjectNode kind(ResultKind kind) {
-        Map<Subject, List<Match>> bySubject = new TreeMap<>();
+        Map<ResultSubject, List<ResultMatch>> bySubject = new TreeMap<>();
         comparison
                 .matches()
                 .get(kind)
                 .forEach(match -> bySubject
                         .computeIfAbsent(match.subject(), none -> new ArrayList<>())
                         .add(match));
-        Predicate<Map.Entry<Subject, List<Match>>> differs =
+        Predicate<Map.Entry<ResultSubject, List<ResultMatch>>> differs =
                 lane -> lane.getValue().stream().anyMatch(match -> match.verdict() != Verdict.SAME);
-        ObjectNode json = JsonNodeFactory.instance.objectNode().put("name", kind.word());
+        ObjectNode json = JsonNodeFactory.instance.objectNode().put("name", kind.code());
         json.put("curves", kind == ResultKind.AVERAGES).put("more", Math.max(0, bySubject.size() - MAX_LANES));
         for (Verdict verdict : Verdict.values()) {
-            json.withObject("/counts").put(verdict.word(), comparison.count(kind, verdict));
+            json.withObject("/counts").put(verdict.code(), comparison.count(kind, verdict));
         }
         ArrayNode lanes = json.putArray("lanes");
         Stream.concat(
@@ -108,10 +108,10 @@ final class ComparisonHtml {
         return json;
     }
 
-    private ObjectNode match(Match match) {
+    private ObjectNode match(ResultMatch match) {
         ObjectNode json = JsonNodeFactory.instance
                 .objectNode()
-                .put("verdict", match.verdict().word())
+                .put("verdict", match.verdict().code())
                 .put("text", ComparisonText.match(match));
         json.set("a", span(match.a()));
         json.set("b", span(match.b()));
@@ -119,7 +119,7 @@ final class ComparisonHtml {
     }
 
     /** Times in epoch ms; one that is open has no end. */
-    private ObjectNode span(Span span) {
+    private ObjectNode span(AnalyticsResult span) {
         if (span == null) {
             return null;
         }
@@ -132,7 +132,7 @@ final class ComparisonHtml {
             json.put("end", end);
             last = Math.max(last, end);
         }
-        if (span instanceof Average average && !average.isEmpty()) {
+        if (span instanceof AverageResult average && !average.isEmpty()) {
             json.put("mean", average.mean());
         }
         return json;

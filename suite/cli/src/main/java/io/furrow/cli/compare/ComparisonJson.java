@@ -7,7 +7,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.cli.compare.Match.Verdict;
+import io.furrow.cli.compare.ResultMatch.Verdict;
 
 /**
  * A comparison as JSON: {@code {same, a, b, encounters, averages, stays}}, where each kind has the number of those that are the
@@ -21,25 +21,25 @@ final class ComparisonJson {
         json.set("a", side(comparison.a()));
         json.set("b", side(comparison.b()));
         for (ResultKind kind : ResultKind.values()) {
-            ObjectNode one = json.putObject(kind.word()).put("same", comparison.count(kind, Verdict.SAME));
+            ObjectNode one = json.putObject(kind.code()).put("same", comparison.count(kind, Verdict.SAME));
             ArrayNode differences = one.putArray("differences");
             comparison.differences(kind).forEach(match -> differences.add(difference(match)));
         }
         return json;
     }
 
-    private static ObjectNode side(FoundResults side) {
+    private static ObjectNode side(SideResults side) {
         ObjectNode json =
                 JsonNodeFactory.instance.objectNode().put("name", side.name()).put("epoch", side.epoch());
         ArrayNode missing = json.putArray("missing");
-        side.missing().stream().sorted().map(ResultKind::word).forEach(missing::add);
+        side.missing().stream().sorted().map(ResultKind::code).forEach(missing::add);
         return json;
     }
 
-    private static ObjectNode difference(Match match) {
+    private static ObjectNode difference(ResultMatch match) {
         ObjectNode json = JsonNodeFactory.instance
                 .objectNode()
-                .put("verdict", match.verdict().word())
+                .put("verdict", match.verdict().code())
                 .put("subject", match.subject().name());
         json.set("a", span(match.a()));
         json.set("b", span(match.b()));
@@ -50,7 +50,7 @@ final class ComparisonJson {
         return json;
     }
 
-    private static ObjectNode span(Span span) {
+    private static ObjectNode span(AnalyticsResult span) {
         if (span == null) {
             return null;
         }
@@ -58,9 +58,9 @@ final class ComparisonJson {
         if (!span.isOpen()) {
             json.put("end", span.end());
         }
-        if (span instanceof Encounter one) {
+        if (span instanceof EncounterResult one) {
             json.put("closest", one.closest());
-        } else if (span instanceof Average one) {
+        } else if (span instanceof AverageResult one) {
             if (!one.isEmpty()) {
                 json.put("mean", one.mean());
             }

@@ -5,17 +5,17 @@ import java.util.List;
 import java.util.Locale;
 import java.util.stream.Collectors;
 
-import io.furrow.cli.compare.Match.Verdict;
+import io.furrow.cli.compare.ResultMatch.Verdict;
 
 /** A comparison as lines of text: of each kind how many results are the same, and a line for each that is not. */
 final class ComparisonTable {
     private static final String ROW = "  %-9s  %-20s  %-12s  %s  %s";
 
-    private final int most;
+    private final int max;
 
-    /** @param most lines of each kind */
-    ComparisonTable(int most) {
-        this.most = most;
+    /** @param max lines of each kind */
+    ComparisonTable(int max) {
+        this.max = max;
     }
 
     List<String> lines(Comparison comparison) {
@@ -31,17 +31,17 @@ final class ComparisonTable {
         return lines;
     }
 
-    private static String side(FoundResults side) {
+    private static String side(SideResults side) {
         String name = side.name().equals(Side.LIVE) ? Side.LIVE : side.name() + ", epoch " + side.epoch();
         return side.missing().isEmpty()
                 ? name
                 : name + "; no topic of "
-                        + side.missing().stream().sorted().map(ResultKind::word).collect(Collectors.joining(", "))
+                        + side.missing().stream().sorted().map(ResultKind::code).collect(Collectors.joining(", "))
                         + ": nothing was found, or the job did not run";
     }
 
     private void kind(Comparison comparison, ResultKind kind, List<String> lines) {
-        String title = kind.word().toUpperCase(Locale.ROOT);
+        String title = kind.code().toUpperCase(Locale.ROOT);
         if (comparison.isUnknown(kind)) {
             lines.add(title + "  none on either side");
             return;
@@ -49,21 +49,21 @@ final class ComparisonTable {
         lines.add(title
                 + "  "
                 + List.of(Verdict.values()).stream()
-                        .map(verdict -> comparison.count(kind, verdict) + " " + verdict.word())
+                        .map(verdict -> comparison.count(kind, verdict) + " " + verdict.code())
                         .collect(Collectors.joining(", ")));
-        List<Match> differences = comparison.differences(kind);
+        List<ResultMatch> differences = comparison.differences(kind);
         int width = differences.stream()
-                .limit(most)
+                .limit(max)
                 .mapToInt(match -> match.subject().name().length())
                 .max()
                 .orElse(0);
-        differences.stream().limit(most).map(match -> row(match, width)).forEach(lines::add);
-        if (differences.size() > most) {
-            lines.add("  … and %d more; --limit shows more".formatted(differences.size() - most));
+        differences.stream().limit(max).map(match -> row(match, width)).forEach(lines::add);
+        if (differences.size() > max) {
+            lines.add("  … and %d more; --limit shows more".formatted(differences.size() - max));
         }
     }
 
-    private static String row(Match match, int width) {
+    private static String row(ResultMatch match, int width) {
         String what = match.verdict() == Verdict.CHANGED
                 ? match.changes().stream().map(ComparisonText::change).collect(Collectors.joining(", "))
                 : ComparisonText.value(match.either());
@@ -71,7 +71,7 @@ final class ComparisonTable {
         return String.format(
                         Locale.ROOT,
                         ROW,
-                        match.verdict().word(),
+                        match.verdict().code(),
                         ComparisonText.time(match.either().start()),
                         ComparisonText.length(match.either()),
                         name + " ".repeat(width - name.length()),

@@ -27,22 +27,22 @@ final class ComparisonText {
     }
 
     /** How long a result holds; of one without an end, that it is open. */
-    static String length(Span span) {
+    static String length(AnalyticsResult span) {
         return span.isOpen() ? "open" : duration(span.end() - span.start());
     }
 
     /** What a result of one side says. */
-    static String value(Span span) {
-        if (span instanceof Encounter one) {
+    static String value(AnalyticsResult span) {
+        if (span instanceof EncounterResult one) {
             return "closest " + number(one.closest()) + " m";
-        } else if (span instanceof Average one) {
+        } else if (span instanceof AverageResult one) {
             return "mean " + (one.isEmpty() ? "none" : number(one.mean()));
         }
         return "";
     }
 
     /** For instance {@code closest 1.2 → 1.5 (+0.3)}, {@code end 3 s later}. */
-    static String change(Change change) {
+    static String change(MemberDifference change) {
         if (change.a() instanceof Long a && change.b() instanceof Long b) {
             return "%s %s %s".formatted(change.member(), duration(Math.abs(b - a)), b > a ? "later" : "earlier");
         }
@@ -53,8 +53,8 @@ final class ComparisonText {
     }
 
     /** When, how long, on which side, and what. */
-    static String match(Match match) {
-        String what = match.verdict() == Match.Verdict.CHANGED
+    static String match(ResultMatch match) {
+        String what = match.verdict() == ResultMatch.Verdict.CHANGED
                 ? String.join(
                         ", ",
                         match.changes().stream().map(ComparisonText::change).toList())
@@ -63,7 +63,7 @@ final class ComparisonText {
                 .formatted(
                         time(match.either().start()),
                         length(match.either()),
-                        match.verdict().word(),
+                        match.verdict().code(),
                         what.isEmpty() ? "" : ": " + what);
     }
 

@@ -25,12 +25,12 @@ final class ResultCollector {
             Set.of(CollisionResult.STARTED, CollisionResult.ONGOING, CollisionResult.ENDED);
 
     private final String mission;
-    private final Map<String, Encounter> encounters = new HashMap<>();
-    private final Map<String, Stay> stays = new HashMap<>();
-    private final Map<Window, Average> averages = new HashMap<>();
+    private final Map<String, EncounterResult> encounters = new HashMap<>();
+    private final Map<String, VisitResult> visits = new HashMap<>();
+    private final Map<Window, AverageResult> averages = new HashMap<>();
     private long epoch;
 
-    private record Window(Subject subject, long start, long end) {}
+    private record Window(ResultSubject subject, long start, long end) {}
 
     /** @param mission what devices of other missions found is skipped; null for all */
     ResultCollector(String mission) {
@@ -48,23 +48,23 @@ final class ResultCollector {
         }
         if (ofEpoch > epoch) {
             encounters.clear();
-            stays.clear();
+            visits.clear();
             averages.clear();
             epoch = ofEpoch;
         }
         switch (kind) {
             case ENCOUNTERS -> encounter(scope, entity);
             case AVERAGES -> average(scope, entity);
-            case STAYS -> stay(scope, entity);
+            case STAYS -> visit(scope, entity);
         }
     }
 
-    List<Span> spans(ResultKind kind) {
+    List<AnalyticsResult> spans(ResultKind kind) {
         return new ArrayList<>(
                 switch (kind) {
                     case ENCOUNTERS -> encounters.values();
                     case AVERAGES -> averages.values();
-                    case STAYS -> stays.values();
+                    case STAYS -> visits.values();
                 });
     }
 
@@ -83,33 +83,35 @@ final class ResultCollector {
                     + entity.text(CollisionResult.SECOND.id()).orElse("?");
             encounters.merge(
                     entity.text(CollisionResult.ENCOUNTER).orElse(entity.id()),
-                    new Encounter(
-                            new Subject(scope, pair),
+                    new EncounterResult(
+                            new ResultSubject(scope, pair),
                             start.get(),
                             time.get(),
                             !phase.equals(CollisionResult.ENDED),
                             closest.get()),
-                    Encounter::and);
+                    EncounterResult::and);
         }
     }
 
-    private void stay(String scope, Entity entity) {
+    private void visit(String scope, Entity entity) {
         Optional<Long> start = time(entity, PresenceResult.START_TIME);
         Optional<Long> time = time(entity, PresenceResult.TIME);
         if (start.isEmpty() || time.isEmpty() || isOther(entity, "Mission")) {
             return;
         }
-        Subject subject = new Subject(
+        ResultSubject subject = new ResultSubject(
                 scope,
                 entity.text(PresenceResult.DEVICE).orElse("?") + " in "
                         + entity.text(PresenceResult.FIELD).orElse("?"));
         boolean left = entity.text(PresenceResult.PHASE)
                 .filter(PresenceResult.LEFT::equals)
                 .isPresent();
-        stays.merge(
+        visits.merge(
                 entity.text(PresenceResult.STAY).orElse(entity.id()),
-                left ? new Stay(subject, start.get(), time.get(), false) : Stay.open(subject, start.get()),
-                Stay::and);
+                left
+                        ? new VisitResult(subject, start.get(), time.get(), false)
+                        : VisitResult.open(subject, start.get()),
+                VisitResult::and);
     }
 
     private void average(String scope, Entity entity) {
@@ -119,14 +121,15 @@ final class ResultCollector {
             return;
         }
         String attribute = entity.type().substring(FieldResult.TYPE_PREFIX.length());
-        Subject subject = new Subject(scope, entity.text(FieldResult.FIELD).orElse("?") + " " + attribute);
+        ResultSubject subject =
+                new ResultSubject(scope, entity.text(FieldResult.FIELD).orElse("?") + " " + attribute);
         Set<String> suspects = new HashSet<>();
         for (JsonNode suspect : entity.value(FieldResult.SUSPECTS).map(List::of).orElse(List.of())) {
             suspect.forEach(device -> suspects.add(device.asText()));
         }
         averages.put(
                 new Window(subject, start.get(), end.get()),
-                new Average(
+                new AverageResult(
                         subject,
                         start.get(),
                         end.get(),

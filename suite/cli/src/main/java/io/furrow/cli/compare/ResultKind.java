@@ -9,11 +9,11 @@ enum ResultKind {
     STAYS(Topics.PRESENCE, "stays");
 
     private final String liveTopic;
-    private final String word;
+    private final String code;
 
-    ResultKind(String liveTopic, String word) {
+    ResultKind(String liveTopic, String code) {
         this.liveTopic = liveTopic;
-        this.word = word;
+        this.code = code;
     }
 
     /** Topic of the live results; of those of a replay {@link Topics#resultOf}. */
@@ -22,7 +22,7 @@ enum ResultKind {
     }
 
     /** As tables and JSON have it, for instance {@code encounters}. */
-    String word() {
-        return word;
+    String code() {
+        return code;
     }
 }

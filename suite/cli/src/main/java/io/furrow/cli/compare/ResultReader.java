@@ -74,7 +74,7 @@ final class ResultReader implements AutoCloseable {
      * @param mission see {@link ResultCollector}
      * @throws UnreadableResultsException if a record is no entity, or Kafka does not answer
      */
-    FoundResults read(Side side, OptionalLong desired, String mission) throws UnreadableResultsException {
+    SideResults read(Side side, OptionalLong desired, String mission) throws UnreadableResultsException {
         try {
             OptionalLong epoch = side.isLive() ? OptionalLong.of(0) : desired.isPresent() ? desired : newestEpoch(side);
             ResultCollector collector = new ResultCollector(mission);
@@ -86,11 +86,11 @@ final class ResultReader implements AutoCloseable {
                     missing.add(kind);
                 }
             }
-            Map<ResultKind, List<Span>> spans = new EnumMap<>(ResultKind.class);
+            Map<ResultKind, List<AnalyticsResult>> spans = new EnumMap<>(ResultKind.class);
             for (ResultKind kind : ResultKind.values()) {
                 spans.put(kind, collector.spans(kind));
             }
-            return new FoundResults(side.name(), epoch.orElse(collector.epoch()), spans, missing);
+            return new SideResults(side.name(), epoch.orElse(collector.epoch()), spans, missing);
         } catch (KafkaException e) {
             throw new UnreadableResultsException(
                     "The results of %s cannot be read: %s".formatted(side.name(), FailureText.of(e)), e);

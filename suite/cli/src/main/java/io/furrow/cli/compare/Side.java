@@ -18,26 +18,26 @@ record Side(String name, String topic) {
     private static final Pattern NAME = Pattern.compile("([A-Za-z0-9_-]{1,64})\\.([0-9a-f]{8})");
 
     /**
-     * @param word {@code live}, a replay's name, or a replay's topic
+     * @param code {@code live}, a replay's name, or a replay's topic
      * @param topics that there are: a replay may play on a topic that is not called after its mission
      * @throws UnreadableResultsException if it is none of these, or the replay has no topic
      */
-    static Side of(String word, Collection<String> topics) throws UnreadableResultsException {
-        if (word.equals(LIVE)) {
+    static Side of(String code, Collection<String> topics) throws UnreadableResultsException {
+        if (code.equals(LIVE)) {
             return new Side(LIVE, null);
-        } else if (Topics.isReplay(word)) {
-            return new Side(Topics.replayOf(word).orElseThrow(), required(word, topics));
-        } else if (!NAME.matcher(word).matches()) {
+        } else if (Topics.isReplay(code)) {
+            return new Side(Topics.replayOf(code).orElseThrow(), required(code, topics));
+        } else if (!NAME.matcher(code).matches()) {
             throw new UnreadableResultsException(
                     "'%s' is no replay: name one as MISSION.ID, its topic as data.MISSION.replay.ID, or say live."
-                            .formatted(word));
+                            .formatted(code));
         }
-        int dot = word.indexOf('.');
-        String named = Topics.replay(word.substring(0, dot), word.substring(dot + 1));
+        int dot = code.indexOf('.');
+        String named = Topics.replay(code.substring(0, dot), code.substring(dot + 1));
         if (hasAnyOf(named, topics)) {
-            return new Side(word, named);
+            return new Side(code, named);
         }
-        return new Side(word, required(named, topics));
+        return new Side(code, required(named, topics));
     }
 
     private static String required(String topic, Collection<String> topics) throws UnreadableResultsException {

@@ -10,20 +10,20 @@ record TimeRange(long from, long to) {
     /** All that there is. */
     static final TimeRange ALL = new TimeRange(Long.MIN_VALUE, Long.MAX_VALUE);
 
-    boolean overlaps(Span span) {
+    boolean overlaps(AnalyticsResult span) {
         return span.start() < to && (span.end() >= from || span.isOpen());
     }
 
     /** Whether a window lies within; one that is cut has other readings than a whole one. */
-    boolean contains(Average window) {
+    boolean contains(AverageResult window) {
         return window.start() >= from && window.end() <= to;
     }
 
-    long start(Span span) {
+    long start(AnalyticsResult span) {
         return Math.max(span.start(), from);
     }
 
-    long end(Span span) {
+    long end(AnalyticsResult span) {
         return Math.min(span.end(), to);
     }
 }

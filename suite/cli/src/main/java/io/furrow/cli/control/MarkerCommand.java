@@ -34,7 +34,8 @@ public final class MarkerCommand {
     int add(
             @Mixin ControlOptions control,
             @Parameters(index = "0", paramLabel = "MISSION", description = MISSION) String mission,
-            @Parameters(index = "1", paramLabel = "TIME", description = "Event time, " + ReplayWords.TIME) String time,
+            @Parameters(index = "1", paramLabel = "TIME", description = "Event time, " + ReplayArguments.TIME)
+                    String time,
             @Parameters(index = "2", paramLabel = "NOTE", description = "What is there to see.") String note) {
         return control.command("POST", path(mission), ControlOptions.object(body(time, note)));
     }
@@ -53,7 +54,7 @@ public final class MarkerCommand {
 
     private static Map<String, Object> body(String time, String note) {
         Map<String, Object> body = new LinkedHashMap<>();
-        body.put("time", ReplayWords.time(time));
+        body.put("time", ReplayArguments.time(time));
         body.put("note", note);
         return body;
     }

@@ -146,7 +146,7 @@ public class MissionControl extends CommandGroup {
 
         ObjectNode in(ObjectNode json) {
             if (at != null) {
-                json.set("start", NgsiJson.mapper().valueToTree(ReplayWords.time(at)));
+                json.set("start", NgsiJson.mapper().valueToTree(ReplayArguments.time(at)));
             }
             return duration == null ? json : json.put("duration", duration);
         }

@@ -86,7 +86,7 @@ final class ReplayEvents implements AutoCloseable {
             LOG.debug("{} cannot be followed now", path, e);
             connected = false;
             if (e.isUnknown()) {
-                ask();
+                request();
             }
         } catch (UncheckedIOException e) {
             LOG.debug("the connection to {} is lost", path, e);
@@ -95,7 +95,7 @@ final class ReplayEvents implements AutoCloseable {
     }
 
     /** Of a control plane without events; a replay that is unknown is over. */
-    private void ask() {
+    private void request() {
         try {
             newest = api.get(path);
             connected = true;

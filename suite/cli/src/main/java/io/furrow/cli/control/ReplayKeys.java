@@ -109,7 +109,7 @@ final class ReplayKeys {
 
     /** Beginning where the last jump leads, until the replay reports another position. */
     private Optional<Request> seek(JsonNode replay, Duration by) {
-        PlayedPart part = PlayedPart.of(replay);
+        PlayedRange part = PlayedRange.of(replay);
         long position = position(replay);
         long begin = position == soughtFrom ? sought : position;
         soughtFrom = position;

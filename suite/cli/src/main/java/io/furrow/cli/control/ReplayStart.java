@@ -37,10 +37,16 @@ final class ReplayStart {
                     "Topic to play on, data.NAME.replay.<8 hexadecimal digits>. Default: one that is called after the mission.")
     private String topic;
 
-    @Option(names = "--from", paramLabel = "TIME", description = "Event time of the first event: " + ReplayWords.TIME)
+    @Option(
+            names = "--from",
+            paramLabel = "TIME",
+            description = "Event time of the first event: " + ReplayArguments.TIME)
     private String from;
 
-    @Option(names = "--to", paramLabel = "TIME", description = "Event time after the last event: " + ReplayWords.TIME)
+    @Option(
+            names = "--to",
+            paramLabel = "TIME",
+            description = "Event time after the last event: " + ReplayArguments.TIME)
     private String to;
 
     @Option(names = "--speed", paramLabel = "X", description = "0.1 to 1000, or max. Default: 1.")
@@ -120,15 +126,15 @@ final class ReplayStart {
         Map<String, Object> members = new LinkedHashMap<>();
         members.put(all.size() == 1 ? "mission" : "missions", all.size() == 1 ? all.get(0) : all);
         members.put("topic", topic);
-        members.put("from", ReplayWords.time(from));
-        members.put("to", ReplayWords.time(to));
-        members.put("speed", speed == null ? null : ReplayWords.speed(speed));
+        members.put("from", ReplayArguments.time(from));
+        members.put("to", ReplayArguments.time(to));
+        members.put("speed", speed == null ? null : ReplayArguments.speed(speed));
         members.put("loop", loop ? true : null);
         members.put("range", range == null ? null : range(control));
         members.put("devices", devices);
         members.put("maxGap", maxGap == null ? null : maxGap.toString());
         members.put("stamps", stamps);
-        members.put("startAt", ReplayWords.time(startAt));
+        members.put("startAt", ReplayArguments.time(startAt));
         members.put("analytics", analytics);
         if (sourceTopic != null || sourceFile != null) {
             members.put("source", sourceTopic == null ? Map.of("file", sourceFile) : Map.of("topic", sourceTopic));
@@ -141,7 +147,7 @@ final class ReplayStart {
         if (ends.length != 2 || ends[0].isBlank() || ends[1].isBlank()) {
             throw control.refused("--range '%s' is not A..B, two event times".formatted(range));
         }
-        return Map.of("from", ReplayWords.time(ends[0]), "to", ReplayWords.time(ends[1]));
+        return Map.of("from", ReplayArguments.time(ends[0]), "to", ReplayArguments.time(ends[1]));
     }
 
     /**
@@ -163,7 +169,7 @@ final class ReplayStart {
             topics.add(Topics.replay(name.substring(0, dot), name.substring(dot + 1)));
         });
         return topics.stream()
-                .flatMap(one -> analytics.stream().map(job -> new AnalyticsJob(job, one)))
+                .flatMap(one -> analytics.stream().map(job -> new ReplayAnalyticsJob(job, one)))
                 .map(job -> "flink run -d furrow-analytics-*-job.jar %s %s%s"
                         .formatted(
                                 job.job(),

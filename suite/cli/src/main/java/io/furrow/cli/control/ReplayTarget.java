@@ -23,16 +23,16 @@ final class ReplayTarget {
             paramLabel = "REPLAY …",
             hideParamSyntax = true,
             description = "Name of the replay, as start answers it, MISSION.ID; then what the command needs.")
-    private List<String> words = List.of();
+    private List<String> arguments = List.of();
 
     /** Its path. */
     String path(ControlOptions control) {
         if (group != null) {
             return ofGroup(group);
-        } else if (words.isEmpty() || words.get(0).startsWith("-")) {
+        } else if (arguments.isEmpty() || arguments.get(0).startsWith("-")) {
             throw control.refused("Name a replay, MISSION.ID, or a group with --group");
         }
-        return REPLAYS + ControlApi.part(words.get(0));
+        return REPLAYS + ControlApi.part(arguments.get(0));
     }
 
     /** The path of a group. */
@@ -43,14 +43,14 @@ final class ReplayTarget {
     /**
      * The words after the replay.
      *
-     * @param least how many there must be
-     * @param most how many there may be
+     * @param min how many there must be
+     * @param max how many there may be
      * @param what they are, for who gives others
      */
-    List<String> words(ControlOptions control, int least, int most, String what) {
+    List<String> arguments(ControlOptions control, int min, int max, String what) {
         String path = path(control);
-        List<String> own = group == null ? words.subList(1, words.size()) : words;
-        if (own.size() < least || own.size() > most) {
+        List<String> own = group == null ? arguments.subList(1, arguments.size()) : arguments;
+        if (own.size() < min || own.size() > max) {
             throw control.refused("After %s comes %s; there is '%s'"
                     .formatted(path.substring(REPLAYS.length() + 1), what, String.join(" ", own)));
         }

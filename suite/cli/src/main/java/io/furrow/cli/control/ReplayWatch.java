@@ -86,7 +86,7 @@ final class ReplayWatch implements ControlOptions.Work {
         String lost = events.isConnected() || events.isOver() ? "" : "  (connection lost)";
         String line = control.isJson()
                 ? NgsiJson.mapper().writeValueAsString(events.newest())
-                : ReplayView.line(events.newest()) + lost;
+                : ReplayScreen.line(events.newest()) + lost;
         if (!line.equals(printed)) {
             printed = line;
             control.out().println(line);
@@ -176,7 +176,7 @@ final class ReplayWatch implements ControlOptions.Work {
 
     private void draw(Display display, ReplayEvents events) {
         List<AttributedString> lines =
-                ReplayView.block(events.newest(), notice(events), keys.isHelp(), width - 1).stream()
+                ReplayScreen.block(events.newest(), notice(events), keys.isHelp(), width - 1).stream()
                         .map(AttributedString::new)
                         .collect(Collectors.toCollection(ArrayList::new));
         display.update(lines, -1); // changes the list where it scrolls

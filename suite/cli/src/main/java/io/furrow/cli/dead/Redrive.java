@@ -93,7 +93,7 @@ public final class Redrive {
     private final Map<String, Long> fed = new TreeMap<>();
     private final Map<String, Long> left = new TreeMap<>();
     private RedriveOffsets memory;
-    private Originals originals;
+    private OriginalReader originals;
 
     /** @param kafka what every client needs, {@code bootstrap.servers} at least */
     public Redrive(Properties kafka, Request wish) {
@@ -104,7 +104,7 @@ public final class Redrive {
     /** @throws IOException if the topic is not there, or its end is not reached */
     public Outcome run() throws IOException {
         try (var consumer = consumer();
-                var found = new Originals(consumer());
+                var found = new OriginalReader(consumer());
                 var producer = wish.dryRun() ? null : producer()) {
             originals = found;
             assign(consumer);
@@ -150,15 +150,16 @@ public final class Redrive {
             KafkaProducer<byte[], byte[]> producer)
             throws IOException {
         boolean begun = false;
-        for (ConsumerRecord<byte[], byte[]> letter : records) {
-            boolean isNew = letter.offset() >= ends.get(new TopicPartition(letter.topic(), letter.partition()));
-            boolean isDesired = !isNew && isDesired(letter);
-            Optional<ConsumerRecord<byte[], byte[]>> original = isDesired ? original(letter) : Optional.empty();
+        for (ConsumerRecord<byte[], byte[]> deadLetter : records) {
+            boolean isNew =
+                    deadLetter.offset() >= ends.get(new TopicPartition(deadLetter.topic(), deadLetter.partition()));
+            boolean isDesired = !isNew && isDesired(deadLetter);
+            Optional<ConsumerRecord<byte[], byte[]>> original = isDesired ? original(deadLetter) : Optional.empty();
             if (isDesired && original.isEmpty()) {
-                memory.leave(letter.partition(), kind(letter), letter.offset());
+                memory.leave(deadLetter.partition(), kind(deadLetter), deadLetter.offset());
             } else if (original.isPresent()) {
-                memory.add(letter.partition(), kind(letter), letter.offset());
-                fed.merge(kind(letter).reason(), 1L, Long::sum);
+                memory.add(deadLetter.partition(), kind(deadLetter), deadLetter.offset());
+                fed.merge(kind(deadLetter).reason(), 1L, Long::sum);
                 if (producer != null) {
                     if (!begun) {
                         producer.beginTransaction();
@@ -174,13 +175,13 @@ public final class Redrive {
         }
     }
 
-    private boolean isDesired(ConsumerRecord<byte[], byte[]> letter) {
-        Kind kind = kind(letter);
+    private boolean isDesired(ConsumerRecord<byte[], byte[]> deadLetter) {
+        Kind kind = kind(deadLetter);
         if (kind.reason().isEmpty()) {
             left.merge(OTHER, 1L, Long::sum);
             return false;
         }
-        if (!wish.again() && memory.holds(letter.partition(), kind, letter.offset())) {
+        if (!wish.again() && memory.holds(deadLetter.partition(), kind, deadLetter.offset())) {
             return false;
         }
         if (!wish.choice().isOf(kind)) {
@@ -191,30 +192,31 @@ public final class Redrive {
     }
 
     /** The letter itself, or the record that it stands for; empty, and counted as left, where neither is whole. */
-    private Optional<ConsumerRecord<byte[], byte[]>> original(ConsumerRecord<byte[], byte[]> letter)
+    private Optional<ConsumerRecord<byte[], byte[]>> original(ConsumerRecord<byte[], byte[]> deadLetter)
             throws IOException {
-        Optional<Original> elsewhere = Original.of(header(letter, Original.POSITION), header(letter, Original.BYTES));
+        Optional<Original> elsewhere =
+                Original.of(header(deadLetter, Original.POSITION), header(deadLetter, Original.BYTES));
         if (elsewhere.isPresent()) {
-            Optional<ConsumerRecord<byte[], byte[]>> found = originals.find(elsewhere.get(), letter);
+            Optional<ConsumerRecord<byte[], byte[]>> found = originals.find(elsewhere.get(), deadLetter);
             if (found.isEmpty()) {
                 left.merge(GONE, 1L, Long::sum);
             }
             return found;
         }
-        if (header(letter, DeadLetter.MESSAGE).contains("(truncated")) {
+        if (header(deadLetter, DeadLetter.MESSAGE).contains("(truncated")) {
             left.merge(TRUNCATED, 1L, Long::sum);
             return Optional.empty();
         }
-        return Optional.of(letter);
+        return Optional.of(deadLetter);
     }
 
-    private static Kind kind(ConsumerRecord<byte[], byte[]> letter) {
-        return new Kind(header(letter, DeadLetter.REASON), header(letter, DeadLetter.STAGE));
+    private static Kind kind(ConsumerRecord<byte[], byte[]> deadLetter) {
+        return new Kind(header(deadLetter, DeadLetter.REASON), header(deadLetter, DeadLetter.STAGE));
     }
 
     private ProducerRecord<byte[], byte[]> broughtBack(ConsumerRecord<byte[], byte[]> original) {
-        ProducerRecord<byte[], byte[]> record =
-                new ProducerRecord<>(wish.to(), null, Originals.timeOf(original), original.key(), original.value());
+        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(
+                wish.to(), null, OriginalReader.timeOf(original), original.key(), original.value());
         for (Header header : original.headers()) {
             if (!DeadLetter.HEADERS.contains(header.key())) {
                 record.headers().add(header);
@@ -223,8 +225,8 @@ public final class Redrive {
         return record;
     }
 
-    private static String header(ConsumerRecord<byte[], byte[]> letter, String name) {
-        Header header = letter.headers().lastHeader(name);
+    private static String header(ConsumerRecord<byte[], byte[]> deadLetter, String name) {
+        Header header = deadLetter.headers().lastHeader(name);
         return header == null || header.value() == null ? "" : new String(header.value(), StandardCharsets.UTF_8);
     }
 

@@ -25,7 +25,7 @@ import org.apache.kafka.common.errors.TopicExistsException;
 import io.furrow.kafka.CommittedReader;
 
 /**
- * How far the letters of each partition, reason and stage were brought to a topic: the compacted topic {@code <dead
+ * How far the dead letters of each partition, reason and stage were brought to a topic: the compacted topic {@code <dead
  * letters>.refed}, written in the transaction that brings them. Whichever reasons and stages are asked for together, no letter
  * is brought twice; and unlike the offsets of a consumer group this is not forgotten after a week. A letter that was left before one
  * that was brought is remembered by itself.

@@ -76,7 +76,7 @@ public final class FieldReport {
         ArrayNode rows = NgsiJson.mapper().createArrayNode();
         for (FieldChange change : changes) {
             FieldVersion shown = shown(change);
-            ObjectNode row = rows.addObject().put("change", word(change)).put("id", shown.id());
+            ObjectNode row = rows.addObject().put("change", code(change)).put("id", shown.id());
             row.put("name", nullIfEmpty(shown.name())).put("domain", nullIfEmpty(shown.domain()));
             if (change.before() != null && !change.before().domain().equals(shown.domain())) {
                 row.put("domain", named(change.before().domain()) + " → " + named(shown.domain()));
@@ -102,7 +102,7 @@ public final class FieldReport {
         return change.kind() == FieldChange.Kind.ENDED ? change.before() : change.version();
     }
 
-    private static String word(FieldChange change) {
+    private static String code(FieldChange change) {
         return change.kind().name().toLowerCase(Locale.ROOT);
     }
 
@@ -139,7 +139,7 @@ public final class FieldReport {
             FieldVersion shown = shown(change);
             ObjectNode one = all.addObject();
             one.put("id", shown.id()).put("name", shown.name()).put("domain", shown.domain());
-            one.put("change", word(change));
+            one.put("change", code(change));
             ImportedField field = fields.get(shown.id());
             if (field != null) {
                 one.put("feature", field.number()).put("hectares", field.hectares());

@@ -49,7 +49,7 @@ class CatalogTableTest {
     }
 
     @Test
-    void saysThatNothingIsStored() {
+    void reportsThatNothingIsStored() {
         assertThat(CatalogTable.lines(List.of())).containsExactly("Nothing is stored yet.");
     }
 

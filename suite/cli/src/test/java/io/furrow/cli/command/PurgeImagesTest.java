@@ -55,7 +55,7 @@ class PurgeImagesTest {
     }
 
     @Test
-    void saysWhatItWouldDo() throws Exception {
+    void reportsWhatItWouldDo() throws Exception {
         List<String> before = everything();
 
         assertThat(run("--older-than", "30d", "--dry-run")).startsWith("Would delete 4 files");
@@ -64,10 +64,10 @@ class PurgeImagesTest {
     }
 
     @Test
-    void refusesAFolderThatIsNotThereAndAnAgeThatIsNone() {
-        assertThat(said(folder.resolve("none").toString(), "--older-than", "30d"))
+    void rejectsAFolderThatIsNotThereAndAnAgeThatIsNone() {
+        assertThat(output(folder.resolve("none").toString(), "--older-than", "30d"))
                 .contains("none is not there; name the folder of --images");
-        assertThat(said(folder.toString(), "--older-than", "0s")).contains("--older-than must be positive");
+        assertThat(output(folder.toString(), "--older-than", "0s")).contains("--older-than must be positive");
     }
 
     private String store(String entity, long time, int bytes) throws Exception {
@@ -86,15 +86,16 @@ class PurgeImagesTest {
     }
 
     private String run(String... args) {
-        return said(Stream.concat(Stream.of(folder.toString()), Stream.of(args)).toArray(String[]::new));
+        return output(
+                Stream.concat(Stream.of(folder.toString()), Stream.of(args)).toArray(String[]::new));
     }
 
-    private static String said(String... args) {
-        StringWriter said = new StringWriter();
+    private static String output(String... args) {
+        StringWriter output = new StringWriter();
         CommandLine line = JobCommandLine.of(new PurgeImages());
-        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+        line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
         line.execute(args);
-        return said.toString();
+        return output.toString();
     }
 
     private List<String> everything() throws IOException {

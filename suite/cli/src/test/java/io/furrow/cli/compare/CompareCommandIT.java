@@ -24,9 +24,9 @@ import io.furrow.cli.Commands;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.ngsi.Entity;
 
-import static io.furrow.cli.compare.FoundRecords.encounter;
-import static io.furrow.cli.compare.FoundRecords.entered;
-import static io.furrow.cli.compare.FoundRecords.left;
+import static io.furrow.cli.compare.ResultRecords.encounter;
+import static io.furrow.cli.compare.ResultRecords.entered;
+import static io.furrow.cli.compare.ResultRecords.left;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -84,26 +84,26 @@ class CompareCommandIT {
 
     @Test
     void comparesTheNewestEpochsOrThoseThatAreNamed() {
-        StringWriter said = new StringWriter();
+        StringWriter output = new StringWriter();
 
         // In epoch 2 of A nothing was found.
-        assertThat(run(said, "weeding.0000000a", "weeding.0000000b")).isEqualTo(1);
-        assertThat(said.toString())
+        assertThat(run(output, "weeding.0000000a", "weeding.0000000b")).isEqualTo(1);
+        assertThat(output.toString())
                 .contains("A  weeding.0000000a, epoch 2", "ENCOUNTERS  0 same, 0 changed, 0 only in A, 1 only in B")
                 .contains("no topic of averages, stays: nothing was found, or the job did not run")
                 .contains("AVERAGES  none on either side");
 
-        assertThat(run(said, "weeding.0000000a", B, "--epoch-a", "1")).isEqualTo(1);
-        assertThat(said.toString()).contains("1 changed, 0 only in A, 0 only in B", "start 5 s earlier");
+        assertThat(run(output, "weeding.0000000a", B, "--epoch-a", "1")).isEqualTo(1);
+        assertThat(output.toString()).contains("1 changed, 0 only in A, 0 only in B", "start 5 s earlier");
     }
 
     @Test
     void comparesAReplayWithWhatWasFoundLive() throws Exception {
-        StringWriter said = new StringWriter();
+        StringWriter output = new StringWriter();
         Path html = folder.resolve("picture.html");
 
         assertThat(run(
-                        said,
+                        output,
                         "weeding.0000000b",
                         "live",
                         "--from",
@@ -114,27 +114,27 @@ class CompareCommandIT {
                         html.toString()))
                 .isZero();
 
-        assertThat(said.toString()).contains("1 same", "A and B are the same.");
+        assertThat(output.toString()).contains("1 same", "A and B are the same.");
         assertThat(Files.readString(html)).startsWith("<!doctype html>").doesNotContain("{{");
     }
 
     @Test
-    void saysWhatCannotBeCompared() {
-        StringWriter said = new StringWriter();
+    void reportsWhatCannotBeCompared() {
+        StringWriter output = new StringWriter();
 
-        assertThat(run(said, "weeding.0000000a", "live")).isEqualTo(2);
-        assertThat(run(said, "weeding.0000000a", "weeding.0000000a")).isEqualTo(2);
-        assertThat(run(said, "weeding.0000000a", "weeding.0000000c")).isEqualTo(2);
-        assertThat(said.toString())
+        assertThat(run(output, "weeding.0000000a", "live")).isEqualTo(2);
+        assertThat(run(output, "weeding.0000000a", "weeding.0000000a")).isEqualTo(2);
+        assertThat(run(output, "weeding.0000000a", "weeding.0000000c")).isEqualTo(2);
+        assertThat(output.toString())
                 .contains(
                         "say which part of it with --from and --to",
                         "A and B are the same; name two",
                         "There is no topic");
     }
 
-    private static int run(StringWriter said, String... args) {
+    private static int run(StringWriter output, String... args) {
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
-        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+        line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
         String[] all = java.util.stream.Stream.of(
                         List.of("replay", "compare"), List.of(args), List.of("--kafka", kafka.bootstrapServers()))
                 .flatMap(List::stream)

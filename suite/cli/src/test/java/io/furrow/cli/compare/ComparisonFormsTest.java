@@ -7,12 +7,12 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-import static io.furrow.cli.compare.FoundRecords.T0;
-import static io.furrow.cli.compare.FoundRecords.average;
-import static io.furrow.cli.compare.FoundRecords.encounter;
-import static io.furrow.cli.compare.FoundRecords.entered;
-import static io.furrow.cli.compare.FoundRecords.left;
-import static io.furrow.cli.compare.FoundRecords.side;
+import static io.furrow.cli.compare.ResultRecords.T0;
+import static io.furrow.cli.compare.ResultRecords.average;
+import static io.furrow.cli.compare.ResultRecords.encounter;
+import static io.furrow.cli.compare.ResultRecords.entered;
+import static io.furrow.cli.compare.ResultRecords.left;
+import static io.furrow.cli.compare.ResultRecords.side;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ComparisonFormsTest {
@@ -55,7 +55,7 @@ class ComparisonFormsTest {
     }
 
     @Test
-    void saysHowManyLinesItLeavesOut() {
+    void reportsHowManyLinesItLeavesOut() {
         assertThat(new ComparisonTable(1).lines(DIFFERENT))
                 .contains("  … and 1 more; --limit shows more")
                 .noneMatch(line -> line.contains("< – &"));

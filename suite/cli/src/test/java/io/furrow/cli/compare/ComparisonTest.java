@@ -9,21 +9,21 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.analytics.collision.CollisionEntity;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.cli.compare.Match.Verdict;
+import io.furrow.cli.compare.ResultMatch.Verdict;
 import io.furrow.model.ngsi.Entity;
 
-import static io.furrow.cli.compare.FoundRecords.T0;
-import static io.furrow.cli.compare.FoundRecords.average;
-import static io.furrow.cli.compare.FoundRecords.encounter;
-import static io.furrow.cli.compare.FoundRecords.entered;
-import static io.furrow.cli.compare.FoundRecords.left;
-import static io.furrow.cli.compare.FoundRecords.side;
+import static io.furrow.cli.compare.ResultRecords.T0;
+import static io.furrow.cli.compare.ResultRecords.average;
+import static io.furrow.cli.compare.ResultRecords.encounter;
+import static io.furrow.cli.compare.ResultRecords.entered;
+import static io.furrow.cli.compare.ResultRecords.left;
+import static io.furrow.cli.compare.ResultRecords.side;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ComparisonTest {
     @Test
     void isTheSameWhateverTheOrderInWhichRecordsCame() {
-        FoundResults a = side(
+        SideResults a = side(
                 "a",
                 encounter("xy", "started", 4, 10, 10),
                 encounter("xy", "ongoing", 3, 10, 12),
@@ -31,7 +31,7 @@ class ComparisonTest {
                 entered("x", "f", 1),
                 left("x", "f", 1, 9),
                 average("f", 0, 21.5, "robust", "x"));
-        FoundResults b = side(
+        SideResults b = side(
                 "b",
                 left("x", "f", 1, 9),
                 entered("x", "f", 1),
@@ -48,65 +48,66 @@ class ComparisonTest {
 
     @Test
     void matchesEncountersOfAPairByTheLongestCommonTime() {
-        FoundResults a = side("a", encounter("xy", "ended", 2, 0, 10), encounter("xy", "ended", 2, 20, 30));
-        FoundResults b = side(
+        SideResults a = side("a", encounter("xy", "ended", 2, 0, 10), encounter("xy", "ended", 2, 20, 30));
+        SideResults b = side(
                 "b",
                 encounter("xy", "ended", 2, 9, 12),
                 encounter("xy", "ended", 1.5, 2, 8),
                 encounter("xz", "ended", 2, 20, 30));
 
-        List<Match> matches = Comparison.of(a, b, TimeRange.ALL).matches().get(ResultKind.ENCOUNTERS);
+        List<ResultMatch> matches = Comparison.of(a, b, TimeRange.ALL).matches().get(ResultKind.ENCOUNTERS);
 
         assertThat(matches)
-                .extracting(Match::verdict)
+                .extracting(ResultMatch::verdict)
                 .containsExactly(Verdict.CHANGED, Verdict.ONLY_B, Verdict.ONLY_A, Verdict.ONLY_B);
         assertThat(matches.get(0).changes())
                 .containsExactly(
-                        new Change("closest", 2.0, 1.5),
-                        new Change("start", T0, T0 + 2000),
-                        new Change("end", T0 + 10_000, T0 + 8000));
+                        new MemberDifference("closest", 2.0, 1.5),
+                        new MemberDifference("start", T0, T0 + 2000),
+                        new MemberDifference("end", T0 + 10_000, T0 + 8000));
     }
 
     @ParameterizedTest
     @CsvSource({"21.6, robust, x, mean", "21.5, unverified, x, quality", "21.5, robust, y, suspects"})
-    void saysInWhatAWindowDiffers(double mean, String quality, String suspect, String member) {
-        FoundResults a = side("a", average("f", 0, 21.5, "robust", "x"));
-        FoundResults b = side("b", average("f", 0, mean, quality, suspect));
+    void reportsInWhatAWindowDiffers(double mean, String quality, String suspect, String member) {
+        SideResults a = side("a", average("f", 0, 21.5, "robust", "x"));
+        SideResults b = side("b", average("f", 0, mean, quality, suspect));
 
-        List<Match> matches = Comparison.of(a, b, TimeRange.ALL).matches().get(ResultKind.AVERAGES);
+        List<ResultMatch> matches = Comparison.of(a, b, TimeRange.ALL).matches().get(ResultKind.AVERAGES);
 
         assertThat(matches)
                 .singleElement()
-                .satisfies(match ->
-                        assertThat(match.changes()).extracting(Change::member).containsExactly(member));
+                .satisfies(match -> assertThat(match.changes())
+                        .extracting(MemberDifference::member)
+                        .containsExactly(member));
     }
 
     @Test
     void takesAWindowWithoutReadingsForNone() {
-        FoundResults a = side("a", average("f", 0, 21.5, "robust"), average("f", 10, Double.NaN, "unverified"));
-        FoundResults b = side("b", average("f", 0, 21.5, "robust"));
+        SideResults a = side("a", average("f", 0, 21.5, "robust"), average("f", 10, Double.NaN, "unverified"));
+        SideResults b = side("b", average("f", 0, 21.5, "robust"));
 
         assertThat(Comparison.of(a, b, TimeRange.ALL).isSame()).isTrue();
 
-        FoundResults more = side("b", average("f", 0, 21.5, "robust"), average("f", 10, 20, "robust"));
+        SideResults more = side("b", average("f", 0, 21.5, "robust"), average("f", 10, 20, "robust"));
         assertThat(Comparison.of(a, more, TimeRange.ALL).differences(ResultKind.AVERAGES))
                 .singleElement()
-                .satisfies(match -> assertThat(match.changes()).contains(new Change("mean", null, 20.0)));
+                .satisfies(match -> assertThat(match.changes()).contains(new MemberDifference("mean", null, 20.0)));
     }
 
     @Test
-    void doesNotTakeAnEndThatIsNotToldForADifference() {
-        FoundResults a = side("a", encounter("xy", "ongoing", 2, 0, 5), entered("x", "f", 1));
-        FoundResults b = side("b", encounter("xy", "ended", 2, 0, 9), left("x", "f", 1, 9));
+    void doesNotTakeAnEndThatIsNotReportedForADifference() {
+        SideResults a = side("a", encounter("xy", "ongoing", 2, 0, 5), entered("x", "f", 1));
+        SideResults b = side("b", encounter("xy", "ended", 2, 0, 9), left("x", "f", 1, 9));
 
         assertThat(Comparison.of(a, b, TimeRange.ALL).isSame()).isTrue();
     }
 
     @Test
     void comparesWithinARangeOnly() {
-        FoundResults a =
+        SideResults a =
                 side("a", encounter("xy", "ended", 2, 0, 20), average("f", 0, 20, "robust"), left("x", "f", 0, 9));
-        FoundResults b = side("b", encounter("xy", "ended", 2, 10, 25), left("x", "f", 30, 40));
+        SideResults b = side("b", encounter("xy", "ended", 2, 10, 25), left("x", "f", 30, 40));
 
         assertThat(Comparison.of(a, b, new TimeRange(T0 + 10_000, T0 + 20_000)).isSame())
                 .isTrue();
@@ -136,12 +137,12 @@ class ComparisonTest {
 
         assertThat(collector.spans(ResultKind.STAYS))
                 .singleElement()
-                .satisfies(stay -> assertThat(stay.subject().name()).isEqualTo("y in f"));
+                .satisfies(visit -> assertThat(visit.subject().name()).isEqualTo("y in f"));
         assertThat(collector.epoch()).isEqualTo(2);
     }
 
     @Test
-    void tellsTenantsApartOnlyWhereThereAreSeveral() {
+    void distinguishesTenantsOnlyWhereThereAreSeveral() {
         ResultCollector one = new ResultCollector(null);
         one.add(ResultKind.STAYS, 0, "farm|/", left("x", "f", 1, 2));
         ResultCollector other = new ResultCollector(null);
@@ -174,7 +175,7 @@ class ComparisonTest {
         collector.add(ResultKind.ENCOUNTERS, 3, "farm|/", entity);
 
         assertThat(collector.spans(ResultKind.ENCOUNTERS))
-                .containsExactly(new Encounter(new Subject("farm|/", "x – y"), T0, T0 + 5000, false, 1.25));
+                .containsExactly(new EncounterResult(new ResultSubject("farm|/", "x – y"), T0, T0 + 5000, false, 1.25));
     }
 
     private static PositionFix fix(String id, long time) {

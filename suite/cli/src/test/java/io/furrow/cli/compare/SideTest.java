@@ -23,12 +23,12 @@ class SideTest {
         "gone.00000002, data.gone.replay.00000002.collision",
         "live, data.collision"
     })
-    void knowsTheTopicOfItsResults(String word, String topic) throws Exception {
-        assertThat(Side.of(word, TOPICS).results(ResultKind.ENCOUNTERS)).isEqualTo(topic);
+    void findsTheTopicOfItsResults(String code, String topic) throws Exception {
+        assertThat(Side.of(code, TOPICS).results(ResultKind.ENCOUNTERS)).isEqualTo(topic);
     }
 
     @Test
-    void saysThatThereIsNoSuchReplay() {
+    void reportsThatThereIsNoSuchReplay() {
         assertThatThrownBy(() -> Side.of("weeding", TOPICS))
                 .isInstanceOf(UnreadableResultsException.class)
                 .hasMessageContaining("name one as MISSION.ID");

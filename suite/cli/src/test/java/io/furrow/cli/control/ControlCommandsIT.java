@@ -181,7 +181,7 @@ class ControlCommandsIT {
     }
 
     @Test
-    void asksForReplaysAndSteersThem() throws Exception {
+    void requestsReplaysAndSteersThem() throws Exception {
         String replay = json("replay", "start", "weeding", "--speed", "10", "--loop")
                 .path("replay")
                 .asText();
@@ -196,7 +196,7 @@ class ControlCommandsIT {
     }
 
     @Test
-    void listsOpenAlarmsTheMostSevereFirstAndNoMoreThanAreAskedFor() throws Exception {
+    void listsOpenAlarmsTheMostSevereFirstAndNoMoreThanAreRequested() throws Exception {
         long hours = System.currentTimeMillis() - Duration.ofHours(3).toMillis();
         long days = System.currentTimeMillis() - Duration.ofDays(4).toMillis();
         try (KafkaProducer<String, byte[]> producer = new KafkaProducer<>(
@@ -243,7 +243,7 @@ class ControlCommandsIT {
     }
 
     @Test
-    void saysWhatToDoWhereItIsNotLetInOrNobodyIsThere() {
+    void reportsWhatToDoWhereItIsNotLetInOrNobodyIsThere() {
         CommandLine furrow = furrow();
 
         String trusted = certificate.certificate().toString();
@@ -264,34 +264,34 @@ class ControlCommandsIT {
                         line -> assertThat(line).startsWith("See: furrow domain list --help"));
     }
 
-    private JsonNode json(String... words) throws Exception {
-        List<String> all = new ArrayList<>(List.of(words));
+    private JsonNode json(String... arguments) throws Exception {
+        List<String> all = new ArrayList<>(List.of(arguments));
         all.addAll(List.of("--output", "json"));
         return NgsiJson.read(run(all.toArray(new String[0])).getBytes(java.nio.charset.StandardCharsets.UTF_8));
     }
 
-    private String run(String... words) {
+    private String run(String... arguments) {
         out.getBuffer().setLength(0);
-        assertThat(furrow().execute(withAccess(words))).as("%s", err).isZero();
+        assertThat(furrow().execute(withAccess(arguments))).as("%s", err).isZero();
         return out.toString();
     }
 
-    private String onKafka(String... words) {
+    private String onKafka(String... arguments) {
         out.getBuffer().setLength(0);
-        List<String> all = new ArrayList<>(List.of(words));
+        List<String> all = new ArrayList<>(List.of(arguments));
         all.addAll(List.of("--kafka", kafka.bootstrapServers()));
         assertThat(furrow().execute(all.toArray(String[]::new))).as("%s", err).isZero();
         return out.toString();
     }
 
-    private String refused(String... words) {
+    private String refused(String... arguments) {
         err.getBuffer().setLength(0);
-        assertThat(furrow().execute(withAccess(words))).as("%s", out).isNotZero();
+        assertThat(furrow().execute(withAccess(arguments))).as("%s", out).isNotZero();
         return err.toString();
     }
 
-    private static String[] withAccess(String... words) {
-        List<String> all = new ArrayList<>(List.of(words));
+    private static String[] withAccess(String... arguments) {
+        List<String> all = new ArrayList<>(List.of(arguments));
         all.addAll(List.of(
                 "--api",
                 api.uri().toString(),

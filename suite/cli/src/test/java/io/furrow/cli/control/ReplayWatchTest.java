@@ -114,15 +114,15 @@ class ReplayWatchTest {
         events.add(event("status", replay("ended")));
         events.add(event("over", replay("ended").replace("\"speed\":2.0,", "")));
         events.add("lost");
-        StringWriter said = new StringWriter();
+        StringWriter output = new StringWriter();
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
-        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+        line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
 
         assertThat(line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()))
                 .isZero();
 
         assertThat(connections).hasValue(2);
-        assertThat(said.toString().lines().toList())
+        assertThat(output.toString().lines().toList())
                 .doesNotHaveDuplicates()
                 .last()
                 .isEqualTo(
@@ -130,18 +130,18 @@ class ReplayWatchTest {
     }
 
     @Test
-    void asksAControlPlaneThatHasNoEventsUntilTheReplayIsForgotten() {
+    void pollsAControlPlaneThatHasNoEventsUntilTheReplayIsForgotten() {
         eventless = true;
         left.set(2);
-        StringWriter said = new StringWriter();
+        StringWriter output = new StringWriter();
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
-        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+        line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
 
         assertThat(line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()))
                 .isZero();
 
         assertThat(left).hasValue(0);
-        assertThat(said.toString()).contains("m.0a1b2c3d  running").doesNotContain("connection lost");
+        assertThat(output.toString()).contains("m.0a1b2c3d  running").doesNotContain("connection lost");
     }
 
     @Test
@@ -210,14 +210,14 @@ class ReplayWatchTest {
     void printsNoMoreOfAReplayThatRestsAtItsEnd() {
         events.add(event("status", replay("running")));
         events.add(event("status", replay("ended").replace("\"ended\"", "\"ended\",\"settled\":true")));
-        StringWriter said = new StringWriter();
+        StringWriter output = new StringWriter();
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
-        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+        line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
 
         assertTimeoutPreemptively(
                 Duration.ofMinutes(1), () -> line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()));
 
-        assertThat(said.toString().lines()).last().asString().startsWith("m.0a1b2c3d  ended");
+        assertThat(output.toString().lines()).last().asString().startsWith("m.0a1b2c3d  ended");
     }
 
     private static void steer(ExternalTerminal terminal, ReplayEvents status, ControlApi api) {
@@ -234,7 +234,7 @@ class ReplayWatchTest {
     }
 
     @Test
-    void knowsKeysThatComeAsSeveralCharacters() throws Exception {
+    void readsKeysThatComeAsSeveralCharacters() throws Exception {
         Deque<Integer> characters = new ArrayDeque<>();
         "\033[C\033OD\033[1;2C\033\177\rx".chars().forEach(characters::add);
         KeyReader reader = new KeyReader(timeout -> characters.isEmpty() ? -1 : characters.poll());
@@ -246,16 +246,16 @@ class ReplayWatchTest {
     }
 
     @Test
-    void asksForNoPlaceBeforeAReplayHasSaidWhereItIs() throws Exception {
+    void requestsNoPlaceBeforeAReplayHasReportedWhereItIs() throws Exception {
         ReplayKeys keys = new ReplayKeys();
-        JsonNode asked =
+        JsonNode requested =
                 NgsiJson.read("{\"replay\":\"m.0a1b2c3d\",\"speed\":1,\"wanted\":\"running\"}".getBytes(UTF_8));
 
         for (String key : List.of("left", "]", "l", "m")) {
-            assertThat(keys.press(key, asked)).as(key).isEmpty();
+            assertThat(keys.press(key, requested)).as(key).isEmpty();
             assertThat(keys.message()).as(key).isEqualTo("It has not said yet where it is.");
         }
-        assertThat(keys.press(" ", asked)).isPresent();
+        assertThat(keys.press(" ", requested)).isPresent();
     }
 
     @Test
@@ -287,13 +287,13 @@ class ReplayWatchTest {
 
     @Test
     void showsTheShareOfWhatIsPlayed() throws Exception {
-        assertThat(ReplayView.block(part("running"), "", false, 80))
+        assertThat(ReplayScreen.block(part("running"), "", false, 80))
                 .contains("[" + "#".repeat(30) + "·".repeat(30) + "]  50 %", "2026-05-01T01:47:10Z  0:00:10 / 0:00:20");
-        assertThat(ReplayView.block(part("ended"), "", false, 80)).contains("[" + "#".repeat(60) + "] 100 %");
+        assertThat(ReplayScreen.block(part("ended"), "", false, 80)).contains("[" + "#".repeat(60) + "] 100 %");
         JsonNode range = NgsiJson.read(replay("running")
                 .replace("\"mission\"", "\"range\":{\"from\":1777600030000,\"to\":1777600050000},\"mission\"")
                 .getBytes(UTF_8));
-        assertThat(ReplayView.block(range, "", false, 80)).contains("[" + "·".repeat(60) + "]   0 %");
+        assertThat(ReplayScreen.block(range, "", false, 80)).contains("[" + "·".repeat(60) + "]   0 %");
     }
 
     /** Of the recording's minute what is from 20 s to 40 s. */
@@ -320,7 +320,7 @@ class ReplayWatchTest {
     }
 
     @Test
-    void keepsSpeedsAndJumpsWithinTheirBounds() throws Exception {
+    void limitsSpeedsAndJumpsToTheirBounds() throws Exception {
         ReplayKeys keys = new ReplayKeys();
         JsonNode fast = NgsiJson.read(replay("running").replace("2.0", "800").getBytes(UTF_8));
 
@@ -347,7 +347,7 @@ class ReplayWatchTest {
 
     @Test
     void showsAllOfItWithinNarrowTerminals() throws Exception {
-        assertThat(ReplayView.block(json("running"), "", true, 80))
+        assertThat(ReplayScreen.block(json("running"), "", true, 80))
                 .containsExactly(
                         "m.0a1b2c3d  running  speed 2  epoch 1",
                         "[" + "#".repeat(30) + "·".repeat(30) + "]  50 %",
@@ -355,10 +355,10 @@ class ReplayWatchTest {
                         "12.5 events/s  late 3 ms  70 events",
                         "",
                         "space pause  ←/→ 10 s  [/] 1 min  ./, step  +/- speed  l loop  m marker  q quit");
-        assertThat(ReplayView.block(json("running"), "a notice that is long", false, 20))
+        assertThat(ReplayScreen.block(json("running"), "a notice that is long", false, 20))
                 .hasSize(6)
                 .allMatch(line -> line.length() <= 20);
-        assertThat(ReplayView.block(NgsiJson.read("{\"replay\":\"m.0a1b2c3d\"}".getBytes(UTF_8)), "", false, 79))
+        assertThat(ReplayScreen.block(NgsiJson.read("{\"replay\":\"m.0a1b2c3d\"}".getBytes(UTF_8)), "", false, 79))
                 .contains("not begun", "? help");
     }
 

@@ -18,11 +18,11 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
-import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.cli.option.KafkaClient;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.device.DeviceCommands;
-import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.mission.MissionSettings;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.control.rest.access.CertificateFiles;
@@ -31,7 +31,7 @@ import io.furrow.launcher.option.AccessFlags;
 import io.furrow.launcher.option.FiwareAccessOptions;
 import io.furrow.launcher.option.ProvisioningOptions;
 import io.furrow.launcher.option.ReplayFlags;
-import io.furrow.launcher.option.TlsOptions;
+import io.furrow.launcher.option.RestTlsOptions;
 import io.furrow.launcher.option.WatchFlags;
 import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.suite.ControlService;
@@ -107,14 +107,14 @@ public final class ControlPlaneCommand implements Callable<Integer> {
             names = "--orion",
             paramLabel = "URL",
             defaultValue = "http://127.0.0.1:1026",
-            converter = HttpUri.class,
+            converter = HttpUriConverter.class,
             description = "Context broker, through which commands reach devices. Default: ${DEFAULT-VALUE}.")
     private URI orion;
 
     @Option(
             names = "--connect-url",
             paramLabel = "URL",
-            converter = HttpUri.class,
+            converter = HttpUriConverter.class,
             description =
                     "REST API of Kafka Connect, for instance http://127.0.0.1:8083: /ready shows its connectors, and one that failed "
                             + "raises an alarm. Default: it is not asked.")
@@ -152,7 +152,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
     private AccessFlags access;
 
     @Mixin
-    private TlsOptions tls;
+    private RestTlsOptions tls;
 
     @Mixin
     private WatchFlags watch;
@@ -236,7 +236,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
     private ControlSettings settings() {
         Properties client = KafkaClient.settings(kafka, kafkaProperties);
         return ControlSettings.of(client)
-                .with(new MissionOptions(provisioning.startTimeout, fiware.scope(fiwareService), false))
+                .with(new MissionSettings(provisioning.startTimeout, fiware.scope(fiwareService), false))
                 .withStandbyReplicas(standbyReplicas)
                 .withReplicationFactor(replicationFactor)
                 .with(replays.settings());

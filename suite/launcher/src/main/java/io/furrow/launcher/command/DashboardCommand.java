@@ -20,7 +20,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
-import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.cli.option.KafkaClient;
 import io.furrow.dashboard.Dashboard;
 import io.furrow.dashboard.DashboardSettings;
@@ -62,7 +62,7 @@ public final class DashboardCommand implements Callable<Integer> {
             names = "--control-plane",
             paramLabel = "URL",
             defaultValue = "http://127.0.0.1:8085",
-            converter = HttpUri.class,
+            converter = HttpUriConverter.class,
             description =
                     "REST API of the control plane, which also knows the tokens and roles of users. Default: ${DEFAULT-VALUE}.")
     private URI controlPlane;

@@ -56,8 +56,9 @@ public final class DemoFarm {
     /** A template that was changed since then gets a further version. */
     private void template(JsonNode template) {
         String name = template.path(TEMPLATE).asText();
-        for (JsonNode known : api.get("/api/templates")) {
-            if (known.path(TEMPLATE).asText().equals(name) && devices(known).equals(devices(template))) {
+        for (JsonNode existing : api.get("/api/templates")) {
+            if (existing.path(TEMPLATE).asText().equals(name)
+                    && devices(existing).equals(devices(template))) {
                 return;
             }
         }
@@ -74,9 +75,9 @@ public final class DemoFarm {
     }
 
     private void mission(JsonNode mission) {
-        for (JsonNode known : api.get("/api/missions")) {
-            if (known.path(MISSION).equals(mission.path(MISSION))
-                    && ACTIVE.contains(known.at("/status/state").asText())) {
+        for (JsonNode existing : api.get("/api/missions")) {
+            if (existing.path(MISSION).equals(mission.path(MISSION))
+                    && ACTIVE.contains(existing.at("/status/state").asText())) {
                 return;
             }
         }
@@ -86,8 +87,8 @@ public final class DemoFarm {
     }
 
     private boolean has(String path, String member, JsonNode desired) {
-        for (JsonNode known : api.get(path)) {
-            if (known.path(member).equals(desired.path(member))) {
+        for (JsonNode existing : api.get(path)) {
+            if (existing.path(member).equals(desired.path(member))) {
                 return true;
             }
         }

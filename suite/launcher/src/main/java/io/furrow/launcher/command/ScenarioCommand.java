@@ -39,7 +39,7 @@ import io.furrow.simulators.scenario.Farm;
             "The form of the file: simulators/README.md."
         })
 public final class ScenarioCommand implements Callable<Integer> {
-    private static final Duration DRAINED_WITHIN = Duration.ofSeconds(10);
+    private static final Duration DRAIN_TIMEOUT = Duration.ofSeconds(10);
 
     @Spec
     private CommandSpec spec;
@@ -96,7 +96,7 @@ public final class ScenarioCommand implements Callable<Integer> {
                 out.printf("\r  %,d reports, %,d connections", fleet.reports(), fleet.connections());
                 out.flush();
             }
-            boolean drained = fleet.drain(DRAINED_WITHIN);
+            boolean drained = fleet.drain(DRAIN_TIMEOUT);
             FarmFleet.Tally tally = fleet.tally();
             out.printf(
                     "%n%,d reports, %,d acknowledged by the MQTT broker, %,d open, %,d dropped%n",
@@ -111,7 +111,7 @@ public final class ScenarioCommand implements Callable<Integer> {
     private static void stopFromOutside(CountDownLatch stop, CountDownLatch stopped) {
         stop.countDown();
         try {
-            stopped.await(DRAINED_WITHIN.toMillis(), TimeUnit.MILLISECONDS);
+            stopped.await(DRAIN_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }

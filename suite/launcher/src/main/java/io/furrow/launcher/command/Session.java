@@ -21,7 +21,7 @@ import io.furrow.launcher.suite.SuiteSettings;
 /** A suite at the terminal: started, shown, stopped by Ctrl-C within ten seconds; the JVM ends later where it then stores its classes. */
 final class Session {
     private static final Logger LOG = LoggerFactory.getLogger(Session.class);
-    private static final Duration STOP_WITHIN = Duration.ofMillis(9_500);
+    private static final Duration STOP_TIMEOUT = Duration.ofMillis(9_500);
     private static final int STOPPED_BY_INTERRUPT = 130;
     /** Set by the script where the JVM stores its classes when it ends, after all else. */
     private static final String STORES_CLASSES = "furrow.stores.classes";
@@ -37,7 +37,7 @@ final class Session {
     }
 
     /** What runs on top of the suite, for instance simulated devices. */
-    interface Guest {
+    interface Extension {
         AutoCloseable join(Suite suite) throws Exception;
     }
 
@@ -46,7 +46,7 @@ final class Session {
      *
      * @param data kept across restarts; null for a temporary directory
      */
-    public int run(SuiteSettings settings, Path data, Guest guest) throws Exception {
+    public int run(SuiteSettings settings, Path data, Extension guest) throws Exception {
         out.println("Furrow starts; Ctrl-C stops it.");
         try (RunDirectory directory = RunDirectory.open(data)) {
             Runtime.getRuntime().addShutdownHook(new Thread(() -> stopFromOutside(directory), "stop"));
@@ -97,7 +97,7 @@ final class Session {
             drawn.close();
         }
         try {
-            long timeout = started ? STOP_WITHIN.toMillis() : 0;
+            long timeout = started ? STOP_TIMEOUT.toMillis() : 0;
             if (!stopped.await(timeout, TimeUnit.MILLISECONDS)) {
                 directory.close();
                 Runtime.getRuntime().halt(STOPPED_BY_INTERRUPT);

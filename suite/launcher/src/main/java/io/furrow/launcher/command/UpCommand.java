@@ -11,7 +11,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
-import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.launcher.option.FarmOptions;
 import io.furrow.launcher.option.FiwareAccessOptions;
 import io.furrow.launcher.option.ListenOptions;
@@ -36,7 +36,7 @@ public final class UpCommand implements Callable<Integer> {
     @Option(
             names = "--orion",
             paramLabel = "URL",
-            converter = HttpUri.class,
+            converter = HttpUriConverter.class,
             description =
                     "Use this context broker, for instance http://127.0.0.1:1026, and start neither the stand-in nor an "
                             + "MQTT broker. It must reach the listener for notifications.")

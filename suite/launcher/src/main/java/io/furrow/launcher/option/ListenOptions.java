@@ -13,7 +13,7 @@ import org.slf4j.LoggerFactory;
 import picocli.CommandLine.Option;
 
 import io.furrow.cli.option.CommandException;
-import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.file.AccessToken;
 
@@ -33,7 +33,7 @@ public final class ListenOptions {
     @Option(
             names = "--public-url",
             paramLabel = "URL",
-            converter = HttpUri.class,
+            converter = HttpUriConverter.class,
             description =
                     "Where the context broker reaches that listener, for instance http://farm.lan:8090/v2/notify. Default: its address "
                             + "and port.")

@@ -8,7 +8,7 @@ import java.util.List;
 import picocli.CommandLine.Option;
 
 import io.furrow.cli.option.CommandException;
-import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.file.AccessToken;
 import io.furrow.provisioner.AgentSettings;
@@ -18,7 +18,7 @@ public final class ProvisioningOptions {
     @Option(
             names = "--iot-agent",
             paramLabel = "URL",
-            converter = HttpUri.class,
+            converter = HttpUriConverter.class,
             description = "Provision devices of missions at this IoT Agent, for instance http://127.0.0.1:4041. Needs "
                     + "--orion; without it none are provisioned at another context broker.")
     public URI iotAgent;

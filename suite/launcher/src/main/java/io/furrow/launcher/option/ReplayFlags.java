@@ -45,7 +45,7 @@ public final class ReplayFlags {
             defaultValue = "1h",
             description =
                     "How long a replay that came to its end can be sought and stepped back in. Default: ${DEFAULT-VALUE}.")
-    private Duration keepEnded;
+    private Duration endedRetention;
 
     @Option(
             names = "--max-replays",
@@ -57,10 +57,10 @@ public final class ReplayFlags {
 
     /** @throws CommandException where they cannot be used */
     public ReplaySettings settings() {
-        if (poll.compareTo(Duration.ofMillis(100)) < 0 || grace.isNegative() || keepEnded.isNegative()) {
+        if (poll.compareTo(Duration.ofMillis(100)) < 0 || grace.isNegative() || endedRetention.isNegative()) {
             throw new CommandException(
                     "--mongo-poll is at least 100ms, and --replay-grace and --keep-ended-replays are not negative; they are %s, %s and %s."
-                            .formatted(poll, grace, keepEnded));
+                            .formatted(poll, grace, endedRetention));
         }
         if (max < 1) {
             throw new CommandException("--max-replays is at least 1; it is %d.".formatted(max));
@@ -70,7 +70,7 @@ public final class ReplayFlags {
                 .withDatabase(database)
                 .withPollInterval(poll)
                 .withGrace(grace)
-                .withKeepEnded(keepEnded)
+                .withEndedRetention(endedRetention)
                 .withMax(max);
     }
 }

@@ -12,15 +12,15 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 
 import io.furrow.dashboard.auth.AddressRange;
-import io.furrow.dashboard.auth.Role;
 import io.furrow.dashboard.auth.TrustedProxy;
+import io.furrow.dashboard.auth.UserRole;
 import io.furrow.dashboard.page.PageSettings;
 import io.furrow.model.file.FileProblem;
 
 /** Options that say which proxy in front of the dashboard signs users in, and what it says of them. */
 public final class TrustedProxyFlags {
-    private static final Map<String, Role> GROUPS =
-            Map.of("viewer", Role.VIEWER, "operator", Role.OPERATOR, "admin", Role.ADMIN);
+    private static final Map<String, UserRole> GROUPS =
+            Map.of("viewer", UserRole.VIEWER, "operator", UserRole.OPERATOR, "admin", UserRole.ADMIN);
 
     @Option(
             names = "--trusted-proxy",
@@ -121,16 +121,16 @@ public final class TrustedProxyFlags {
         }
     }
 
-    private Map<String, Role> roles() {
+    private Map<String, UserRole> roles() {
         if (groupRoles == null) {
             return GROUPS;
         }
-        Map<String, Role> roles = new HashMap<>();
-        groupRoles.forEach((group, word) -> {
-            Role role = GROUPS.get(word);
+        Map<String, UserRole> roles = new HashMap<>();
+        groupRoles.forEach((group, code) -> {
+            UserRole role = GROUPS.get(code);
             if (role == null) {
                 throw new IllegalArgumentException(
-                        "'%s' is no role for the group '%s'; it is viewer, operator or admin".formatted(word, group));
+                        "'%s' is no role for the group '%s'; it is viewer, operator or admin".formatted(code, group));
             }
             roles.put(group, role);
         });

@@ -7,7 +7,7 @@ import java.nio.file.Path;
 import picocli.CommandLine.Option;
 
 import io.furrow.cli.option.CommandException;
-import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.health.HealthOptions;
 import io.furrow.launcher.suite.SuiteSettings;
@@ -19,7 +19,7 @@ public final class WatchFlags {
     @Option(
             names = "--webhook",
             paramLabel = "URL",
-            converter = HttpUri.class,
+            converter = HttpUriConverter.class,
             description = "Post alarms here, as JSON, again and again until they are taken. Default: nowhere.")
     private URI webhook;
 

@@ -15,7 +15,7 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
-import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.cli.option.KafkaClient;
 import io.furrow.launcher.process.LogFile;
 import io.furrow.model.topic.Topics;
@@ -35,7 +35,7 @@ public final class AnalyticsCommand implements Callable<Integer> {
             names = "--flink-url",
             paramLabel = "URL",
             required = true,
-            converter = HttpUri.class,
+            converter = HttpUriConverter.class,
             description =
                     "REST API of the cluster, for instance http://jobmanager:8081. It must take jars: web.submit.enable.")
     private URI flink;

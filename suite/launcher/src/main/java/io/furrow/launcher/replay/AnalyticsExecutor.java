@@ -2,7 +2,7 @@ package io.furrow.launcher.replay;
 
 import java.util.Set;
 
-import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.cli.control.ReplayAnalyticsJob;
 
 /** Where analytics jobs of replays run. Jobs are known by their names; what it runs beside them is not touched. */
 public interface AnalyticsExecutor {
@@ -13,7 +13,7 @@ public interface AnalyticsExecutor {
     int free() throws AnalyticsException;
 
     /** Returns when the job is accepted. */
-    void start(AnalyticsJob job) throws AnalyticsException;
+    void start(ReplayAnalyticsJob job) throws AnalyticsException;
 
     /** Ends the job of that name, if it runs. */
     void cancel(String name) throws AnalyticsException;

@@ -14,7 +14,7 @@ import java.util.function.LongSupplier;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.cli.control.ReplayAnalyticsJob;
 import io.furrow.model.text.Counts;
 
 /**
@@ -25,13 +25,13 @@ import io.furrow.model.text.Counts;
  */
 final class AnalyticsReconciler {
     private static final Logger LOG = LoggerFactory.getLogger(AnalyticsReconciler.class);
-    private static final Duration BETWEEN_ATTEMPTS = Duration.ofSeconds(20);
+    private static final Duration RETRY_INTERVAL = Duration.ofSeconds(20);
 
     private final AnalyticsExecutor executor;
     private final JobProgress.Source progress;
     private final LongSupplier millis;
     /** By topic; a replay stays here until its jobs have ended. */
-    private final Map<String, DesiredAnalytics> known = new TreeMap<>();
+    private final Map<String, DesiredAnalytics> existing = new TreeMap<>();
 
     private final Map<String, JobEnding> endings = new HashMap<>();
     /** When a job may be started again, by name. */
@@ -51,7 +51,7 @@ final class AnalyticsReconciler {
     void reconcile(Collection<DesiredAnalytics> desired) throws AnalyticsException {
         Set<String> running = executor.running();
         learn(desired, running);
-        for (DesiredAnalytics replay : List.copyOf(known.values())) {
+        for (DesiredAnalytics replay : List.copyOf(existing.values())) {
             try {
                 end(replay, running);
                 start(replay, running);
@@ -59,8 +59,8 @@ final class AnalyticsReconciler {
                 LOG.warn("Analytics on {} cannot be looked after now", replay.topic(), e);
             }
         }
-        known.values().removeIf(replay -> isForgotten(replay, desired, running));
-        Set<String> topics = known.keySet();
+        existing.values().removeIf(replay -> isForgotten(replay, desired, running));
+        Set<String> topics = existing.keySet();
         waiting.keySet().retainAll(topics);
     }
 
@@ -70,24 +70,24 @@ final class AnalyticsReconciler {
     }
 
     private void learn(Collection<DesiredAnalytics> desired, Set<String> running) {
-        known.replaceAll((topic, replay) -> replay.ended());
+        existing.replaceAll((topic, replay) -> replay.ended());
         for (DesiredAnalytics replay : desired) {
             if (!replay.jobs().isEmpty()) {
-                known.put(replay.topic(), replay);
+                existing.put(replay.topic(), replay);
             }
         }
         for (String name : running) {
-            AnalyticsJob.named(name)
+            ReplayAnalyticsJob.named(name)
                     .filter(this::hasTopic)
-                    .ifPresent(job -> known.computeIfAbsent(
+                    .ifPresent(job -> existing.computeIfAbsent(
                             job.topic(), topic -> new DesiredAnalytics(topic, List.of(job), true)));
         }
     }
 
     /** A job whose topic is not there may be one of a replay on another Kafka. */
-    private boolean hasTopic(AnalyticsJob job) {
+    private boolean hasTopic(ReplayAnalyticsJob job) {
         try {
-            return known.containsKey(job.topic()) || progress.of(job) != null;
+            return existing.containsKey(job.topic()) || progress.of(job) != null;
         } catch (AnalyticsException e) {
             LOG.debug("It is not known whose {} is", job.name(), e);
             return false;
@@ -95,7 +95,7 @@ final class AnalyticsReconciler {
     }
 
     private void end(DesiredAnalytics replay, Set<String> running) throws AnalyticsException {
-        for (AnalyticsJob job : replay.jobs()) {
+        for (ReplayAnalyticsJob job : replay.jobs()) {
             String name = job.name();
             if (!replay.over()) {
                 endings.remove(name);
@@ -119,8 +119,8 @@ final class AnalyticsReconciler {
     }
 
     private void start(DesiredAnalytics replay, Set<String> running) throws AnalyticsException {
-        List<AnalyticsJob> missing = new ArrayList<>();
-        for (AnalyticsJob job : replay.jobs()) {
+        List<ReplayAnalyticsJob> missing = new ArrayList<>();
+        for (ReplayAnalyticsJob job : replay.jobs()) {
             if (!running.contains(job.name()) && !done.contains(job.name()) && isNeeded(job, replay.over())) {
                 missing.add(job);
             }
@@ -131,28 +131,28 @@ final class AnalyticsReconciler {
             return;
         }
         waiting.remove(replay.topic());
-        for (AnalyticsJob job : missing) {
+        for (ReplayAnalyticsJob job : missing) {
             start(job);
         }
     }
 
     /** Of a replay that is over a job is needed only where it has not read all. */
-    private boolean isNeeded(AnalyticsJob job, boolean over) throws AnalyticsException {
+    private boolean isNeeded(ReplayAnalyticsJob job, boolean over) throws AnalyticsException {
         JobProgress now = progress.of(job);
         return now != null && !(over && now.isCaughtUp());
     }
 
-    private void start(AnalyticsJob job) {
+    private void start(ReplayAnalyticsJob job) {
         long now = millis.getAsLong();
         if (now < nextAttempts.getOrDefault(job.name(), Long.MIN_VALUE)) {
             return;
         }
-        nextAttempts.put(job.name(), now + BETWEEN_ATTEMPTS.toMillis());
+        nextAttempts.put(job.name(), now + RETRY_INTERVAL.toMillis());
         try {
             executor.start(job);
             LOG.info("Started {} on {}", job.name(), job.topic());
         } catch (AnalyticsException e) {
-            LOG.warn("{} was not started; tried again in {} s", job.name(), BETWEEN_ATTEMPTS.toSeconds(), e);
+            LOG.warn("{} was not started; tried again in {} s", job.name(), RETRY_INTERVAL.toSeconds(), e);
         }
     }
 
@@ -166,10 +166,10 @@ final class AnalyticsReconciler {
     }
 
     private boolean isForgotten(DesiredAnalytics replay, Collection<DesiredAnalytics> desired, Set<String> running) {
-        boolean gone = desired.stream().noneMatch(one -> one.topic().equals(replay.topic()));
+        boolean removed = desired.stream().noneMatch(one -> one.topic().equals(replay.topic()));
         boolean idle = replay.jobs().stream()
                 .allMatch(job -> done.contains(job.name()) || !running.contains(job.name()) && !isStarting(job));
-        if (!gone || !idle || waiting.containsKey(replay.topic())) {
+        if (!removed || !idle || waiting.containsKey(replay.topic())) {
             return false;
         }
         replay.jobs().forEach(job -> {
@@ -181,7 +181,7 @@ final class AnalyticsReconciler {
     }
 
     /** Started, and not running yet. */
-    private boolean isStarting(AnalyticsJob job) {
+    private boolean isStarting(ReplayAnalyticsJob job) {
         Long next = nextAttempts.get(job.name());
         return next != null && millis.getAsLong() < next;
     }

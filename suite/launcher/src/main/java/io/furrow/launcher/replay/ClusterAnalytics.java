@@ -11,7 +11,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 
-import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.cli.control.ReplayAnalyticsJob;
 import io.furrow.model.file.FileProblem;
 
 /** Analytics of replays on a Flink cluster, by its REST API. The jar is uploaded once, under a name that has its hash. */
@@ -47,7 +47,7 @@ final class ClusterAnalytics implements AnalyticsExecutor {
     }
 
     @Override
-    public void start(AnalyticsJob job) throws AnalyticsException {
+    public void start(ReplayAnalyticsJob job) throws AnalyticsException {
         String name = jarName();
         String uploaded = flink.jar(name);
         List<String> arguments = new ArrayList<>(List.of(job.job()));

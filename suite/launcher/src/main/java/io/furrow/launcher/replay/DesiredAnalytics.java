@@ -2,7 +2,7 @@ package io.furrow.launcher.replay;
 
 import java.util.List;
 
-import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.cli.control.ReplayAnalyticsJob;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayStatus;
 
@@ -11,15 +11,15 @@ import io.furrow.model.control.ReplayStatus;
  *
  * @param over whether nothing will come of the replay any more, and all that came is committed
  */
-record DesiredAnalytics(String topic, List<AnalyticsJob> jobs, boolean over) {
+record DesiredAnalytics(String topic, List<ReplayAnalyticsJob> jobs, boolean over) {
     DesiredAnalytics {
         jobs = List.copyOf(jobs);
     }
 
     /** @param status null if there is none yet */
     static DesiredAnalytics of(DesiredReplay replay, ReplayStatus status) {
-        List<AnalyticsJob> jobs = replay.plan().analytics().stream()
-                .map(job -> new AnalyticsJob(job, replay.topic()))
+        List<ReplayAnalyticsJob> jobs = replay.plan().analytics().stream()
+                .map(job -> new ReplayAnalyticsJob(job, replay.topic()))
                 .toList();
         boolean over =
                 status != null && status.state().isOver() && status.settled() && status.sequence() >= replay.sequence();

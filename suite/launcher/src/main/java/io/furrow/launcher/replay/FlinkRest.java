@@ -152,7 +152,7 @@ final class FlinkRest {
 
     /** Flink answers with whole stack traces. */
     private static String cause(String body) {
-        String told = FailureText.ofTrace(body.replace("\\n", "\n"));
-        return told.length() <= 300 ? told : told.substring(0, 300) + " …";
+        String response = FailureText.ofTrace(body.replace("\\n", "\n"));
+        return response.length() <= 300 ? response : response.substring(0, 300) + " …";
     }
 }

@@ -18,7 +18,7 @@ import org.apache.kafka.common.KafkaFuture;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 
-import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.cli.control.ReplayAnalyticsJob;
 
 /** How far jobs are by the offsets that their consumer groups have committed, which they do with each checkpoint. */
 final class GroupProgress implements JobProgress.Source, AutoCloseable {
@@ -32,7 +32,7 @@ final class GroupProgress implements JobProgress.Source, AutoCloseable {
     }
 
     @Override
-    public JobProgress of(AnalyticsJob job) throws AnalyticsException {
+    public JobProgress of(ReplayAnalyticsJob job) throws AnalyticsException {
         try {
             TopicDescription topic = done(admin.describeTopics(java.util.List.of(job.topic()))
                     .topicNameValues()

@@ -1,6 +1,6 @@
 package io.furrow.launcher.replay;
 
-import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.cli.control.ReplayAnalyticsJob;
 
 /**
  * How far a job has read its input.
@@ -16,6 +16,6 @@ record JobProgress(long read, long end) {
     /** Reports jobs. */
     interface Source {
         /** @return null if the input is not there */
-        JobProgress of(AnalyticsJob job) throws AnalyticsException;
+        JobProgress of(ReplayAnalyticsJob job) throws AnalyticsException;
     }
 }

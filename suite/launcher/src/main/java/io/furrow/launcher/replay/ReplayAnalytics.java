@@ -20,7 +20,7 @@ public final class ReplayAnalytics implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(ReplayAnalytics.class);
     private static final Duration POLL_INTERVAL = Duration.ofSeconds(1);
     private static final Duration RETRY = Duration.ofSeconds(5);
-    private static final Duration STOP_WITHIN = Duration.ofSeconds(5);
+    private static final Duration STOP_TIMEOUT = Duration.ofSeconds(5);
 
     private final Properties client;
     private final AnalyticsExecutor executor;
@@ -95,7 +95,7 @@ public final class ReplayAnalytics implements AutoCloseable {
     public void close() {
         stop.countDown();
         try {
-            thread.join(STOP_WITHIN.toMillis());
+            thread.join(STOP_TIMEOUT.toMillis());
             thread.interrupt();
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();

@@ -49,14 +49,14 @@ final class Results implements AutoCloseable {
     private void read() {
         try (consumer) {
             while (true) {
-                consumer.poll(Duration.ofMillis(500)).forEach(this::tell);
+                consumer.poll(Duration.ofMillis(500)).forEach(this::report);
             }
         } catch (WakeupException e) {
             LOG.debug("closed", e);
         }
     }
 
-    private void tell(ConsumerRecord<byte[], byte[]> record) {
+    private void report(ConsumerRecord<byte[], byte[]> record) {
         try {
             listener.accept(Entity.parse(record.value()));
         } catch (UnreadableException e) {

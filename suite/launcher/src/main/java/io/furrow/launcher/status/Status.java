@@ -70,7 +70,7 @@ public final class Status implements AutoCloseable {
         this.addresses = suite.addresses();
         this.totals = new TopicTotals(suite.admin());
         this.lag = new JobLag(suite.flink(), suite.jobs());
-        this.results = new Results(suite.client(), this::tell);
+        this.results = new Results(suite.client(), this::report);
         this.notices = suite.notices();
     }
 
@@ -98,7 +98,7 @@ public final class Status implements AutoCloseable {
         results.close();
     }
 
-    private synchronized void tell(Entity entity) {
+    private synchronized void report(Entity entity) {
         boolean average = entity.type().equals(FieldResult.TEMPERATURE_TYPE);
         String line = average ? ResultLines.average(entity) : ResultLines.collision(entity);
         if (average) {

@@ -50,9 +50,9 @@ public final class StatusScreen implements AutoCloseable {
         Attributes silent = new Attributes(before);
         silent.setLocalFlag(LocalFlag.ECHO, false);
         terminal.setAttributes(silent);
-        PrintStream kept = new PrintStream(printed, true, Charset.defaultCharset());
-        System.setOut(kept);
-        System.setErr(kept);
+        PrintStream retained = new PrintStream(printed, true, Charset.defaultCharset());
+        System.setOut(retained);
+        System.setErr(retained);
         terminal.puts(Capability.enter_ca_mode);
         terminal.puts(Capability.cursor_invisible);
         terminal.handle(Signal.WINCH, signal -> begin());

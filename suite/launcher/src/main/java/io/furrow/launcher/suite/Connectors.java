@@ -125,7 +125,7 @@ public final class Connectors {
     Optional<String> undelivered() {
         JsonNode seen;
         try {
-            seen = lookAt(health);
+            seen = check(health);
         } catch (UncheckedIOException e) { // of a source that starts again
             return Optional.empty();
         }
@@ -145,7 +145,7 @@ public final class Connectors {
     private void awaitSubscribed(URI contextBroker) {
         Instant end = Instant.now().plus(TIMEOUT);
         while (Instant.now().isBefore(end)) {
-            JsonNode seen = lookAt(health);
+            JsonNode seen = check(health);
             if (seen.path("subscriptionsKept").asInt() > 0) {
                 return;
             }
@@ -162,7 +162,7 @@ public final class Connectors {
     }
 
     /** Nothing while nobody listens: of a kept suite the worker still shows the task of before as running. */
-    private JsonNode lookAt(URI health) {
+    private JsonNode check(URI health) {
         try {
             return rest.get(health, Map.of()).body();
         } catch (UncheckedIOException e) {

@@ -80,7 +80,7 @@ public final class ControlService implements AutoCloseable {
             throws IOException {
         FarmWatch farmWatch = parts.add("farm watch", FarmWatch.start(settings, watch));
         readiness.require(farmWatch::status);
-        readiness.requireAll(farmWatch::followers);
+        readiness.requireAll(farmWatch::workers);
         startReplays(settings.replays());
         RestApi api = parts.add("REST API", RestApi.start(settings, rest, readiness, FieldFiles::read));
         show("contextBroker", rest.contextBroker(), "/version");
@@ -104,7 +104,7 @@ public final class ControlService implements AutoCloseable {
     }
 
     private void startReplays(ReplaySettings replays) throws IOException {
-        if (replays.knowsRecordings()) {
+        if (replays.hasRecordings()) {
             RecordingWatch recordings =
                     parts.add("recording watch", RecordingWatch.start(settings.client(), replays, Clock.systemUTC()));
             readiness.require(recordings::status);

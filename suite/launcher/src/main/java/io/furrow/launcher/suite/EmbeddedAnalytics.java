@@ -8,7 +8,7 @@ import java.util.stream.Collectors;
 import org.apache.flink.api.common.JobID;
 import org.apache.flink.util.FlinkRuntimeException;
 
-import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.cli.control.ReplayAnalyticsJob;
 import io.furrow.cli.option.CommandException;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.launcher.replay.AnalyticsException;
@@ -21,11 +21,11 @@ final class EmbeddedAnalytics implements AnalyticsExecutor {
 
     private final EmbeddedFlink flink;
     private final Jobs jobs;
-    private final JobPlans plans;
+    private final SuiteJobs plans;
     private final Set<String> others;
 
     /** @param jobs with those that belong to no replay */
-    EmbeddedAnalytics(EmbeddedFlink flink, Jobs jobs, JobPlans plans) {
+    EmbeddedAnalytics(EmbeddedFlink flink, Jobs jobs, SuiteJobs plans) {
         this.flink = flink;
         this.jobs = jobs;
         this.plans = plans;
@@ -55,7 +55,7 @@ final class EmbeddedAnalytics implements AnalyticsExecutor {
     }
 
     @Override
-    public void start(AnalyticsJob job) throws AnalyticsException {
+    public void start(ReplayAnalyticsJob job) throws AnalyticsException {
         try {
             jobs.submit(job.name(), plans.ofReplay(job));
         } catch (CommandException | FlinkRuntimeException | CompletionException e) {

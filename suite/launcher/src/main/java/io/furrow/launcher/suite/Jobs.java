@@ -28,7 +28,7 @@ final class Jobs {
     private static final Logger LOG = LoggerFactory.getLogger(Jobs.class);
     private static final long SAVEPOINT_SECONDS = 4;
     private static final Duration CHECKPOINT = Duration.ofSeconds(1);
-    private static final Duration BETWEEN_CHECKS = Duration.ofMillis(10);
+    private static final Duration CHECK_INTERVAL = Duration.ofMillis(10);
     /** Within one process a record need not wait for company, and a thread per task need not look for those that do. */
     private static final long AT_ONCE = 0;
 
@@ -46,7 +46,7 @@ final class Jobs {
         env.setBufferTimeout(AT_ONCE);
         StreamGraph graph = env.getStreamGraph();
         graph.setJobName(name);
-        NewestState.below(directory.resolve(name))
+        LatestCheckpoint.below(directory.resolve(name))
                 .ifPresent(state -> graph.setSavepointRestoreSettings(
                         SavepointRestoreSettings.forPath(JobFolder.location(state), false, RecoveryClaimMode.CLAIM)));
         running.put(name, flink.submit(graph));
@@ -60,12 +60,12 @@ final class Jobs {
     synchronized void awaitStarted() {
         running.forEach((name, job) -> {
             while (flink.status(job) == JobStatus.INITIALIZING) {
-                Sleep.of(BETWEEN_CHECKS);
+                Sleep.of(CHECK_INTERVAL);
             }
             if (flink.status(job) == JobStatus.FAILED) {
                 Path state = directory.resolve(name);
                 throw new CommandException(
-                        NewestState.below(state).isEmpty()
+                        LatestCheckpoint.below(state).isEmpty()
                                 ? "Job %s failed; see furrow.log.".formatted(name)
                                 : ("Job %s cannot continue from its state in %s; see furrow.log. Move that folder away,"
                                                 + " and the job begins anew: it reads again what Kafka still has.")
@@ -93,7 +93,7 @@ final class Jobs {
     private void awaitEnd(JobID job) {
         long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(SAVEPOINT_SECONDS);
         while (System.nanoTime() < end && !flink.status(job).isGloballyTerminalState()) {
-            Sleep.of(BETWEEN_CHECKS);
+            Sleep.of(CHECK_INTERVAL);
         }
     }
 
@@ -116,7 +116,7 @@ final class Jobs {
     /** Waits for a checkpoint that is under way: a stop would abort it, which Flink reports as a failure. */
     private void awaitCheckpoint(JobID job, long end) {
         while (System.nanoTime() < end && isTakingCheckpoint(job)) {
-            Sleep.of(BETWEEN_CHECKS);
+            Sleep.of(CHECK_INTERVAL);
         }
     }
 

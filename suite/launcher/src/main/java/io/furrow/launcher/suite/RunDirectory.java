@@ -34,7 +34,7 @@ import io.furrow.launcher.process.Sleep;
 public final class RunDirectory implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(RunDirectory.class);
     private static final int DELETIONS = 100;
-    private static final Duration BETWEEN_DELETIONS = Duration.ofMillis(20);
+    private static final Duration DELETION_INTERVAL = Duration.ofMillis(20);
     private static final String LOCK = "lock";
     /** What a start that was refused leaves, and a file system of its own has. */
     private static final Pattern WITHOUT_DATA =
@@ -61,23 +61,23 @@ public final class RunDirectory implements AutoCloseable {
     }
 
     /**
-     * @param kept null for a temporary directory
+     * @param retained null for a temporary directory
      * @throws CommandException if it cannot be written or another suite uses it
      */
-    public static RunDirectory open(Path kept) {
-        if (kept != null && kept.toAbsolutePath().toString().contains(",")) {
+    public static RunDirectory open(Path retained) {
+        if (retained != null && retained.toAbsolutePath().toString().contains(",")) {
             throw new CommandException(
                     "--data %s has a comma in its path, at which Kafka would divide it. Name another directory."
-                            .formatted(kept));
+                            .formatted(retained));
         }
         try {
-            Path path = kept == null ? Files.createTempDirectory("furrow-") : make(kept.toAbsolutePath());
+            Path path = retained == null ? Files.createTempDirectory("furrow-") : make(retained.toAbsolutePath());
             FileChannel lock = lock(path);
-            return new RunDirectory(path, kept == null, isFresh(path), lock);
+            return new RunDirectory(path, retained == null, isFresh(path), lock);
         } catch (IOException e) {
             throw new CommandException(
                     "Cannot write in %s (%s). Name a directory that you may write with --data."
-                            .formatted(kept == null ? System.getProperty("java.io.tmpdir") : kept, reason(e)),
+                            .formatted(retained == null ? System.getProperty("java.io.tmpdir") : retained, reason(e)),
                     e);
         }
     }
@@ -195,7 +195,7 @@ public final class RunDirectory implements AutoCloseable {
                 if (attempt == DELETIONS) {
                     throw e;
                 }
-                Sleep.of(BETWEEN_DELETIONS);
+                Sleep.of(DELETION_INTERVAL);
             }
         }
     }

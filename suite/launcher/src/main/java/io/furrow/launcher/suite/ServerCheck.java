@@ -190,15 +190,15 @@ public final class ServerCheck {
      * @param err for people
      */
     public static void awaitKafka(Properties client, PrintWriter err, CountDownLatch stop) throws InterruptedException {
-        boolean told = false;
+        boolean problem = false;
         Optional<String> failure = kafkaFailure(client);
         while (failure.isPresent() && !stop.await(POLL_INTERVAL.toMillis(), TimeUnit.MILLISECONDS)) {
-            if (!told) {
+            if (!problem) {
                 err.printf(
                         "Kafka at %s does not answer (%s). Check --kafka and --kafka-properties, and that it runs; it is asked again until it answers, or Ctrl-C.%n",
                         client.getProperty("bootstrap.servers"), failure.get());
                 err.flush();
-                told = true;
+                problem = true;
             }
             failure = kafkaFailure(client);
         }

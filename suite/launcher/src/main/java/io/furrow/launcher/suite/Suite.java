@@ -27,7 +27,7 @@ import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.replay.ReplayAnalytics;
 import io.furrow.model.topic.Topics;
-import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.simulators.device.FleetSettings;
 
 /**
@@ -50,9 +50,9 @@ public final class Suite implements AutoCloseable {
     private final RunDirectory directory;
     private final Progress progress;
     private final Closeables parts = new Closeables();
-    private final Closeables farm = new Closeables();
-    private final Closeables workers = new Closeables();
-    private final Closeables analysis = new Closeables();
+    private final Closeables fiwareParts = new Closeables();
+    private final Closeables connectParts = new Closeables();
+    private final Closeables flinkParts = new Closeables();
     private KafkaAccess kafka;
     private EmbeddedConnect connect;
     private EmbeddedFlink flink;
@@ -63,7 +63,7 @@ public final class Suite implements AutoCloseable {
     private URI contextBroker;
     private SuiteControl control;
     private ReplayAnalytics replays;
-    private final LiveAccounts accounts = new LiveAccounts();
+    private final InMemoryAccounts accounts = new InMemoryAccounts();
     private final String agentPassword = UUID.randomUUID().toString();
     private Connectors connectors;
     private URI listener;
@@ -107,26 +107,26 @@ public final class Suite implements AutoCloseable {
         Path secret = FarmSecretFile.of(directory, settings.farm().secret().file());
         startKafka();
         // Stopped the other way round: devices, jobs, connectors, and then what these write to.
-        parts.add("MQTT and FIWARE", farm);
-        parts.add("Connect", workers);
-        parts.add("Flink and MongoDB", analysis);
+        parts.add("MQTT and FIWARE", fiwareParts);
+        parts.add("Connect", connectParts);
+        parts.add("Flink and MongoDB", flinkParts);
         startMongo(); // the control plane looks there which missions are stored
         control = parts.add("control plane", new SuiteControl(settings, kafka, directory, secret, mongo));
         ParallelStart.run(
                 this::startFiwareAndConnect,
                 this::startFlink,
                 () -> progress.step("control plane", control::startManagers));
-        connectThem();
+        startConnectors();
         progress.step("devices of missions", this::joinControl);
         startDashboard();
         replays = ReplayAnalytics.start(
                 kafka.clientProperties(),
-                new EmbeddedAnalytics(flink, jobs, new JobPlans(settings, kafka, mongo, directory)));
+                new EmbeddedAnalytics(flink, jobs, new SuiteJobs(settings, kafka, mongo, directory)));
     }
 
     private URI joinControl() {
         try {
-            return control.join(ends(), connect.uri());
+            return control.join(endpoints(), connect.uri());
         } catch (IOException e) { // says what is unavailable or refused, and what to do
             throw new CommandException(e.getMessage(), e);
         }
@@ -136,7 +136,7 @@ public final class Suite implements AutoCloseable {
         DashboardSettings page = DashboardSettings.of(
                         settings.ports().dashboard(), kafka.clientProperties(), control.api())
                 .withAllowed(settings.allowed())
-                .withPage(new PageSettings(null, null, null, List.of(directory.resolve(JobPlans.IMAGES))));
+                .withPage(new PageSettings(null, null, null, List.of(directory.resolve(SuiteJobs.IMAGES))));
         dashboard = parts.add("dashboard", progress.step("dashboard", () -> Dashboard.start(page)))
                 .uri();
     }
@@ -158,7 +158,7 @@ public final class Suite implements AutoCloseable {
     }
 
     private void startConnect() throws Exception {
-        connect = workers.add(
+        connect = connectParts.add(
                 "Connect",
                 progress.step(
                         "Kafka Connect",
@@ -174,7 +174,8 @@ public final class Suite implements AutoCloseable {
         mongo = settings.mongo();
         if (mongo == null) {
             Path documents = directory.resolve("mongo");
-            mongo = analysis.add(
+            mongo = flinkParts
+                    .add(
                             "MongoDB",
                             progress.step(
                                     "the server for missions",
@@ -185,7 +186,7 @@ public final class Suite implements AutoCloseable {
     }
 
     private void startFlink() throws Exception {
-        flink = analysis.add(
+        flink = flinkParts.add(
                 "Flink",
                 progress.step(
                         "Flink",
@@ -197,7 +198,7 @@ public final class Suite implements AutoCloseable {
         });
         jobs = new Jobs(flink, directory.resolve("jobs"));
         progress.step("jobs", () -> {
-            new JobPlans(settings, kafka, mongo, directory).all().forEach(jobs::submit);
+            new SuiteJobs(settings, kafka, mongo, directory).all().forEach(jobs::submit);
             jobs.awaitStarted();
             return jobs.running();
         });
@@ -214,14 +215,14 @@ public final class Suite implements AutoCloseable {
             contextBroker = settings.orion();
             return;
         }
-        mqtt = farm.add(
+        mqtt = fiwareParts.add(
                 "MQTT",
                 EmbeddedMqtt.start(
                         settings.fiware().listening().mqttHost(),
                         settings.ports().mqtt(),
                         passwords(),
-                        new LiveUsers(accounts)));
-        fiware = farm.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
+                        new EmbeddedUsers(accounts)));
+        fiware = fiwareParts.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
         contextBroker = fiware.contextBroker();
     }
 
@@ -232,7 +233,7 @@ public final class Suite implements AutoCloseable {
                 : Map.of(AGENT_USER, agentPassword);
     }
 
-    private SuiteControl.Endpoints ends() {
+    private SuiteControl.Endpoints endpoints() {
         return fiware == null
                 ? SuiteControl.Endpoints.of(contextBroker, settings.farm())
                 : SuiteControl.Endpoints.of(fiware, mqtt, accounts);
@@ -253,7 +254,7 @@ public final class Suite implements AutoCloseable {
         return directory.isTemporary() ? here : here.withState(directory.resolve("fiware.json.gz"));
     }
 
-    private void connectThem() throws Exception {
+    private void startConnectors() throws Exception {
         int port = FreePort.orFree(settings.ports().listener());
         SuiteSettings.Listening listening = settings.fiware().listening();
         listener = URI.create("http://" + SuiteSettings.Listening.here(listening.host()) + ":" + port + "/v2/notify");

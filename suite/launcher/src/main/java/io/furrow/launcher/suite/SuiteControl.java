@@ -8,7 +8,7 @@ import java.util.Properties;
 
 import io.furrow.control.ControlSettings;
 import io.furrow.control.device.DeviceCommands;
-import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.mission.MissionSettings;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.embedded.EmbeddedMqtt;
@@ -19,7 +19,7 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.provisioner.AgentSettings;
 import io.furrow.provisioner.ConnectionSources;
 import io.furrow.provisioner.ProvisioningSettings;
-import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.provisioner.account.MqttAccounts;
 import io.furrow.simulators.host.DeviceHost;
 import io.furrow.simulators.host.HostSettings;
@@ -49,7 +49,7 @@ final class SuiteControl implements AutoCloseable {
             List<MqttAccounts> accounts,
             ConnectionSources connections) {
         /** Those of this suite. */
-        static Endpoints of(FiwareStandIn fiware, EmbeddedMqtt mqtt, LiveAccounts accounts) {
+        static Endpoints of(FiwareStandIn fiware, EmbeddedMqtt mqtt, InMemoryAccounts accounts) {
             return new Endpoints(
                     fiware.contextBroker(),
                     AgentSettings.at(fiware.iotAgent()),
@@ -81,7 +81,7 @@ final class SuiteControl implements AutoCloseable {
         streams.setProperty("state.dir", directory.resolve("control-plane").toString());
         SuiteSettings.Missions missions = suite.farm().missions();
         this.settings = ControlSettings.of(streams)
-                .with(new MissionOptions(
+                .with(new MissionSettings(
                         missions.startTimeout(), suite.fiware().scope(), missions.simulatedByDefault()))
                 .with(ReplaySettings.DEFAULT.withMongo(mongo));
         this.service = new ControlService(settings);

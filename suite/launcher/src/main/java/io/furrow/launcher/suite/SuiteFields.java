@@ -80,16 +80,16 @@ final class SuiteFields {
      */
     List<FieldVersion> write(SuiteSettings settings, RunDirectory directory) throws IOException {
         Path file = settings.fields();
-        List<FieldVersion> known = topic.read();
+        List<FieldVersion> existing = topic.read();
         boolean isOwnBroker = settings.kafka() == null;
-        if (file == null && !(isOwnBroker && known.isEmpty())) {
+        if (file == null && !(isOwnBroker && existing.isEmpty())) {
             return List.of();
         }
         List<FieldVersion> desired = read(file == null ? demo(directory) : file).stream()
                 .map(ImportedField::version)
                 .toList();
         List<FieldVersion> changed =
-                FieldChange.of(desired, known, field -> file != null, Instant.EPOCH.toEpochMilli()).stream()
+                FieldChange.of(desired, existing, field -> file != null, Instant.EPOCH.toEpochMilli()).stream()
                         .filter(change -> change.kind() != FieldChange.Kind.UNCHANGED)
                         .map(FieldChange::version)
                         .toList();

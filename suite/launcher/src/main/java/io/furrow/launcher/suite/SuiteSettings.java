@@ -11,7 +11,7 @@ import io.furrow.control.alarm.action.StopRobots;
 import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.device.CommandSender;
 import io.furrow.control.health.HealthOptions;
-import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.mission.MissionSettings;
 import io.furrow.http.AllowedNames;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.file.AccessToken;
@@ -135,7 +135,7 @@ public record SuiteSettings(
                 new AccountFiles(null, null, null, false, null, false),
                 new Secret(null, null),
                 null,
-                new Missions(MissionOptions.START_TIMEOUT, true, true));
+                new Missions(MissionSettings.START_TIMEOUT, true, true));
     }
 
     /**

@@ -57,7 +57,7 @@ class ControlPlaneCommandIT {
     }
 
     @Test
-    void goesOnInAnotherProcessWhenOneIsKilledAndStopsWhenItIsAsked() throws Exception {
+    void goesOnInAnotherProcessWhenOneIsKilledAndStopsOnRequest() throws Exception {
         Path one = directory.resolve("one");
         Path two = directory.resolve("two");
         Process first = run(one, "--standby-replicas", "1");
@@ -83,7 +83,7 @@ class ControlPlaneCommandIT {
     }
 
     @Test
-    void saysWhatItNeedsToProvisionDevices() throws Exception {
+    void reportsWhatItNeedsToProvisionDevices() throws Exception {
         Process process = run(directory.resolve("out"), "--iot-agent", "http://127.0.0.1:4041");
 
         assertThat(process.waitFor()).isNotZero();
@@ -153,7 +153,7 @@ class ControlPlaneCommandIT {
     }
 
     private Process run(Path output, String... further) throws IOException {
-        List<String> words = new ArrayList<>(List.of(
+        List<String> arguments = new ArrayList<>(List.of(
                 Path.of(System.getProperty("java.home"), "bin", "java").toString(),
                 "-Xmx256m",
                 "-cp",
@@ -168,8 +168,8 @@ class ControlPlaneCommandIT {
                 "0",
                 "--log",
                 output + ".log"));
-        words.addAll(List.of(further));
-        Process process = new ProcessBuilder(words)
+        arguments.addAll(List.of(further));
+        Process process = new ProcessBuilder(arguments)
                 .redirectErrorStream(true)
                 .redirectOutput(new File(output.toString()))
                 .start();

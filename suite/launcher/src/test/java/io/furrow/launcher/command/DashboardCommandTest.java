@@ -23,12 +23,12 @@ class DashboardCommandTest {
             --sign-in-url=javascript:alert()  | --sign-in-url javascript:alert() is neither a path
             --sign-out-url=//a.example/out    | --sign-out-url //a.example/out is neither a path
             """)
-    void refusesWhatItCannotUseBeforeItListens(String option, String message) {
-        StringWriter said = new StringWriter();
+    void rejectsWhatItCannotUseBeforeItListens(String option, String message) {
+        StringWriter output = new StringWriter();
         CommandLine line = Furrow.commandLine();
-        line.setErr(new PrintWriter(said));
+        line.setErr(new PrintWriter(output));
 
         assertThat(line.execute("dashboard", option)).isEqualTo(2);
-        assertThat(said.toString()).contains(message).doesNotContain("Exception");
+        assertThat(output.toString()).contains(message).doesNotContain("Exception");
     }
 }

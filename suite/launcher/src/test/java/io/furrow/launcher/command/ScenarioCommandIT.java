@@ -67,7 +67,7 @@ class ScenarioCommandIT {
     }
 
     @Test
-    void saysWhatIsWrongWithAFile() throws Exception {
+    void reportsWhatIsWrongWithAFile() throws Exception {
         String wrong = SCENARIO.replace("PT0.2S", "often");
 
         assertThat(run(Files.writeString(directory.resolve("farm.json"), wrong)))
@@ -78,14 +78,14 @@ class ScenarioCommandIT {
     }
 
     private int run(Path file, String... further) {
-        String[] words = {
+        String[] arguments = {
             "scenario", file.toString(),
             "--orion", fiware.contextBroker().toString(),
             "--iot-agent", fiware.iotAgent().toString(),
             "--mqtt", mqtt.uri().toString()
         };
-        String[] all = java.util.Arrays.copyOf(words, words.length + further.length);
-        System.arraycopy(further, 0, all, words.length, further.length);
+        String[] all = java.util.Arrays.copyOf(arguments, arguments.length + further.length);
+        System.arraycopy(further, 0, all, arguments.length, further.length);
         return Furrow.commandLine()
                 .setOut(new PrintWriter(out, true))
                 .setErr(new PrintWriter(err, true))

@@ -9,7 +9,7 @@ import java.util.TreeSet;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.cli.control.ReplayAnalyticsJob;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -132,7 +132,7 @@ class AnalyticsReconcilerTest {
     }
 
     @Test
-    void startsAllJobsOfAReplayOrNoneAndSaysSo() throws Exception {
+    void startsAllJobsOfAReplayOrNoneAndReportsSo() throws Exception {
         progress(0, 10);
         cluster.room = 3;
         DesiredAnalytics second = running(B, "collision", "presence");
@@ -170,7 +170,7 @@ class AnalyticsReconcilerTest {
     private void progress(long read, long end) {
         for (String job : List.of("collision", "presence")) {
             for (String topic : List.of(A, B)) {
-                progress.put(new AnalyticsJob(job, topic).name(), new JobProgress(read, end));
+                progress.put(new ReplayAnalyticsJob(job, topic).name(), new JobProgress(read, end));
             }
         }
     }
@@ -178,7 +178,9 @@ class AnalyticsReconcilerTest {
     private static DesiredAnalytics running(String topic, String... jobs) {
         return new DesiredAnalytics(
                 topic,
-                List.of(jobs).stream().map(job -> new AnalyticsJob(job, topic)).toList(),
+                List.of(jobs).stream()
+                        .map(job -> new ReplayAnalyticsJob(job, topic))
+                        .toList(),
                 false);
     }
 
@@ -200,7 +202,7 @@ class AnalyticsReconcilerTest {
         }
 
         @Override
-        public void start(AnalyticsJob job) throws AnalyticsException {
+        public void start(ReplayAnalyticsJob job) throws AnalyticsException {
             if (refuses) {
                 throw new AnalyticsException("no");
             }

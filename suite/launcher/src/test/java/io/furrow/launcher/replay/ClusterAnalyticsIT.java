@@ -22,7 +22,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.cli.control.ReplayAnalyticsJob;
 import io.furrow.embedded.EmbeddedKafka;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -31,7 +31,7 @@ import static org.awaitility.Awaitility.await;
 
 @Tag("full")
 class ClusterAnalyticsIT {
-    private static final AnalyticsJob JOB = new AnalyticsJob("collision", "data.weeding.replay.0a1b2c3d");
+    private static final ReplayAnalyticsJob JOB = new ReplayAnalyticsJob("collision", "data.weeding.replay.0a1b2c3d");
     private static final Duration TIMEOUT = Duration.ofMinutes(1);
 
     @TempDir
@@ -58,7 +58,7 @@ class ClusterAnalyticsIT {
             await().atMost(TIMEOUT).until(() -> analytics.free() == 2);
 
             analytics.start(JOB);
-            analytics.start(new AnalyticsJob("presence", JOB.topic()));
+            analytics.start(new ReplayAnalyticsJob("presence", JOB.topic()));
 
             assertThat(analytics.running())
                     .containsExactlyInAnyOrder("collision-of-weeding.0a1b2c3d", "presence-of-weeding.0a1b2c3d");
@@ -71,7 +71,7 @@ class ClusterAnalyticsIT {
             analytics.cancel(JOB.name());
             analytics.cancel("nothing");
             await().atMost(TIMEOUT).until(() -> analytics.running().size() == 1);
-            assertThatThrownBy(() -> analytics.start(new AnalyticsJob("sowing", JOB.topic())))
+            assertThatThrownBy(() -> analytics.start(new ReplayAnalyticsJob("sowing", JOB.topic())))
                     .isInstanceOf(AnalyticsException.class)
                     .hasMessageContaining("/run");
         }

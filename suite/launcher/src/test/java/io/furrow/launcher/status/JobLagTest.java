@@ -42,7 +42,7 @@ class JobLagTest {
     }
 
     @Test
-    void saysOfAJobHowFarItsWorstSourceIsBehind() throws Exception {
+    void reportsForAJobHowFarItsWorstSourceIsBehind() throws Exception {
         job("1", Map.of("a", "Source: Read reported changes -> Read positions", "b", "Grid"));
         metric("1", "a", "Source__Read_reported_changes.pendingRecords", 7);
         job(
@@ -63,7 +63,7 @@ class JobLagTest {
     }
 
     @Test
-    void asksAgainForASourceThatHasNotReadYet() throws Exception {
+    void pollsASourceThatHasNotReadYet() throws Exception {
         job("2", Map.of("c", "Source: Read reported events", "d", "Source: Read devices"));
         JobLag lag = new JobLag(uri, Map.of("ingest", "2"));
         assertThat(lag.read()).containsExactly(Map.entry("ingest", Optional.empty()));

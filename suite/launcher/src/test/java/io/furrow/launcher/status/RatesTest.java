@@ -11,7 +11,7 @@ class RatesTest {
     private final Rates rates = new Rates();
 
     @Test
-    void dividesWhatCameByTheTimeBetweenTwoLooks() {
+    void dividesWhatCameByTheTimeBetweenTwoPolls() {
         rates.next(Map.of("a", 100L), 0);
 
         assertThat(rates.next(Map.of("a", 150L), TimeUnit.SECONDS.toNanos(2))).containsEntry("a", 25.0);

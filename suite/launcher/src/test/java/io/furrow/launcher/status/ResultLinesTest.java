@@ -10,7 +10,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class ResultLinesTest {
     @Test
-    void tellsAnAverageWithItsSuspect() {
+    void reportsAnAverageWithItsSuspect() {
         Entity average = Entity.builder("Analytics:FieldTemperature:f", "Analytics:FieldTemperature")
                 .text("field", "f")
                 .number("averageTemperature", 21.256)
@@ -25,7 +25,7 @@ class ResultLinesTest {
     }
 
     @Test
-    void tellsAnEncounter() {
+    void reportsAnEncounter() {
         Entity collision = Entity.builder("c", "Analytics:Collision")
                 .text("phase", "started")
                 .number("distance", 4.5)

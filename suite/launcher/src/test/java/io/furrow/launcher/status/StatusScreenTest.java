@@ -85,7 +85,7 @@ class StatusScreenTest {
     }
 
     @Test
-    void keepsWhatOthersPrintUntilTheTerminalIsGivenBack() throws Exception {
+    void retainsWhatOthersPrintUntilTheTerminalIsGivenBack() throws Exception {
         PrintStream err = System.err;
         ByteArrayOutputStream printed = new ByteArrayOutputStream();
         System.setErr(new PrintStream(printed, true, UTF_8));
@@ -109,7 +109,7 @@ class StatusScreenTest {
     }
 
     @Test
-    void leavesOutTheEndOfWhatHasNoRoomAndSaysHowMuch() {
+    void leavesOutTheEndOfWhatHasNoRoomAndReportsHowMuch() {
         assertThat(block(9).lines(24))
                 .containsExactly(
                         "Dashboard   http://127.0.0.1:8080   Ctrl-C stops Furrow",

@@ -61,8 +61,8 @@ class CommandLineTest {
         "replay loop --help, --off",
         "mission marker add --help, NOTE"
     })
-    void explainsItself(String words, String mentioned) {
-        assertThat(furrow.execute(words.split(" "))).isZero();
+    void explainsItself(String arguments, String mentioned) {
+        assertThat(furrow.execute(arguments.split(" "))).isZero();
         assertThat(out.toString()).contains(mentioned);
     }
 
@@ -98,7 +98,7 @@ class CommandLineTest {
     }
 
     @Test
-    void refusesOnePortForTwoParts() {
+    void rejectsOnePortForTwoParts() {
         String port = Integer.toString(FreePort.orFree(0));
 
         assertThat(furrow.execute(upOnPorts(port, port))).isNotZero();
@@ -155,17 +155,17 @@ class CommandLineTest {
                 "--mqtt x --orion http://127.0.0.1:1026|--mqtt: x is no address of an MQTT broker",
                 "--mongo x|--mongo: ",
             })
-    void refusesWhatCannotWorkOrIsOpenToAnybody(String options, String sentence) {
-        List<String> words = new ArrayList<>(List.of(upOnFreePorts(directory)));
-        words.addAll(List.of(options.split(" ")));
+    void rejectsWhatCannotWorkOrIsOpenToAnybody(String options, String sentence) {
+        List<String> arguments = new ArrayList<>(List.of(upOnFreePorts(directory)));
+        arguments.addAll(List.of(options.split(" ")));
 
-        assertThat(furrow.execute(words.toArray(String[]::new))).isNotZero();
+        assertThat(furrow.execute(arguments.toArray(String[]::new))).isNotZero();
 
         assertThat(err.toString()).startsWith(sentence).hasLineCount(1);
     }
 
     @Test
-    void refusesADirectoryThatKafkaWouldDivide() {
+    void rejectsADirectoryThatKafkaWouldDivide() {
         assertThat(furrow.execute(upOnFreePorts(directory.resolve("a,b")))).isNotZero();
 
         assertThat(err.toString())
@@ -183,9 +183,9 @@ class CommandLineTest {
     @Tag("full")
     @ParameterizedTest
     @ValueSource(strings = {"control-plane --control-port 0 --health-port 0", "dashboard --port 0 --log /dev/null"})
-    void saysThatItWaitsForKafka(String words) throws Exception {
+    void reportsThatItWaitsForKafka(String arguments) throws Exception {
         String silent = "127.0.0.1:" + FreePort.orFree(0);
-        Thread command = new Thread(() -> furrow.execute(with(words.split(" "), "--kafka", silent)));
+        Thread command = new Thread(() -> furrow.execute(with(arguments.split(" "), "--kafka", silent)));
         command.start();
         try {
             await().untilAsserted(() -> assertThat(err.toString())
@@ -205,10 +205,10 @@ class CommandLineTest {
     })
     void namesItOfAPartThatRunsAloneToo(String command, String option) throws Exception {
         try (ServerSocket taken = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
-            List<String> words = new ArrayList<>(List.of(command.split(" ")));
-            words.addAll(List.of("--kafka", "127.0.0.1:1", option, Integer.toString(taken.getLocalPort())));
+            List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
+            arguments.addAll(List.of("--kafka", "127.0.0.1:1", option, Integer.toString(taken.getLocalPort())));
 
-            assertThat(furrow.execute(words.toArray(String[]::new))).isNotZero();
+            assertThat(furrow.execute(arguments.toArray(String[]::new))).isNotZero();
 
             assertThat(err.toString().trim())
                     .startsWith("Port %d of 127.0.0.1, meant for ".formatted(taken.getLocalPort()))
@@ -228,13 +228,13 @@ class CommandLineTest {
                 "--iot-agent=http://127.0.0.1:4041|--iot-agent-interval=0s|at least a second",
                 "--iot-agent=http://127.0.0.1:4041|--fiware-service=|name one with --fiware-service",
             })
-    void refusesSettingsOfAnIotAgentThatCannotBeRight(String first, String second, String sentence) {
+    void rejectsSettingsOfAnIotAgentThatCannotBeRight(String first, String second, String sentence) {
         for (String command :
                 List.of("up", "control-plane --kafka 127.0.0.1:1 --farm-secret x --log " + directory.resolve("log"))) {
-            List<String> words = new ArrayList<>(List.of(command.split(" ")));
-            words.addAll(List.of(first, second));
+            List<String> arguments = new ArrayList<>(List.of(command.split(" ")));
+            arguments.addAll(List.of(first, second));
 
-            assertThat(furrow.execute(words.toArray(String[]::new))).isNotZero();
+            assertThat(furrow.execute(arguments.toArray(String[]::new))).isNotZero();
 
             assertThat(err.toString()).contains(sentence).hasLineCount(1);
             err.getBuffer().setLength(0);
@@ -242,7 +242,7 @@ class CommandLineTest {
     }
 
     @Test
-    void refusesAnIotAgentWithoutItsContextBroker() {
+    void rejectsAnIotAgentWithoutItsContextBroker() {
         assertThat(furrow.execute("up", "--iot-agent=http://127.0.0.1:4041")).isNotZero();
 
         assertThat(err.toString()).startsWith("--iot-agent needs --orion").hasLineCount(1);
@@ -254,14 +254,14 @@ class CommandLineTest {
         "demo --allowed-origins map.example.org, --allowed-origins, map.example.org' is no origin",
         "control-plane --allowed-hosts http://farm, --allowed-hosts, http://farm' is no host"
     })
-    void refusesNamesOfItsServersThatAreNone(String words, String option, String why) {
-        assertThat(furrow.execute(words.split(" "))).isNotZero();
+    void rejectsNamesOfItsServersThatAreNone(String arguments, String option, String why) {
+        assertThat(furrow.execute(arguments.split(" "))).isNotZero();
 
         assertThat(err.toString()).contains(option, why);
     }
 
     @Test
-    void saysThatADirectoryCannotBeWritten() throws Exception {
+    void reportsThatADirectoryCannotBeWritten() throws Exception {
         Path file = Files.createFile(directory.resolve("file"));
 
         assertThat(furrow.execute(upOnFreePorts(file.resolve("below")))).isNotZero();
@@ -273,7 +273,7 @@ class CommandLineTest {
     }
 
     @Test
-    void refusesASecondSuiteInTheSameDirectory() {
+    void rejectsASecondSuiteInTheSameDirectory() {
         try (RunDirectory held = RunDirectory.open(directory)) {
             assertThat(furrow.execute(upOnFreePorts(held.path()))).isNotZero();
         }
@@ -288,8 +288,8 @@ class CommandLineTest {
         "up --orion http://127.0.0.1:1026 --iot-agent ftp://127.0.0.1:4041, --iot-agent",
         "domain list --api localhost:8085, --api"
     })
-    void refusesAnAddressThatIsNoHttpUrl(String words, String option) {
-        assertThat(furrow.execute(words.split(" "))).isEqualTo(2);
+    void rejectsAnAddressThatIsNoHttpUrl(String arguments, String option) {
+        assertThat(furrow.execute(arguments.split(" "))).isEqualTo(2);
         assertThat(err.toString()).contains(option, "cannot be used, because");
     }
 
@@ -307,12 +307,12 @@ class CommandLineTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"--kafka 127.0.0.1:1", "--orion http://127.0.0.1:1 --iot-agent http://127.0.0.1:1"})
-    void makesNoSecretThatEndsBeforeWhatIsMadeWithIt(String words) {
+    void makesNoSecretThatEndsBeforeWhatIsMadeWithIt(String arguments) {
         List<String> up = new ArrayList<>(List.of(upOnFreePorts(directory)));
         int data = up.indexOf("--data");
         up.remove(data);
         up.remove(data);
-        up.addAll(List.of(words.split(" ")));
+        up.addAll(List.of(arguments.split(" ")));
 
         assertThat(furrow.execute(up.toArray(String[]::new))).isNotZero();
 
@@ -323,7 +323,7 @@ class CommandLineTest {
     }
 
     @Test
-    void refusesAnUnknownOptionInOneSentence() {
+    void rejectsAnUnknownOptionInOneSentence() {
         assertThat(furrow.execute("demo", "--orin", "x")).isNotZero();
         assertThat(err.toString()).contains("Unknown options: '--orin', 'x'").contains("furrow demo --help");
     }
@@ -361,7 +361,7 @@ class CommandLineTest {
     }
 
     @Test
-    void refusesShareOfSilentDevicesThatIsNone() {
+    void rejectsShareOfSilentDevicesThatIsNone() {
         assertThat(furrow.execute("control-plane", "--kafka", "127.0.0.1:1", "--silent-share", "0"))
                 .isNotZero();
         assertThat(err.toString()).contains("--silent-share", "0.0");

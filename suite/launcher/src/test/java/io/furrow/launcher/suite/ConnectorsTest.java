@@ -12,7 +12,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class ConnectorsTest {
     @Test
-    void saysWhereTheContextBrokerCannotNotify() throws Exception {
+    void reportsWhereTheContextBrokerCannotNotify() throws Exception {
         HttpServer source = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
         StringBuilder health =
                 new StringBuilder("{\"subscriptions\":[{\"url\":\"http://x/v2/notify\",\"failsInARow\":0}]}");

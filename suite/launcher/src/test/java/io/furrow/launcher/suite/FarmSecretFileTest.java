@@ -20,15 +20,15 @@ class FarmSecretFileTest {
 
     @Test
     void makesASecretWhereADirectoryIsFreshAndFindsItThereLater() throws Exception {
-        Path kept = directory.resolve("data");
+        Path retained = directory.resolve("data");
         Path made;
-        try (RunDirectory first = RunDirectory.open(kept)) {
+        try (RunDirectory first = RunDirectory.open(retained)) {
             made = FarmSecretFile.of(first, null);
         }
         FarmSecret secret = FarmSecret.read(made);
-        Files.createDirectory(kept.resolve("kafka"));
+        Files.createDirectory(retained.resolve("kafka"));
 
-        try (RunDirectory second = RunDirectory.open(kept)) {
+        try (RunDirectory second = RunDirectory.open(retained)) {
             assertThat(FarmSecretFile.of(second, null)).isEqualTo(made);
         }
 
@@ -39,17 +39,17 @@ class FarmSecretFileTest {
 
     @Test
     void makesNoSecretWhereThereIsDataOfAFarm() throws Exception {
-        Path kept = Files.createDirectories(directory.resolve("data/kafka")).getParent();
+        Path retained = Files.createDirectories(directory.resolve("data/kafka")).getParent();
 
-        try (RunDirectory directory = RunDirectory.open(kept)) {
+        try (RunDirectory directory = RunDirectory.open(retained)) {
             assertThatThrownBy(() -> FarmSecretFile.of(directory, null))
                     .isInstanceOf(CommandException.class)
                     .hasMessageContainingAll(
-                            kept + " has the data of a farm but not its secret",
+                            retained + " has the data of a farm but not its secret",
                             "--farm-secret",
                             "./furrow secret new");
         }
-        assertThat(kept.resolve("farm-secret")).doesNotExist();
+        assertThat(retained.resolve("farm-secret")).doesNotExist();
     }
 
     @Test
@@ -68,7 +68,7 @@ class FarmSecretFileTest {
     }
 
     @Test
-    void refusesASecretThatIsTooShort() throws Exception {
+    void rejectsASecretThatIsTooShort() throws Exception {
         Path tooShort = Files.writeString(directory.resolve("short"), "secret\n");
 
         assertThatThrownBy(() -> FarmSecretFile.open(tooShort, new Properties(), null))

@@ -18,7 +18,7 @@ class JobsIT {
     Path directory;
 
     @Test
-    void saysWhichJobCannotContinueFromItsState() throws Exception {
+    void reportsWhichJobCannotContinueFromItsState() throws Exception {
         Path state = Files.createDirectories(directory.resolve("ingest/0a1b/chk-3"));
         Files.writeString(state.resolve("_metadata"), "damaged");
         StreamExecutionEnvironment env = StreamExecutionEnvironment.createLocalEnvironment();

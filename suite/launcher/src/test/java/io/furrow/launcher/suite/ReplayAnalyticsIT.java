@@ -46,7 +46,7 @@ class ReplayAnalyticsIT {
     private KafkaProducer<String, byte[]> producer;
 
     @Test
-    void runsTheJobsThatReplaysWantAndEndsThemWithTheReplays() throws Exception {
+    void runsTheJobsThatReplaysRequestAndEndsThemWithTheReplays() throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
                 RunDirectory directory = RunDirectory.open(folder.resolve("data"));
                 KafkaAccess access = KafkaAccess.to(kafka.bootstrapServers(), null);
@@ -61,20 +61,20 @@ class ReplayAnalyticsIT {
             new SuiteFields(new FieldsTopic(access.clientProperties())).write(settings, directory);
             Jobs jobs = new Jobs(flink, directory.resolve("jobs"));
             EmbeddedAnalytics analytics =
-                    new EmbeddedAnalytics(flink, jobs, new JobPlans(settings, access, null, directory));
+                    new EmbeddedAnalytics(flink, jobs, new SuiteJobs(settings, access, null, directory));
             for (String id : IDS) {
-                want(id, null);
+                addDesired(id, null);
                 play(id);
             }
 
             try (ReplayAnalytics running = ReplayAnalytics.start(access.clientProperties(), analytics)) {
                 await().atMost(TIMEOUT)
                         .until(() -> analytics.running().size(), size -> size == EmbeddedAnalytics.SLOTS);
-                want("0000000e", null);
+                addDesired("0000000e", null);
                 await().atMost(TIMEOUT).until(() -> !running.waiting().isEmpty());
 
                 for (String id : List.of("0000000a", "0000000b", "0000000c", "0000000d", "0000000e")) {
-                    want(id, ReplayStatus.State.ENDED);
+                    addDesired(id, ReplayStatus.State.ENDED);
                 }
                 await().atMost(TIMEOUT).until(() -> analytics.running().isEmpty());
             }
@@ -102,7 +102,7 @@ class ReplayAnalyticsIT {
     }
 
     /** @param state null for none told */
-    private void want(String id, ReplayStatus.State state) throws Exception {
+    private void addDesired(String id, ReplayStatus.State state) throws Exception {
         ReplayPlan plan = new ReplayPlan(
                 null, null, null, false, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, ReplayPlan.ANALYTICS);
         DesiredReplay desired = DesiredReplay.started("weeding", replay(id), plan, 1, T0, 1);
@@ -151,10 +151,10 @@ class ReplayAnalyticsIT {
     }
 
     private static String compare(EmbeddedKafka kafka, String a, String b) {
-        StringWriter said = new StringWriter();
+        StringWriter output = new StringWriter();
         CommandLine line = Furrow.commandLine();
-        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+        line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
         line.execute("replay", "compare", a, b, "--kafka", kafka.bootstrapServers());
-        return said.toString();
+        return output.toString();
     }
 }

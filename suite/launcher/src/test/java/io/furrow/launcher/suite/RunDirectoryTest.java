@@ -25,9 +25,9 @@ class RunDirectoryTest {
     }
 
     @Test
-    void keepsTheOneThatWasNamedAndLetsItBeUsedAgain() throws Exception {
-        try (RunDirectory kept = RunDirectory.open(parent.resolve("kept"))) {
-            Files.writeString(kept.resolve("file"), "x");
+    void retainsTheOneThatWasNamedAndLetsItBeUsedAgain() throws Exception {
+        try (RunDirectory retained = RunDirectory.open(parent.resolve("kept"))) {
+            Files.writeString(retained.resolve("file"), "x");
         }
         try (RunDirectory again = RunDirectory.open(parent.resolve("kept"))) {
             assertThat(again.resolve("file")).hasContent("x");
@@ -36,33 +36,33 @@ class RunDirectoryTest {
     }
 
     @Test
-    void knowsWhetherASuiteHasKeptSomethingInIt() throws Exception {
+    void detectsWhetherASuiteHasStoredSomethingInIt() throws Exception {
         try (RunDirectory temporary = RunDirectory.open(null)) {
             assertThat(temporary.isFresh()).isTrue();
         }
-        Path kept = parent.resolve("kept");
-        RunDirectory.open(kept).close();
-        Files.createFile(kept.resolve("furrow.log"));
-        Files.createFile(kept.resolve("furrow.log.1"));
-        try (RunDirectory refusedBefore = RunDirectory.open(kept)) {
+        Path retained = parent.resolve("kept");
+        RunDirectory.open(retained).close();
+        Files.createFile(retained.resolve("furrow.log"));
+        Files.createFile(retained.resolve("furrow.log.1"));
+        try (RunDirectory refusedBefore = RunDirectory.open(retained)) {
             assertThat(refusedBefore.isFresh()).isTrue();
         }
-        Files.createDirectory(kept.resolve("kafka"));
-        try (RunDirectory used = RunDirectory.open(kept)) {
+        Files.createDirectory(retained.resolve("kafka"));
+        try (RunDirectory used = RunDirectory.open(retained)) {
             assertThat(used.isFresh()).isFalse();
         }
     }
 
     @Test
-    void letsNobodyElseLookIntoADirectoryThatItMakes() throws Exception {
-        Path kept = parent.resolve("var/kept");
-        RunDirectory.open(kept).close();
-        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(kept)))
+    void letsNobodyElseReadADirectoryThatItMakes() throws Exception {
+        Path retained = parent.resolve("var/kept");
+        RunDirectory.open(retained).close();
+        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(retained)))
                 .isEqualTo("rwx------");
 
-        Files.setPosixFilePermissions(kept, PosixFilePermissions.fromString("rwxr-x---"));
-        RunDirectory.open(kept).close();
-        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(kept)))
+        Files.setPosixFilePermissions(retained, PosixFilePermissions.fromString("rwxr-x---"));
+        RunDirectory.open(retained).close();
+        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(retained)))
                 .as("one that was there stays as it is")
                 .isEqualTo("rwxr-x---");
     }

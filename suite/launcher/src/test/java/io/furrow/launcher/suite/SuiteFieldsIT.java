@@ -107,7 +107,7 @@ class SuiteFieldsIT {
     }
 
     @Test
-    void refusesAFileThatCannotBeUsedWholly() throws Exception {
+    void rejectsAFileThatCannotBeUsedWholly() throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
                 RunDirectory directory = RunDirectory.open(folder.resolve("data"))) {
             Properties client = new Properties();
@@ -123,7 +123,7 @@ class SuiteFieldsIT {
     }
 
     @Test
-    void saysWhatItRepairsAndWhichCommandHasTheOption() throws Exception {
+    void reportsWhatItRepairsAndWhichCommandHasTheOption() throws Exception {
         Path crossing =
                 file("{\"type\":\"Feature\",\"id\":\"bow\",\"properties\":{},\"geometry\":{\"type\":\"Polygon\","
                         + "\"coordinates\":[[[0,0],[0.02,0.02],[0.02,0],[0,0.02],[0,0]]]}}");

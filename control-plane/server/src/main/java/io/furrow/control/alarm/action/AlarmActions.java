@@ -10,7 +10,7 @@ import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.ThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 
-import io.furrow.control.alarm.watch.DeviceTypes;
+import io.furrow.control.alarm.watch.DeviceTypeCache;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.kafka.PartStatus;
 import io.furrow.kafka.RestartingWorker;
@@ -25,7 +25,7 @@ public final class AlarmActions implements AutoCloseable {
     private static final int MAX_STOPS_WAITING = 1000;
     private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(5);
 
-    private final List<RestartingWorker> followers = new ArrayList<>();
+    private final List<RestartingWorker> workers = new ArrayList<>();
     private ThreadPoolExecutor stops;
     private AuditLog audit;
 
@@ -43,7 +43,7 @@ public final class AlarmActions implements AutoCloseable {
         Clock clock = Clock.systemUTC();
         if (webhook != null) {
             AlarmDelivery delivery = new AlarmDelivery(client, webhook, new Webhook(webhook, clock), clock);
-            actions.followers.add(new RestartingWorker(AlarmDelivery.NAME, clock).start(delivery, delivery::detail));
+            actions.workers.add(new RestartingWorker(AlarmDelivery.NAME, clock).start(delivery, delivery::detail));
         }
         if (stop != null) {
             actions.stopRobots(client, stop, clock);
@@ -60,23 +60,23 @@ public final class AlarmActions implements AutoCloseable {
                 TimeUnit.MINUTES,
                 new ArrayBlockingQueue<>(MAX_STOPS_WAITING),
                 task -> new Thread(task, "furrow-stop"));
-        RestartingWorker follower = new RestartingWorker(StopFollower.NAME, clock);
-        DeviceTypes types = new DeviceTypes(client);
-        StopRobots robots = new StopRobots(settings, types, entry -> note(entry, follower), stops, clock);
-        followers.add(new RestartingWorker(DeviceTypes.NAME, clock).start(types, types::detail));
-        followers.add(follower.start(new StopFollower(client, robots, types, clock), () -> stopsWaiting(types)));
+        RestartingWorker worker = new RestartingWorker(PredictionConsumer.NAME, clock);
+        DeviceTypeCache types = new DeviceTypeCache(client);
+        StopRobots robots = new StopRobots(settings, types, entry -> note(entry, worker), stops, clock);
+        workers.add(new RestartingWorker(DeviceTypeCache.NAME, clock).start(types, types::detail));
+        workers.add(worker.start(new PredictionConsumer(client, robots, types, clock), () -> stopsWaiting(types)));
     }
 
-    private void note(AuditEntry entry, RestartingWorker follower) {
+    private void note(AuditEntry entry, RestartingWorker worker) {
         if (entry.reason() == null) {
-            follower.succeeded();
+            worker.succeeded();
         } else {
-            follower.failed(entry.about() + " " + entry.reason());
+            worker.failed(entry.about() + " " + entry.reason());
         }
         audit.accept(entry);
     }
 
-    private String stopsWaiting(DeviceTypes types) {
+    private String stopsWaiting(DeviceTypeCache types) {
         if (!types.isLoaded()) {
             return "waits until the types of devices are read";
         }
@@ -87,13 +87,13 @@ public final class AlarmActions implements AutoCloseable {
     }
 
     /** Returns the status of each worker thread, for a health page. */
-    public List<PartStatus> followers() {
-        return followers.stream().map(RestartingWorker::status).toList();
+    public List<PartStatus> workers() {
+        return workers.stream().map(RestartingWorker::status).toList();
     }
 
     @Override
     public void close() {
-        followers.forEach(RestartingWorker::close);
+        workers.forEach(RestartingWorker::close);
         if (stops != null) {
             stops.shutdown();
             try {

@@ -47,7 +47,7 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
     private static final Logger LOG = LoggerFactory.getLogger(AlarmDelivery.class);
     private static final String GROUP = "furrow-alarm-webhook";
     private static final Duration POLL = Duration.ofMillis(200);
-    private static final Duration POLL_UNDER_WAY = Duration.ofMillis(10);
+    private static final Duration POLL_IN_FLIGHT = Duration.ofMillis(10);
     private static final long DECIDED_EVERY_MS = Duration.ofSeconds(30).toMillis();
     private static final long LAST_ANSWERS_MS = 1000;
     /** Key of the record with the start time: alarms that were closed earlier and never delivered are not delivered. */
@@ -86,7 +86,7 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
     }
 
     @Override
-    public void run(RestartingWorker follower) throws InterruptedException {
+    public void run(RestartingWorker worker) throws InterruptedException {
         Properties group = CommittedReader.settings(client);
         group.put("group.id", GROUP);
         try (KafkaProducer<String, byte[]> opened =
@@ -96,34 +96,34 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
             producer = opened;
             consumer = subscribed;
             consumer.subscribe(List.of(Topics.ALARMS), this);
-            while (!follower.isClosing()) {
-                step(follower);
+            while (!worker.isClosing()) {
+                step(worker);
             }
-            awaitAnswers(follower);
+            awaitAnswers(worker);
         } finally {
             queue = null;
             Thread.interrupted(); // else the clients could not close cleanly
         }
     }
 
-    private void step(RestartingWorker follower) throws InterruptedException {
-        boolean busy = queue != null && queue.underWay() > 0;
-        for (ConsumerRecord<String, byte[]> record : consumer.poll(busy ? POLL_UNDER_WAY : POLL)) {
+    private void step(RestartingWorker worker) throws InterruptedException {
+        boolean busy = queue != null && queue.inFlight() > 0;
+        for (ConsumerRecord<String, byte[]> record : consumer.poll(busy ? POLL_IN_FLIGHT : POLL)) {
             take(record);
         }
         if (queue == null) {
             detail = "another instance delivers";
             return;
         }
-        complete(follower, done.poll(busy ? POLL_UNDER_WAY.toMillis() : 0, TimeUnit.MILLISECONDS));
+        complete(worker, done.poll(busy ? POLL_IN_FLIGHT.toMillis() : 0, TimeUnit.MILLISECONDS));
         List<Done> more = new ArrayList<>();
         done.drainTo(more);
-        more.forEach(each -> complete(follower, each));
+        more.forEach(each -> complete(worker, each));
         if (isRead()) {
             post();
         }
         detail = "%d waiting, %d in flight, since the start %d accepted and %d rejected"
-                .formatted(queue.waiting(), queue.underWay(), taken, refused);
+                .formatted(queue.waiting(), queue.inFlight(), taken, refused);
     }
 
     private void post() {
@@ -177,7 +177,7 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
     }
 
     /** @param completed null for nothing */
-    private void complete(RestartingWorker follower, Done completed) {
+    private void complete(RestartingWorker worker, Done completed) {
         if (completed == null) {
             return;
         }
@@ -186,19 +186,19 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
         switch (answer.outcome()) {
             case TAKEN -> {
                 taken++;
-                follower.succeeded();
+                worker.succeeded();
             }
             case REFUSED -> {
                 refused++;
-                follower.failed("alarm %s was rejected: %s".formatted(alarm.alarm(), answer.reason()));
+                worker.failed("alarm %s was rejected: %s".formatted(alarm.alarm(), answer.reason()));
                 LOG.error(
                         "the webhook at {} rejected alarm {} ({}), which is not posted again until it changes: {}",
                         settings.url().getHost(),
                         alarm.alarm(),
-                        alarm.change().word(),
+                        alarm.change().code(),
                         answer.reason());
             }
-            case FAILED -> follower.failed("alarm %s: %s".formatted(alarm.alarm(), answer.reason()));
+            case FAILED -> worker.failed("alarm %s: %s".formatted(alarm.alarm(), answer.reason()));
         }
         queue.completed(completed.post(), answer, clock.millis()).ifPresent(this::store);
     }
@@ -249,12 +249,12 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
             }
         }
         long since = clock.millis() - NEWS.toMillis();
-        store(new DeliveryQueue.Update(SINCE, new Delivered(0, AlarmState.CLOSED, since, 0, false)));
+        store(new DeliveryQueue.Update(SINCE, new DeliveryState(0, AlarmState.CLOSED, since, 0, false)));
         return since;
     }
 
-    private static Delivered delivered(ConsumerRecord<String, byte[]> record) {
-        return record.value() == null ? null : StateJson.read(record.value(), Delivered.class);
+    private static DeliveryState delivered(ConsumerRecord<String, byte[]> record) {
+        return record.value() == null ? null : StateJson.read(record.value(), DeliveryState.class);
     }
 
     @Override
@@ -265,10 +265,10 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
     }
 
     /** Waits for outstanding responses, so that those alarms are not posted again after a restart. */
-    private void awaitAnswers(RestartingWorker follower) throws InterruptedException {
+    private void awaitAnswers(RestartingWorker worker) throws InterruptedException {
         long end = System.nanoTime() + TimeUnit.MILLISECONDS.toNanos(LAST_ANSWERS_MS);
-        while (queue != null && queue.underWay() > 0 && System.nanoTime() < end) {
-            complete(follower, done.poll(POLL_UNDER_WAY.toMillis(), TimeUnit.MILLISECONDS));
+        while (queue != null && queue.inFlight() > 0 && System.nanoTime() < end) {
+            complete(worker, done.poll(POLL_IN_FLIGHT.toMillis(), TimeUnit.MILLISECONDS));
         }
     }
 }

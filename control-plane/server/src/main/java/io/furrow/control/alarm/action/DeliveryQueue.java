@@ -24,13 +24,13 @@ import io.furrow.control.alarm.Severity;
  * posted once, as closed.
  */
 final class DeliveryQueue {
-    static final int MAX_UNDER_WAY = 4;
+    static final int MAX_IN_FLIGHT = 4;
     static final Duration MIN_BACKOFF = Duration.ofSeconds(1);
     static final Duration MAX_BACKOFF = Duration.ofMinutes(5);
 
     private static final int MAX_DOUBLINGS = 20;
     /** After this many consecutive failures the webhook is considered unavailable. */
-    private static final int AWAY_AFTER = 5;
+    private static final int UNAVAILABLE_AFTER = 5;
 
     private static final Comparator<Entry> MOST_SEVERE_FIRST = Comparator.comparing(
                     (Entry entry) -> entry.newest.severity())
@@ -42,7 +42,7 @@ final class DeliveryQueue {
     private final Random random;
     private final Map<String, Entry> entries = new HashMap<>();
     private final Set<Entry> waiting = new HashSet<>();
-    private int underWay;
+    private int inFlight;
     private int failuresInARow;
     private long holdUntil;
 
@@ -59,17 +59,17 @@ final class DeliveryQueue {
      *
      * @param delivered null to delete the entry
      */
-    record Update(String alarm, Delivered delivered) {}
+    record Update(String alarm, DeliveryState delivered) {}
 
     /** State of one alarm. */
     private static final class Entry {
         /** Null until the alarm was read. */
         private Alarm newest;
         /** Null until the alarm is posted. */
-        private Delivered delivered;
+        private DeliveryState delivered;
 
         private boolean removed;
-        private boolean underWay;
+        private boolean inFlight;
         private int failures;
         private long readySince;
         private long notBefore;
@@ -83,7 +83,7 @@ final class DeliveryQueue {
     }
 
     /** Restores an entry that an earlier queue stored. */
-    void restore(String alarm, Delivered delivered) {
+    void restore(String alarm, DeliveryState delivered) {
         entry(alarm).delivered = delivered;
     }
 
@@ -120,15 +120,15 @@ final class DeliveryQueue {
 
     /** Returns the next post; empty if none is due or the maximum number is in flight. */
     Optional<Post> next(long now) {
-        if (now < holdUntil || underWay >= MAX_UNDER_WAY) {
+        if (now < holdUntil || inFlight >= MAX_IN_FLIGHT) {
             return Optional.empty();
         }
         Optional<Entry> next =
                 waiting.stream().filter(entry -> entry.notBefore <= now).min(MOST_SEVERE_FIRST);
         next.ifPresent(entry -> {
             waiting.remove(entry);
-            entry.underWay = true;
-            underWay++;
+            entry.inFlight = true;
+            inFlight++;
         });
         return next.map(entry -> post(entry, now));
     }
@@ -137,7 +137,7 @@ final class DeliveryQueue {
         Alarm alarm = entry.newest;
         boolean first = entry.delivered == null;
         if (first) {
-            entry.delivered = Delivered.attempted(now);
+            entry.delivered = DeliveryState.attempted(now);
         }
         boolean again = entry.delivered.sequence() == alarm.sequence();
         int repeats = again ? entry.delivered.repeats() + 1 : 0;
@@ -150,17 +150,17 @@ final class DeliveryQueue {
     Optional<Update> completed(Post post, Webhook.Answer answer, long now) {
         Alarm alarm = post.alarm();
         Entry entry = entries.get(alarm.alarm());
-        if (entry != null && entry.underWay) {
-            entry.underWay = false;
-            underWay--;
+        if (entry != null && entry.inFlight) {
+            entry.inFlight = false;
+            inFlight--;
         }
         if (answer.outcome() == Webhook.Outcome.FAILED) {
             failed(entry, answer, now);
             return entry == null ? Optional.empty() : forgetIfDone(alarm.alarm(), entry);
         }
-        Delivered delivered = new Delivered(
+        DeliveryState delivered = new DeliveryState(
                 alarm.sequence(), alarm.state(), now, post.repeats(), answer.outcome() == Webhook.Outcome.REFUSED);
-        if (failuresInARow >= AWAY_AFTER) {
+        if (failuresInARow >= UNAVAILABLE_AFTER) {
             waiting.forEach(each -> each.notBefore = each.failures > 0 ? now : each.notBefore);
         }
         failuresInARow = 0;
@@ -188,7 +188,7 @@ final class DeliveryQueue {
     }
 
     private void decide(Entry entry, long now) {
-        boolean needed = !entry.underWay && isNeeded(entry, now);
+        boolean needed = !entry.inFlight && isNeeded(entry, now);
         if (!needed) {
             waiting.remove(entry);
         } else if (waiting.add(entry) && entry.failures == 0) {
@@ -207,26 +207,26 @@ final class DeliveryQueue {
 
     private boolean isNeeded(Entry entry, long now) {
         Alarm alarm = entry.newest;
-        Delivered known = entry.delivered;
-        if (alarm == null || entry.removed || known != null && known.sequence() > alarm.sequence()) {
+        DeliveryState existing = entry.delivered;
+        if (alarm == null || entry.removed || existing != null && existing.sequence() > alarm.sequence()) {
             return false;
         }
         boolean suppressed = alarm.isMuted(now) || alarm.inhibitedBy() != null;
         if (alarm.state() == AlarmState.CLOSED) {
-            return known == null ? !suppressed && alarm.changed() >= since : known.state() != AlarmState.CLOSED;
+            return existing == null ? !suppressed && alarm.changed() >= since : existing.state() != AlarmState.CLOSED;
         }
         if (suppressed) {
             return false;
         }
         boolean lasts = alarm.state() == AlarmState.OPEN
-                && known != null
-                && !known.refused()
-                && now - known.time() >= settings.repeatInterval().toMillis();
-        return known == null || known.sequence() != alarm.sequence() || lasts;
+                && existing != null
+                && !existing.refused()
+                && now - existing.time() >= settings.repeatInterval().toMillis();
+        return existing == null || existing.sequence() != alarm.sequence() || lasts;
     }
 
     private Optional<Update> forgetIfDone(String alarm, Entry entry) {
-        if (!entry.removed || entry.underWay) {
+        if (!entry.removed || entry.inFlight) {
             return Optional.empty();
         }
         entries.remove(alarm);
@@ -241,8 +241,8 @@ final class DeliveryQueue {
         return waiting.size();
     }
 
-    int underWay() {
-        return underWay;
+    int inFlight() {
+        return inFlight;
     }
 
     /** Called once all existing alarms were read: returns the deletions of entries for alarms that no longer exist. */

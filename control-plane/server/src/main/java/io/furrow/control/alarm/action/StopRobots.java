@@ -15,7 +15,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.control.alarm.watch.Encounter;
+import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CommandSender;
 import io.furrow.model.text.FailureText;
@@ -92,11 +92,11 @@ public final class StopRobots {
     }
 
     /** @param time event time of the prediction, epoch ms */
-    void take(Encounter encounter, long time) {
+    void take(EncounterReport encounter, long time) {
         if (!encounter.phase().equals(PREDICTED)) {
             return;
         }
-        for (Encounter.Member member : encounter.members()) {
+        for (EncounterReport.Member member : encounter.members()) {
             String type = encounter.typeOf(member, types);
             if (type == null) {
                 leave(encounter, member, "the type of its entity is unknown; add it to a mission");
@@ -106,7 +106,7 @@ public final class StopRobots {
         }
     }
 
-    private void decide(Encounter encounter, Encounter.Member robot, String type, long time) {
+    private void decide(EncounterReport encounter, EncounterReport.Member robot, String type, long time) {
         if (!isFresh(time)) {
             leave(encounter, robot, stale());
         } else if (!SENT.equals(put(key(encounter.id(), robot.id()), SENT))) {
@@ -119,7 +119,7 @@ public final class StopRobots {
         }
     }
 
-    private void stop(Encounter encounter, Encounter.Member robot, String type, long time) {
+    private void stop(EncounterReport encounter, EncounterReport.Member robot, String type, long time) {
         String failure = "no attempt was made";
         try {
             failure = tryToStop(settings.sender().in(encounter.scope()), robot, type, time);
@@ -136,7 +136,7 @@ public final class StopRobots {
     }
 
     /** Returns why it failed; null if the context broker accepted the command. */
-    private String tryToStop(CommandSender sender, Encounter.Member robot, String type, long time)
+    private String tryToStop(CommandSender sender, EncounterReport.Member robot, String type, long time)
             throws InterruptedException {
         String failure = null;
         for (int attempt = 1; attempt <= ATTEMPTS; attempt++) {
@@ -165,7 +165,7 @@ public final class StopRobots {
     }
 
     /** Writes an audit entry, once per reason, that no command was sent. */
-    private void leave(Encounter encounter, Encounter.Member member, String reason) {
+    private void leave(EncounterReport encounter, EncounterReport.Member member, String reason) {
         String key = key(encounter.id(), member.id());
         synchronized (handled) {
             String before = handled.get(key);
@@ -177,13 +177,13 @@ public final class StopRobots {
         note(encounter, member, reason);
     }
 
-    private void note(Encounter encounter, Encounter.Member member, String failure) {
+    private void note(EncounterReport encounter, EncounterReport.Member member, String failure) {
         ObjectNode about = JsonNodeFactory.instance.objectNode();
         about.put(DEVICE, member.id()).put(ENCOUNTER, encounter.id());
         audit.accept(AuditEntry.ofDevice(clock.millis(), USER, STOP, about, failure));
     }
 
-    private void forget(Encounter encounter, Encounter.Member robot) {
+    private void forget(EncounterReport encounter, EncounterReport.Member robot) {
         synchronized (handled) {
             handled.remove(key(encounter.id(), robot.id()));
         }

@@ -20,7 +20,7 @@ import io.furrow.control.manager.ObserverProcessor;
 import io.furrow.control.manager.ObserverProcessor.Observer;
 import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.RecordScope;
-import io.furrow.control.manager.StoredRecords;
+import io.furrow.control.manager.StoreTable;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.Fault;
 import io.furrow.model.ngsi.Entity;
@@ -42,13 +42,14 @@ public final class AnalyticsAlarms {
     public record Types(Function<ProcessorContext<?, ?>, Function<String, String>> opening, List<String> stores) {}
 
     /** @param collisions the records of {@code data.collision}, in a single partition */
-    public static void addEncounters(KStream<String, byte[]> collisions, Types types, WatchEncounters.Holds holds) {
-        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
-            WatchEncounters watch = new WatchEncounters(
-                    AlarmManager.handler(context, outbox), types.opening().apply(context), holds);
+    public static void addEncounters(
+            KStream<String, byte[]> collisions, Types types, EncounterAlarmProcessor.AlarmDurations holds) {
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, publisher) -> {
+            EncounterAlarmProcessor watch = new EncounterAlarmProcessor(
+                    AlarmManager.handler(context, publisher), types.opening().apply(context), holds);
             return (record, now) -> {
                 if (record.value() != null) {
-                    watch.take(Encounter.read(record.value(), RecordScope.of(record)), now);
+                    watch.take(EncounterReport.read(record.value(), RecordScope.of(record)), now);
                 }
             };
         };
@@ -57,22 +58,22 @@ public final class AnalyticsAlarms {
 
     /** @param temperatures the records of {@code data.temperature}, in a single partition */
     public static void addSensors(StreamsBuilder builder, KStream<String, byte[]> temperatures, Types types) {
-        builder.addStateStore(StoredRecords.builder(WatchSensors.RUNS));
-        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
-            WatchSensors watch = new WatchSensors(
-                    AlarmManager.handler(context, outbox),
+        builder.addStateStore(StoreTable.builder(SensorAlarmProcessor.RUNS));
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, publisher) -> {
+            SensorAlarmProcessor watch = new SensorAlarmProcessor(
+                    AlarmManager.handler(context, publisher),
                     types.opening().apply(context),
-                    StoredRecords.of(context, WatchSensors.RUNS, SuspectRuns.class));
+                    StoreTable.of(context, SensorAlarmProcessor.RUNS, SuspectStreaks.class));
             return new SensorObserver(watch);
         };
-        send(temperatures, opening, types, "sensors", WatchSensors.RUNS);
+        send(temperatures, opening, types, "sensors", SensorAlarmProcessor.RUNS);
     }
 
     /** @param clocks the records of {@code data.clocks}, in a single partition */
     public static void addClocks(KStream<String, byte[]> clocks, Types types) {
-        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
-            WatchClocks watch = new WatchClocks(
-                    AlarmManager.handler(context, outbox), types.opening().apply(context));
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, publisher) -> {
+            ClockAlarmProcessor watch = new ClockAlarmProcessor(
+                    AlarmManager.handler(context, publisher), types.opening().apply(context));
             return (record, now) -> {
                 if (record.value() != null) {
                     watch.take(record.value(), RecordScope.of(record), now);
@@ -84,8 +85,8 @@ public final class AnalyticsAlarms {
 
     /** @param faults the records of {@code service.faults}, in a single partition */
     public static void addFaults(KStream<String, byte[]> faults, Types types) {
-        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
-            AlarmCommandHandler alarms = AlarmManager.handler(context, outbox);
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, publisher) -> {
+            AlarmCommandHandler alarms = AlarmManager.handler(context, publisher);
             return (record, now) -> {
                 if (record.key() != null && record.value() != null) {
                     String text = Fault.read(record.value()).text();
@@ -98,10 +99,14 @@ public final class AnalyticsAlarms {
 
     /** @param statuses the records of {@code service.missions.status}, in a single partition */
     public static void addStarts(KStream<String, byte[]> statuses, Types types) {
-        send(statuses, (context, outbox) -> new WatchStarts(AlarmManager.handler(context, outbox)), types, "starts");
+        send(
+                statuses,
+                (context, publisher) -> new StartAlarmProcessor(AlarmManager.handler(context, publisher)),
+                types,
+                "starts");
     }
 
-    private record SensorObserver(WatchSensors watch) implements Observer {
+    private record SensorObserver(SensorAlarmProcessor watch) implements Observer {
         @Override
         public void take(Record<String, byte[]> record, long now) throws UnreadableException {
             FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));

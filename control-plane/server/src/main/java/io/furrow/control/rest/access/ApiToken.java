@@ -95,8 +95,8 @@ public record ApiToken(String name, byte[] secret, Role role, boolean forUsers) 
     }
 
     /** What a user may for whom this token speaks. */
-    ApiToken speakingFor(String user, Role most) {
-        return new ApiToken(user, secret, role.includes(most) ? most : role, false);
+    ApiToken speakingFor(String user, Role userRole) {
+        return new ApiToken(user, secret, role.includes(userRole) ? userRole : role, false);
     }
 
     /** The one of them with this secret, found in a time that does not depend on how much of it is right. */
@@ -113,6 +113,6 @@ public record ApiToken(String name, byte[] secret, Role role, boolean forUsers) 
 
     @Override
     public String toString() {
-        return name + " (" + role.word() + ")";
+        return name + " (" + role.code() + ")";
     }
 }

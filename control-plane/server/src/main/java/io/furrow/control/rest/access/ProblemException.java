@@ -51,15 +51,15 @@ public final class ProblemException extends RuntimeException {
         return new ProblemException(
                 ErrorCode.REQUEST_ID_REUSED,
                 "the header %s was given to another request, or by somebody else; give each request its own"
-                        .formatted(Caller.KEY));
+                        .formatted(RequestContext.KEY));
     }
 
     /** @param bytes below 0 if they were not counted */
-    public static ProblemException tooLarge(long bytes, int most) {
+    public static ProblemException tooLarge(long bytes, int max) {
         return new ProblemException(
                 ErrorCode.TOO_LARGE,
                 "the request has %s bytes, and may have %d; send a long list of devices or fields in several requests"
-                        .formatted(bytes < 0 ? "more" : Long.toString(bytes), most));
+                        .formatted(bytes < 0 ? "more" : Long.toString(bytes), max));
     }
 
     public static ProblemException notReady() {

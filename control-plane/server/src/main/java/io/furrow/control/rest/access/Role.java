@@ -17,9 +17,9 @@ public enum Role {
     /** For {@link RolesAllowed}: operations that need more than the method of the request says, see {@link RoleFilter}. */
     public static final String ADMINS = "admin";
 
-    public static Optional<Role> of(String word) {
+    public static Optional<Role> of(String code) {
         for (Role role : values()) {
-            if (role.word().equals(word)) {
+            if (role.code().equals(code)) {
                 return Optional.of(role);
             }
         }
@@ -27,11 +27,11 @@ public enum Role {
     }
 
     /** As in the file of tokens. */
-    public String word() {
+    public String code() {
         return name().toLowerCase(Locale.ROOT);
     }
 
-    public boolean includes(Role least) {
-        return compareTo(least) >= 0;
+    public boolean includes(Role minimum) {
+        return compareTo(minimum) >= 0;
     }
 }

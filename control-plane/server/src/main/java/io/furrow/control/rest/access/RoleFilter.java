@@ -24,21 +24,22 @@ public final class RoleFilter implements ContainerRequestFilter {
 
     @Override
     public void filter(ContainerRequestContext request) {
-        if (!(request.getProperty(BearerTokens.TOKEN) instanceof ApiToken token)) {
+        if (!(request.getProperty(TokenFilter.TOKEN) instanceof ApiToken token)) {
             return;
         }
-        Role least = least(operation.getResourceMethod(), request.getMethod());
-        if (!token.role().includes(least)) {
+        Role minimum = minimum(operation.getResourceMethod(), request.getMethod());
+        if (!token.role().includes(minimum)) {
             throw new ProblemException(
                     403,
                     "forbidden",
                     "this needs the role %s, and '%s' is %s"
-                            .formatted(least.word(), token.name(), token.role().word()));
+                            .formatted(
+                                    minimum.code(), token.name(), token.role().code()));
         }
     }
 
     /** The role that an operation needs at least. */
-    public static Role least(Method operation, String httpMethod) {
+    public static Role minimum(Method operation, String httpMethod) {
         RolesAllowed named = operation == null ? null : operation.getAnnotation(RolesAllowed.class);
         if (named != null) {
             return Role.of(named.value()[0]).orElseThrow();

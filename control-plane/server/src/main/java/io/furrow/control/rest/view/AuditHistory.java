@@ -77,11 +77,11 @@ public final class AuditHistory {
         consumer.assign(List.of(AUDIT));
         long first = consumer.beginningOffsets(List.of(AUDIT)).get(AUDIT);
         long end = Math.min(before, consumer.endOffsets(List.of(AUDIT)).get(AUDIT));
-        long least = Math.max(first, end - READ);
+        long minimum = Math.max(first, end - READ);
         long deadline = System.nanoTime() + TIMEOUT.toNanos();
         List<AuditedEntry> found = new ArrayList<>();
-        while (end > least && System.nanoTime() < deadline) {
-            long start = Math.max(least, end - STEP);
+        while (end > minimum && System.nanoTime() < deadline) {
+            long start = Math.max(minimum, end - STEP);
             List<AuditedEntry> step = step(consumer, start, end, deadline);
             for (int i = step.size() - 1; i >= 0; i--) {
                 if (desired.test(step.get(i))) {

@@ -17,8 +17,8 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.control.audit.AuditEntry;
-import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.control.rest.access.RequestContext;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
@@ -36,7 +36,7 @@ public final class CommandClient implements AutoCloseable {
     private static final int MAX_AWAITED = 2000;
 
     private final PendingReplies answers;
-    private final ServiceView view;
+    private final StateView view;
     private final Duration timeout;
     private final Executor executor;
     private final RecordSender sender;
@@ -46,7 +46,7 @@ public final class CommandClient implements AutoCloseable {
 
     /** @param executor answers are forwarded by it */
     public CommandClient(
-            Properties client, PendingReplies answers, ServiceView view, Duration timeout, Executor executor) {
+            Properties client, PendingReplies answers, StateView view, Duration timeout, Executor executor) {
         this.answers = answers;
         this.view = view;
         this.timeout = timeout;
@@ -59,11 +59,11 @@ public final class CommandClient implements AutoCloseable {
      *
      * @throws ProblemException where answers are not heard yet, the id was given to another request, or too many wait already
      */
-    public CompletionStage<CommandResult> ask(CommandRequest question, Caller caller) {
+    public CompletionStage<CommandResult> request(CommandRequest question, RequestContext caller) {
         if (!view.isComplete()) {
             throw ProblemException.notReady();
         }
-        byte[] value = value(request(question, caller));
+        byte[] value = value(message(question, caller));
         PendingReplies.Key key = new PendingReplies.Key(question.topic(), caller.requestId());
         PendingReplies.Awaited mine =
                 new PendingReplies.Awaited(RequestFingerprint.of(value), new CompletableFuture<>());
@@ -86,7 +86,7 @@ public final class CommandClient implements AutoCloseable {
             if (answers.awaited() > MAX_AWAITED) {
                 throw ProblemException.overloaded();
             }
-            answers.known(key, mine.fingerprint())
+            answers.find(key, mine.fingerprint())
                     .ifPresentOrElse(
                             future::complete,
                             () -> sender.send(
@@ -102,7 +102,7 @@ public final class CommandClient implements AutoCloseable {
         }
     }
 
-    private static ObjectNode request(CommandRequest question, Caller caller) {
+    private static ObjectNode message(CommandRequest question, RequestContext caller) {
         ObjectNode request = question.members().deepCopy();
         return request.put("type", "request")
                 .put("requestId", caller.requestId())
@@ -123,7 +123,7 @@ public final class CommandClient implements AutoCloseable {
         return value;
     }
 
-    private CommandResult heard(CommandResult answer, Throwable failure, Caller caller) {
+    private CommandResult heard(CommandResult answer, Throwable failure, RequestContext caller) {
         if (failure == null) {
             return answer;
         }
@@ -142,7 +142,7 @@ public final class CommandClient implements AutoCloseable {
                 503,
                 "not-answered",
                 "%s; the request may still be carried out. Repeat it with the header %s: %s, which has one effect"
-                        .formatted(why, Caller.KEY, caller.requestId()));
+                        .formatted(why, RequestContext.KEY, caller.requestId()));
     }
 
     /** Puts what no manager knows of on the audit topic. */

@@ -30,8 +30,8 @@ public final class DeviceName {
     }
 
     /** Whether no other type is asked for; robots of FIROS write theirs in upper case. */
-    public boolean isOfType(String known) {
-        return type == null || known.isEmpty() || type.equalsIgnoreCase(known);
+    public boolean isOfType(String existing) {
+        return type == null || existing.isEmpty() || type.equalsIgnoreCase(existing);
     }
 
     /**

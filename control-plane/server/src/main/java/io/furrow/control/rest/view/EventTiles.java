@@ -113,13 +113,13 @@ public final class EventTiles implements AutoCloseable {
      */
     CompletableFuture<Counted> count(Tile tile, long last) {
         synchronized (cached) {
-            Counted known = cached.get(tile);
-            if (known != null && isFresh(tile, known, last)) {
-                return CompletableFuture.completedFuture(known);
+            Counted existing = cached.get(tile);
+            if (existing != null && isFresh(tile, existing, last)) {
+                return CompletableFuture.completedFuture(existing);
             }
-            CompletableFuture<Counted> asked = waiting.get(tile);
-            if (asked != null) {
-                return asked;
+            CompletableFuture<Counted> requested = waiting.get(tile);
+            if (requested != null) {
+                return requested;
             }
             CompletableFuture<Counted> answer = new CompletableFuture<>();
             try {
@@ -132,9 +132,9 @@ public final class EventTiles implements AutoCloseable {
         }
     }
 
-    private boolean isFresh(Tile tile, Counted known, long last) {
-        boolean complete = known.last() == last || tile.to() <= known.last() - LATENESS_MS;
-        return complete && clock.millis() - known.at() < FRESH_MS;
+    private boolean isFresh(Tile tile, Counted existing, long last) {
+        boolean complete = existing.last() == last || tile.to() <= existing.last() - LATENESS_MS;
+        return complete && clock.millis() - existing.at() < FRESH_MS;
     }
 
     private void count(Tile tile, long last, CompletableFuture<Counted> answer) {

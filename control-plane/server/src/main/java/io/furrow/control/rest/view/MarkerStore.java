@@ -25,7 +25,7 @@ public final class MarkerStore implements AutoCloseable {
 
     private final ReplaySettings settings;
     private final Executor answering;
-    private final ThreadPoolExecutor asking =
+    private final ThreadPoolExecutor executor =
             new ThreadPoolExecutor(1, 1, 0, TimeUnit.SECONDS, new ArrayBlockingQueue<>(MAX_WAITING), task -> {
                 Thread thread = new Thread(task, "control-plane-markers");
                 thread.setDaemon(true);
@@ -35,8 +35,8 @@ public final class MarkerStore implements AutoCloseable {
     private Markers markers;
 
     /** What is asked. @param <T> the answer */
-    public interface Question<T> {
-        T ask(Markers markers) throws RefusedMarkerException, RecordingException;
+    public interface Query<T> {
+        T request(Markers markers) throws RefusedMarkerException, RecordingException;
     }
 
     /** @param answering answers are forwarded by it */
@@ -50,26 +50,26 @@ public final class MarkerStore implements AutoCloseable {
      *
      * @throws ProblemException if there is no MongoDB, or too much waits already
      */
-    public <T> CompletionStage<T> ask(Question<T> question) {
+    public <T> CompletionStage<T> request(Query<T> question) {
         if (settings.mongo() == null) {
             throw new ProblemException(
                     501, "no-mongodb", "this control plane was started without --mongo, where markers are kept");
         }
         CompletableFuture<T> answer = new CompletableFuture<>();
         try {
-            asking.execute(() -> ask(question, answer));
+            executor.execute(() -> request(question, answer));
         } catch (RejectedExecutionException e) {
             throw ProblemException.overloaded();
         }
         return answer.whenCompleteAsync((given, failure) -> {}, answering);
     }
 
-    private <T> void ask(Question<T> question, CompletableFuture<T> answer) {
+    private <T> void request(Query<T> question, CompletableFuture<T> answer) {
         try {
             if (markers == null) {
                 markers = Markers.open(settings.mongo(), settings.database());
             }
-            answer.complete(question.ask(markers));
+            answer.complete(question.request(markers));
         } catch (RefusedMarkerException e) {
             answer.completeExceptionally(new ProblemException(ErrorCode.WRONG_MEMBER, e.getMessage()));
         } catch (RecordingException e) {
@@ -82,7 +82,7 @@ public final class MarkerStore implements AutoCloseable {
     @Override
     public void close() {
         try {
-            asking.execute(() -> {
+            executor.execute(() -> {
                 if (markers != null) {
                     markers.close();
                 }
@@ -90,6 +90,6 @@ public final class MarkerStore implements AutoCloseable {
         } catch (RejectedExecutionException e) {
             LOG.debug("Too much is asked of MongoDB to take leave of it", e);
         }
-        asking.shutdown();
+        executor.shutdown();
     }
 }

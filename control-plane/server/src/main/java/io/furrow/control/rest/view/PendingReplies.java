@@ -69,20 +69,20 @@ public final class PendingReplies {
      *
      * @throws ProblemException where it was given to a request of another fingerprint
      */
-    Optional<CommandResult> known(Key key, String fingerprint) {
-        Remembered known;
+    Optional<CommandResult> find(Key key, String fingerprint) {
+        Remembered find;
         Map<Key, Remembered> newest = newest(key);
         synchronized (newest) {
-            known = newest.get(key);
+            find = newest.get(key);
         }
-        if (known == null) {
+        if (find == null) {
             return Optional.empty();
         }
-        if (known.fingerprint() != null && !known.fingerprint().equals(fingerprint)) {
+        if (find.fingerprint() != null && !find.fingerprint().equals(fingerprint)) {
             throw ProblemException.keyReused();
         }
         try {
-            return Optional.of(CommandResult.read(known.answer()));
+            return Optional.of(CommandResult.read(find.answer()));
         } catch (UnreadableException e) {
             throw new IllegalStateException("a stored reply cannot be read", e);
         }

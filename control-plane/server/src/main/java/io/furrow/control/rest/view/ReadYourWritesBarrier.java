@@ -18,9 +18,9 @@ import io.furrow.model.control.CommandResult;
 /** Holds answers until the view has come as far as the topics were when they were read, so that it shows what they report. */
 final class ReadYourWritesBarrier {
     private final PendingReplies answers;
-    private final Queue<Held> held = new ArrayDeque<>();
+    private final Queue<HeldResponse> held = new ArrayDeque<>();
 
-    private record Held(
+    private record HeldResponse(
             Map<PendingReplies.Key, CommandResult> answers,
             KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> ends) {}
 
@@ -32,7 +32,7 @@ final class ReadYourWritesBarrier {
     void hold(
             Map<PendingReplies.Key, CommandResult> fresh,
             KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> ends) {
-        held.add(new Held(fresh, ends));
+        held.add(new HeldResponse(fresh, ends));
     }
 
     boolean isEmpty() {
@@ -46,12 +46,12 @@ final class ReadYourWritesBarrier {
      * @throws KafkaException where the ends could not be had
      */
     void release(ToLongFunction<TopicPartition> position) {
-        while (!held.isEmpty() && isSeen(held.peek(), position)) {
+        while (!held.isEmpty() && isVisible(held.peek(), position)) {
             held.remove().answers().forEach(answers::release);
         }
     }
 
-    private static boolean isSeen(Held one, ToLongFunction<TopicPartition> position) {
+    private static boolean isVisible(HeldResponse one, ToLongFunction<TopicPartition> position) {
         if (!one.ends().isDone()) {
             return false;
         }

@@ -20,7 +20,7 @@ import io.furrow.model.ngsi.NgsiJson;
 final class ReplayFeed {
     private static final byte[] HEARTBEAT = ":\n\n".getBytes(StandardCharsets.UTF_8);
 
-    private final ReplayView replays;
+    private final ReplayStatusView replays;
     /** Null for all replays. */
     private final String only;
 
@@ -37,7 +37,7 @@ final class ReplayFeed {
     }
 
     /** @param only null for all replays */
-    ReplayFeed(ReplayView replays, String only) {
+    ReplayFeed(ReplayStatusView replays, String only) {
         this.replays = replays;
         this.only = only;
     }

@@ -17,17 +17,17 @@ import io.furrow.control.rest.access.ProblemException;
 import io.furrow.model.topic.Topics;
 
 /** The clients that follow replays, each with a thread of its own that writes to it; at most {@value #MAX_FEEDS}. */
-public final class ReplayFeeds implements ServiceView.Listener, AutoCloseable {
+public final class ReplayFeeds implements StateView.Listener, AutoCloseable {
     static final int MAX_FEEDS = 100;
 
     private static final Logger LOG = LoggerFactory.getLogger(ReplayFeeds.class);
     private static final Duration HEARTBEAT = Duration.ofSeconds(15);
 
-    private final ReplayView replays;
+    private final ReplayStatusView replays;
     private final Set<ReplayFeed> feeds = ConcurrentHashMap.newKeySet();
     private final Semaphore free = new Semaphore(MAX_FEEDS);
 
-    public ReplayFeeds(ReplayView replays) {
+    public ReplayFeeds(ReplayStatusView replays) {
         this.replays = replays;
     }
 

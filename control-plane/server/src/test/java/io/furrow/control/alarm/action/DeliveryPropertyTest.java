@@ -15,10 +15,10 @@ import org.junit.jupiter.api.TestReporter;
 
 import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.AlarmCommandHandler;
-import io.furrow.control.alarm.AlarmHandlers;
+import io.furrow.control.alarm.AlarmHandlerFixture;
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.alarm.Cause;
-import io.furrow.control.manager.KeptOutbox;
+import io.furrow.control.manager.CapturingPublisher;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
@@ -47,24 +47,24 @@ class DeliveryPropertyTest {
 
     private static final class Walk {
         private final Random random;
-        private final String said;
-        private final KeptOutbox outbox = new KeptOutbox();
-        private final AlarmCommandHandler handler = AlarmHandlers.writingTo(outbox);
-        private final Map<String, Delivered> stored = new HashMap<>();
+        private final String label;
+        private final CapturingPublisher publisher = new CapturingPublisher();
+        private final AlarmCommandHandler handler = AlarmHandlerFixture.writingTo(publisher);
+        private final Map<String, DeliveryState> stored = new HashMap<>();
         /** What the webhook took, the newest of each alarm. */
         private final Map<String, Alarm> received = new HashMap<>();
 
         private final Map<String, String> deliveries = new HashMap<>();
-        private final List<DeliveryQueue.Post> underWay = new ArrayList<>();
+        private final List<DeliveryQueue.Post> inFlight = new ArrayList<>();
         private DeliveryQueue queue;
         private long now = 1_700_000_000_000L;
         private final long begun = now;
         private int shown;
-        private boolean away;
+        private boolean unavailable;
 
-        Walk(Random random, String said) {
+        Walk(Random random, String label) {
             this.random = random;
-            this.said = said;
+            this.label = label;
             this.queue = queue();
         }
 
@@ -75,7 +75,7 @@ class DeliveryPropertyTest {
                 show();
                 post();
             }
-            away = false;
+            unavailable = false;
             for (int i = 0; i < 200; i++) {
                 now += 10_000;
                 handler.passTime(now);
@@ -91,8 +91,8 @@ class DeliveryPropertyTest {
                 case 0, 1, 2 -> handler.raise(new Cause(kind(), subject(), "x", List.of(), null), now);
                 case 3, 4 -> handler.end(kind(), subject(), "over", now);
                 case 5 -> many();
-                case 6 -> ask();
-                case 7 -> away = random.nextBoolean();
+                case 6 -> request();
+                case 7 -> unavailable = random.nextBoolean();
                 case 8 -> restart();
                 default -> handler.passTime(now);
             }
@@ -114,7 +114,7 @@ class DeliveryPropertyTest {
             handler.endOthers(java.util.Set.of(AlarmKind.SILENT_FARM, AlarmKind.SILENT_DEVICE), causes, "over", now);
         }
 
-        private void ask() {
+        private void request() {
             try {
                 AlarmCommand.Target target = new AlarmCommand.OfKind(kind(), null);
                 String alarm = kind().code() + "-" + (1 + random.nextInt(60));
@@ -127,31 +127,32 @@ class DeliveryPropertyTest {
                         },
                         now);
             } catch (RefusedException e) { // then nothing has changed
-                assertThat(e.code()).as(said).isNotNull();
+                assertThat(e.code()).as(label).isNotNull();
             }
         }
 
         /** What is under way may have been taken or not; the topics are read again, compacted. */
         private void restart() {
-            for (DeliveryQueue.Post post : underWay) {
+            for (DeliveryQueue.Post post : inFlight) {
                 if (random.nextBoolean()) {
                     receive(post);
                 }
             }
-            underWay.clear();
+            inFlight.clear();
             queue = queue();
             stored.forEach(queue::restore);
-            outbox.compacted(Topics.ALARMS)
+            publisher
+                    .compacted(Topics.ALARMS)
                     .values()
                     .forEach(json -> queue.take(StateJson.read(json, Alarm.class), now));
-            shown = outbox.all().size();
+            shown = publisher.all().size();
             queue.forgetMissing().forEach(this::store);
         }
 
         private void show() {
-            List<KeptOutbox.Written> all = outbox.all();
+            List<CapturingPublisher.Written> all = publisher.all();
             for (; shown < all.size(); shown++) {
-                KeptOutbox.Written written = all.get(shown);
+                CapturingPublisher.Written written = all.get(shown);
                 if (written.value() == null) {
                     queue.remove(written.key()).ifPresent(this::store);
                 } else {
@@ -164,17 +165,17 @@ class DeliveryPropertyTest {
             for (int i = 0; i < 20; i++) {
                 for (Optional<DeliveryQueue.Post> next = queue.next(now); next.isPresent(); next = queue.next(now)) {
                     DeliveryQueue.Post post = next.get();
-                    underWay.add(post);
+                    inFlight.add(post);
                     Optional.ofNullable(post.attempt()).ifPresent(this::store);
                 }
-                assertThat(underWay.size()).as(said).isLessThanOrEqualTo(DeliveryQueue.MAX_UNDER_WAY);
-                assertThat(underWay)
-                        .as(said)
+                assertThat(inFlight.size()).as(label).isLessThanOrEqualTo(DeliveryQueue.MAX_IN_FLIGHT);
+                assertThat(inFlight)
+                        .as(label)
                         .extracting(post -> post.alarm().alarm())
                         .doesNotHaveDuplicates();
-                if (!underWay.isEmpty() && random.nextInt(4) > 0) {
-                    DeliveryQueue.Post post = underWay.remove(random.nextInt(underWay.size()));
-                    if (away) {
+                if (!inFlight.isEmpty() && random.nextInt(4) > 0) {
+                    DeliveryQueue.Post post = inFlight.remove(random.nextInt(inFlight.size()));
+                    if (unavailable) {
                         queue.completed(post, Webhook.Answer.failed("503"), now).ifPresent(this::store);
                     } else {
                         receive(post);
@@ -188,30 +189,30 @@ class DeliveryPropertyTest {
         private void receive(DeliveryQueue.Post post) {
             String body = new String(post.alarm().toBytes(), java.nio.charset.StandardCharsets.UTF_8);
             assertThat(deliveries.merge(post.id(), body, (before, after) -> before))
-                    .as(said + "one id, one content")
+                    .as(label + "one id, one content")
                     .isEqualTo(body);
             Alarm before = received.put(post.alarm().alarm(), post.alarm());
             assertThat(before == null || before.sequence() <= post.alarm().sequence())
-                    .as(said + "nothing older after what is newer")
+                    .as(label + "nothing older after what is newer")
                     .isTrue();
         }
 
         private void check() {
-            outbox.compacted(Topics.ALARMS).values().forEach(json -> {
+            publisher.compacted(Topics.ALARMS).values().forEach(json -> {
                 Alarm alarm = StateJson.read(json, Alarm.class);
-                Alarm known = received.get(alarm.alarm());
+                Alarm existing = received.get(alarm.alarm());
                 boolean suppressed = alarm.isMuted(now) || alarm.inhibitedBy() != null;
                 if (alarm.state() == AlarmState.CLOSED) {
-                    boolean closedUnheard = known == null && (suppressed || alarm.mutedUntil() != null);
-                    assertThat(closedUnheard || known != null && known.state() == AlarmState.CLOSED)
-                            .as(said + alarm)
+                    boolean closedUnheard = existing == null && (suppressed || alarm.mutedUntil() != null);
+                    assertThat(closedUnheard || existing != null && existing.state() == AlarmState.CLOSED)
+                            .as(label + alarm)
                             .isTrue();
                 } else if (!suppressed) {
-                    assertThat(known).as(said + alarm).isNotNull();
-                    assertThat(known.sequence()).as(said + alarm).isEqualTo(alarm.sequence());
+                    assertThat(existing).as(label + alarm).isNotNull();
+                    assertThat(existing.sequence()).as(label + alarm).isEqualTo(alarm.sequence());
                 }
             });
-            assertThat(queue.waiting()).as(said).isZero();
+            assertThat(queue.waiting()).as(label).isZero();
         }
 
         private void store(DeliveryQueue.Update update) {

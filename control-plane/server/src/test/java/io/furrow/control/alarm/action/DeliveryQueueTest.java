@@ -25,7 +25,7 @@ class DeliveryQueueTest {
     private static final Webhook.Answer REFUSED = new Webhook.Answer(Webhook.Outcome.REFUSED, "410", null);
     private static final Webhook.Answer FAILED = Webhook.Answer.failed("503");
 
-    private final Map<String, Delivered> stored = new HashMap<>();
+    private final Map<String, DeliveryState> stored = new HashMap<>();
     private DeliveryQueue queue = new DeliveryQueue(SETTINGS, NOW, new Random(7));
     private long now = NOW;
     private long sequence;
@@ -43,7 +43,7 @@ class DeliveryQueueTest {
         for (int i = 0; i < 10; i++) {
             take(AlarmKind.COLLISION);
         }
-        assertThat(all()).hasSize(DeliveryQueue.MAX_UNDER_WAY);
+        assertThat(all()).hasSize(DeliveryQueue.MAX_IN_FLIGHT);
         assertThat(queue.waiting()).isEqualTo(6);
     }
 
@@ -81,7 +81,7 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void losesNothingWhileTheWebhookIsAwayForAnHour() {
+    void losesNothingWhileTheWebhookIsUnavailableForAnHour() {
         Alarm open = take(AlarmKind.SILENT_MISSION);
         Alarm passing = take(AlarmKind.COLLISION);
         long end = now + Duration.ofHours(1).toMillis();
@@ -124,7 +124,7 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void postsNothingBeforeTheTimeThatTheWebhookAskedFor() {
+    void postsNothingBeforeTheTimeThatTheWebhookRequested() {
         take(AlarmKind.COLLISION);
         complete(all().get(0), new Webhook.Answer(Webhook.Outcome.FAILED, "429", Duration.ofMinutes(10)));
         take(AlarmKind.COLLISION);
@@ -163,7 +163,7 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void repeatsWhatIsOpenUnderAnotherIdAndNotWhatSomebodyLooksAt() {
+    void repeatsWhatIsOpenUnderAnotherIdAndNotWhatSomebodyAcknowledged() {
         Alarm open = take(AlarmKind.COLLISION);
         Alarm seen = take(AlarmKind.COLLISION);
         queue.take(seen.become(AlarmState.ACKNOWLEDGED, "ann", null, now).numbered(++sequence), now);
@@ -207,7 +207,7 @@ class DeliveryQueueTest {
     }
 
     @Test
-    void tellsOfTheEndOfWhatWasToldThoughItIsInhibitedOrMutedNow() {
+    void reportsTheEndOfWhatWasReportedThoughItIsInhibitedOrMutedNow() {
         Alarm alarm = take(AlarmKind.COLLISION);
         complete(all().get(0), TAKEN);
         Alarm muted = alarm.muted(now + 100_000, now).numbered(++sequence);
@@ -251,20 +251,20 @@ class DeliveryQueueTest {
 
     @Test
     void forgetsWhatIsGone() {
-        Alarm known = take(AlarmKind.COLLISION);
+        Alarm existing = take(AlarmKind.COLLISION);
         complete(all().get(0), TAKEN);
-        assertThat(queue.remove(known.alarm())).contains(new DeliveryQueue.Update(known.alarm(), null));
+        assertThat(queue.remove(existing.alarm())).contains(new DeliveryQueue.Update(existing.alarm(), null));
         Alarm unposted = take(AlarmKind.COLLISION);
         assertThat(queue.isWaiting(unposted.alarm())).isTrue();
         assertThat(queue.remove(unposted.alarm())).isEmpty();
         assertThat(all()).isEmpty();
-        Alarm underWay = take(AlarmKind.COLLISION);
+        Alarm inFlight = take(AlarmKind.COLLISION);
         DeliveryQueue.Post post = all().get(0);
-        assertThat(queue.remove(underWay.alarm())).isEmpty();
-        assertThat(queue.completed(post, TAKEN, now)).contains(new DeliveryQueue.Update(underWay.alarm(), null));
-        assertThat(queue.underWay()).isZero();
+        assertThat(queue.remove(inFlight.alarm())).isEmpty();
+        assertThat(queue.completed(post, TAKEN, now)).contains(new DeliveryQueue.Update(inFlight.alarm(), null));
+        assertThat(queue.inFlight()).isZero();
 
-        queue.restore("nosuch", new Delivered(1, AlarmState.OPEN, now, 0, false));
+        queue.restore("nosuch", new DeliveryState(1, AlarmState.OPEN, now, 0, false));
         assertThat(queue.forgetMissing()).containsExactly(new DeliveryQueue.Update("nosuch", null));
         assertThat(queue.forgetMissing()).isEmpty();
     }

@@ -13,7 +13,7 @@ import java.util.concurrent.RejectedExecutionException;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.alarm.watch.Encounter;
+import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CommandSender;
 import io.furrow.model.event.FiwareScope;
@@ -51,11 +51,11 @@ class StopRobotsTest {
     void stopsTheRobotThatARecordNamesWhereAnotherEntityHasItsId() {
         FiwareScope scope = new FiwareScope("farm", "/");
         robots.take(
-                new Encounter(
+                new EncounterReport(
                         "e-1",
                         "predicted",
-                        new Encounter.Member("cam", "m", "ROBOT"),
-                        new Encounter.Member("r1", "", "Camera"),
+                        new EncounterReport.Member("cam", "m", "ROBOT"),
+                        new EncounterReport.Member("r1", "", "Camera"),
                         12,
                         0.5,
                         scope),
@@ -64,7 +64,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void triesAgainAndSaysWhatBecameOfIt() {
+    void triesAgainAndReportsWhatBecameOfIt() {
         failing = StopRobots.ATTEMPTS - 1;
         robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
         assertThat(sent).hasSize(StopRobots.ATTEMPTS);
@@ -77,7 +77,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void stopsNobodyForAnOldPredictionAndSaysSoOnce() {
+    void stopsNobodyForAnOldPredictionAndReportsSoOnce() {
         long old = NOW - StopRobots.FRESH.toMillis() - 1;
         robots.take(encounter("e-1", "predicted", "r1", "cam"), old);
         robots.take(encounter("e-1", "predicted", "r1", "cam"), old);
@@ -116,7 +116,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void saysThatItCouldNotStopWhatItDoesNotKnowAndDoesOnceItDoes() {
+    void reportsThatItCouldNotStopWhatItHasNotReadAndDoesOnceItDoes() {
         robots.take(encounter("e-1", "predicted", "r2", "cam"), NOW);
         robots.take(encounter("e-1", "predicted", "r2", "cam"), NOW);
         assertThat(sent).isEmpty();
@@ -128,7 +128,7 @@ class StopRobotsTest {
     }
 
     @Test
-    void saysThatMoreRobotsWaitThanMay() {
+    void reportsThatMoreRobotsWaitThanMay() {
         executor = task -> {
             throw new RejectedExecutionException("full");
         };
@@ -205,12 +205,12 @@ class StopRobotsTest {
         });
     }
 
-    private static Encounter encounter(String id, String phase, String first, String second) {
-        return new Encounter(
+    private static EncounterReport encounter(String id, String phase, String first, String second) {
+        return new EncounterReport(
                 id,
                 phase,
-                new Encounter.Member(first, "m", ""),
-                new Encounter.Member(second, "", ""),
+                new EncounterReport.Member(first, "m", ""),
+                new EncounterReport.Member(second, "", ""),
                 12,
                 0.5,
                 new FiwareScope("farm", "/"));

@@ -49,7 +49,7 @@ class WebhookSecretTest {
                 "too short",
                 "a secret of some length\nanother of some length\na third of some length"
             })
-    void refusesAFileWithoutASecret(String content) {
+    void rejectsAFileWithoutASecret(String content) {
         assertThatThrownBy(() -> secret(content))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("holds no secret for the webhook")

@@ -122,7 +122,7 @@ class WebhookTest {
         "404, FAILED", "408, FAILED", "410, FAILED", "422, REFUSED", "425, FAILED", "429, FAILED", "500, FAILED",
                 "503, FAILED"
     })
-    void tellsWhatMayBeTakenLaterFromWhatNeverWill(int answered, Webhook.Outcome outcome) throws Exception {
+    void distinguishesTemporaryFromPermanentRejections(int answered, Webhook.Outcome outcome) throws Exception {
         status = answered;
         assertThat(post(settings()).outcome()).isEqualTo(outcome);
         assertThat(posted).as("redirects are not followed").hasSize(1);
@@ -154,7 +154,7 @@ class WebhookTest {
     }
 
     @Test
-    void saysThatNobodyListens() throws Exception {
+    void reportsThatNobodyListens() throws Exception {
         Webhook.Settings settings = settings();
         server.stop(0);
         assertThat(post(settings))
@@ -164,7 +164,7 @@ class WebhookTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"hooks.example.com/x", "localhost:8080/x", "ftp://a/x", "http:/x", "/x"})
-    void refusesAUrlThatCannotBePostedTo(String url) {
+    void rejectsAUrlThatCannotBePostedTo(String url) {
         assertThatThrownBy(() -> Webhook.Settings.of(URI.create(url)))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContaining(url);

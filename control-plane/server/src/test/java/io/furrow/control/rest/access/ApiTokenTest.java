@@ -51,7 +51,7 @@ class ApiTokenTest {
     }
 
     @Test
-    void letsALineSayThatItsTokenSpeaksForUsers() throws Exception {
+    void letsALineDeclareThatItsTokenSpeaksForUsers() throws Exception {
         List<ApiToken> tokens = ApiToken.read(file("""
                 dashboard a-token-of-sixteen-signs operator for-users
                 ann another-token-of-signs admin
@@ -63,7 +63,7 @@ class ApiTokenTest {
     }
 
     @Test
-    void saysWhichFileIsMissing() {
+    void reportsWhichFileIsMissing() {
         assertThatThrownBy(() -> ApiToken.read(directory.resolve("missing")))
                 .isInstanceOf(IOException.class)
                 .hasMessageContainingAll("the file of tokens", "missing", "cannot be read");

@@ -39,19 +39,19 @@ class EventTilesTest {
 
     /** Counts one event in each bucket. */
     private static final class Counter implements EventTiles.Counter {
-        final List<Long> asked = new CopyOnWriteArrayList<>();
+        final List<Long> requested = new CopyOnWriteArrayList<>();
         volatile CountDownLatch open = new CountDownLatch(0);
-        volatile boolean away;
+        volatile boolean unavailable;
 
         @Override
         public Optional<long[]> count(String mission, long from, long width, int buckets) throws RecordingException {
-            asked.add(from);
+            requested.add(from);
             try {
                 open.await();
             } catch (InterruptedException e) {
                 Thread.currentThread().interrupt();
             }
-            if (away) {
+            if (unavailable) {
                 throw new RecordingException("away", null);
             }
             long[] counts = new long[buckets];
@@ -96,7 +96,7 @@ class EventTilesTest {
     }
 
     @Test
-    void countsATileOnceForAllWhoAsk() throws Exception {
+    void countsATileOnceForAllWhoRequest() throws Exception {
         counter.open = new CountDownLatch(1);
         CompletableFuture<EventTiles.Counted> one = tiles.count(FIRST, HOUR);
         CompletableFuture<EventTiles.Counted> other = tiles.count(FIRST, HOUR);
@@ -105,7 +105,7 @@ class EventTilesTest {
 
         assertThat(other.get(10, TimeUnit.SECONDS).counts()).hasSize(EventTiles.BUCKETS);
         count(FIRST, HOUR);
-        assertThat(counter.asked).containsExactly(0L);
+        assertThat(counter.requested).containsExactly(0L);
     }
 
     @Test
@@ -113,26 +113,26 @@ class EventTilesTest {
         long end = FIRST.to();
         count(FIRST, end - 1);
         count(FIRST, end + 1);
-        assertThat(counter.asked).as("the newest event was in the tile").hasSize(2);
+        assertThat(counter.requested).as("the newest event was in the tile").hasSize(2);
 
         count(FIRST, end + 60_000);
-        assertThat(counter.asked).as("a late one may have come since").hasSize(3);
+        assertThat(counter.requested).as("a late one may have come since").hasSize(3);
         count(FIRST, end + 120_000);
-        assertThat(counter.asked).as("nothing comes that late").hasSize(3);
+        assertThat(counter.requested).as("nothing comes that late").hasSize(3);
 
         clock.millis += 600_000;
         count(FIRST, end + 120_000);
-        assertThat(counter.asked).as("what is older than ten minutes").hasSize(4);
+        assertThat(counter.requested).as("what is older than ten minutes").hasSize(4);
     }
 
     @Test
     void remembersNoFailure() throws Exception {
-        counter.away = true;
+        counter.unavailable = true;
         assertThatThrownBy(() -> count(FIRST, HOUR))
                 .isInstanceOf(ExecutionException.class)
                 .hasCauseInstanceOf(ProblemException.class)
                 .hasMessageContaining("away");
-        counter.away = false;
+        counter.unavailable = false;
         count(FIRST, HOUR);
 
         EventTiles.Tile unknown = new EventTiles.Tile("other", 1000, 0);
@@ -140,7 +140,7 @@ class EventTilesTest {
     }
 
     @Test
-    void answersWithWhatIsCountedAndWithTheRestWhenAskedAgain() throws Exception {
+    void answersWithWhatIsCountedAndWithTheRestWhenRequestedAgain() throws Exception {
         counter.open = new CountDownLatch(1);
         JsonNode first = timeline(0, HOUR, 500);
         assertThat(first.path("complete").asBoolean()).isFalse();
@@ -155,7 +155,7 @@ class EventTilesTest {
         assertThat(second.path("counts"))
                 .hasSize(360)
                 .allSatisfy(count -> assertThat(count.asLong()).isEqualTo(1));
-        assertThat(counter.asked).containsExactly(0L, 2_560_000L);
+        assertThat(counter.requested).containsExactly(0L, 2_560_000L);
     }
 
     @Test

@@ -17,9 +17,9 @@ class PendingRepliesTest {
             answer(Topics.MISSION_MANAGER, "mission-" + i);
         }
 
-        assertThat(isKnown(Topics.ALARM_MANAGER, "alarm-1")).isTrue();
-        assertThat(isKnown(Topics.MISSION_MANAGER, "mission-0")).isFalse();
-        assertThat(isKnown(Topics.MISSION_MANAGER, "mission-1")).isTrue();
+        assertThat(isRemembered(Topics.ALARM_MANAGER, "alarm-1")).isTrue();
+        assertThat(isRemembered(Topics.MISSION_MANAGER, "mission-0")).isFalse();
+        assertThat(isRemembered(Topics.MISSION_MANAGER, "mission-1")).isTrue();
     }
 
     private void answer(String topic, String id) {
@@ -27,7 +27,7 @@ class PendingRepliesTest {
         answers.remember(new PendingReplies.Key(topic, id), "f", answer.toBytes(), answer);
     }
 
-    private boolean isKnown(String topic, String id) {
-        return answers.known(new PendingReplies.Key(topic, id), "f").isPresent();
+    private boolean isRemembered(String topic, String id) {
+        return answers.find(new PendingReplies.Key(topic, id), "f").isPresent();
     }
 }

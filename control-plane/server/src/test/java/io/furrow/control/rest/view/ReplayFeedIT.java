@@ -118,7 +118,7 @@ class ReplayFeedIT {
 
     /** A stream without a body would keep its place forever. */
     @Test
-    void givesNoPlaceToWhoeverAsksForHeadersOnly() throws Exception {
+    void givesNoPlaceToWhoeverRequestsHeadersOnly() throws Exception {
         for (int i = 0; i < 110; i++) {
             HttpRequest head = HttpRequest.newBuilder(URI.create(running.api().uri() + "/api/replays/events"))
                     .method("HEAD", HttpRequest.BodyPublishers.noBody())

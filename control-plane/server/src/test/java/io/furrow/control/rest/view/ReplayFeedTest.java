@@ -22,8 +22,8 @@ import static org.awaitility.Awaitility.await;
 class ReplayFeedTest {
     private static final Duration LONG = Duration.ofHours(1);
 
-    private final ServiceView view = new ServiceView();
-    private final ReplayView replays = new ReplayView(view);
+    private final StateView view = new StateView();
+    private final ReplayStatusView replays = new ReplayStatusView(view);
     private final List<Thread> threads = new CopyOnWriteArrayList<>();
 
     @BeforeEach
@@ -48,7 +48,7 @@ class ReplayFeedTest {
 
     private ReplayFeed feed(String only) {
         ReplayFeed feed = new ReplayFeed(replays, only);
-        view.listen(new ServiceView.Listener() {
+        view.listen(new StateView.Listener() {
             @Override
             public void changed(String topic, String key) {
                 feed.changed(key);

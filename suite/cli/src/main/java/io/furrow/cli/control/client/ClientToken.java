@@ -41,9 +41,9 @@ final class ClientToken {
                     "%s %s cannot be read; name a file whose first line is the token".formatted(origin, file), e);
         }
         for (String line : lines) {
-            String[] words = line.strip().split("\\s+");
-            if (!words[0].isEmpty() && !words[0].startsWith("#")) {
-                return words.length == 1 ? words[0] : words[1];
+            String[] arguments = line.strip().split("\\s+");
+            if (!arguments[0].isEmpty() && !arguments[0].startsWith("#")) {
+                return arguments.length == 1 ? arguments[0] : arguments[1];
             }
         }
         throw new IOException(

@@ -83,10 +83,10 @@ public final class ControlApi {
     }
 
     private byte[] answer(HttpRequest request) {
-        HttpResponse<byte[]> answer = ask(request);
+        HttpResponse<byte[]> answer = request(request);
         for (int attempt = 1; answer.statusCode() == NOT_READY && attempt < ATTEMPTS; attempt++) {
             sleep(answer.headers().firstValue("Retry-After").orElse(""));
-            answer = ask(request);
+            answer = request(request);
         }
         if (answer.statusCode() / 100 == 2) {
             return answer.body();
@@ -150,7 +150,7 @@ public final class ControlApi {
         return request;
     }
 
-    private HttpResponse<byte[]> ask(HttpRequest request) {
+    private HttpResponse<byte[]> request(HttpRequest request) {
         try {
             return http.send(request, HttpResponse.BodyHandlers.ofByteArray());
         } catch (SSLException e) {

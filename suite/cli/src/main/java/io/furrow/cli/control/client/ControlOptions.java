@@ -20,7 +20,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.CredentialList;
-import io.furrow.cli.option.HttpUri;
+import io.furrow.cli.option.HttpUriConverter;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
@@ -39,7 +39,7 @@ public final class ControlOptions {
     @Option(
             names = "--api",
             paramLabel = "URL",
-            converter = HttpUri.class,
+            converter = HttpUriConverter.class,
             defaultValue = "${env:FURROW_API:-http://127.0.0.1:8085}",
             description = "REST API of the control plane. Default: $FURROW_API, else http://127.0.0.1:8085.")
     private URI api;
@@ -140,7 +140,7 @@ public final class ControlOptions {
     public int commandDone(String method, String path, String done) {
         return run(api -> {
             JsonNode answer = api.send(method, path, null);
-            answered(answer, done + ": " + said(answer));
+            answered(answer, done + ": " + message(answer));
         });
     }
 
@@ -151,7 +151,7 @@ public final class ControlOptions {
 
     /** Prints the answer to a command. */
     public void answered(JsonNode answer) throws IOException {
-        answered(answer, answer.path("status").asText("done") + ": " + said(answer));
+        answered(answer, answer.path("status").asText("done") + ": " + message(answer));
     }
 
     /** Prints the answer to a command. @param sentence what it did, for people */
@@ -163,7 +163,7 @@ public final class ControlOptions {
         }
     }
 
-    private static String said(JsonNode answer) {
+    private static String message(JsonNode answer) {
         return answer.properties().stream()
                 .filter(each -> !each.getKey().equals("type")
                         && !each.getKey().equals("status")

@@ -54,10 +54,10 @@ public final class DevicePage {
 
     private boolean isSilent() {
         boolean runs = device.path("wanted").asText().equals("running");
-        boolean heard = device.at("/health/heard").longValue()
+        boolean lastReport = device.at("/health/heard").longValue()
                 >= Math.max(1, device.path("from").longValue());
         boolean off = device.at("/health/off").booleanValue();
-        return runs && !off && (!heard || device.at("/health/silent").booleanValue());
+        return runs && !off && (!lastReport || device.at("/health/silent").booleanValue());
     }
 
     private void report(JsonNode report) {
@@ -74,7 +74,7 @@ public final class DevicePage {
                 offset.abs().compareTo(RIGHT) < 0
                         ? "its clock is right within " + RIGHT.toSeconds() + " s"
                         : "its clock is %s %s"
-                                .formatted(words(offset.abs()), offset.isNegative() ? "ahead" : "behind"));
+                                .formatted(arguments(offset.abs()), offset.isNegative() ? "ahead" : "behind"));
     }
 
     private void login() {
@@ -128,7 +128,7 @@ public final class DevicePage {
     }
 
     /** Its two greatest units, as {@code 2 h 0 min}. */
-    private static String words(Duration time) {
+    private static String arguments(Duration time) {
         if (time.toMinutes() == 0) {
             return time.toSeconds() + " s";
         } else if (time.toHours() == 0) {

@@ -42,7 +42,7 @@ class ClientTokenTest {
     }
 
     @Test
-    void saysWhereAFileIsMissingOrEmpty() throws IOException {
+    void reportsWhereAFileIsMissingOrEmpty() throws IOException {
         Path empty = file("# nothing\n");
 
         assertThatThrownBy(() -> ClientToken.find(empty, Map.of()))

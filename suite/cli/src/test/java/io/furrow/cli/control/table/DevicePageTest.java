@@ -13,7 +13,7 @@ class DevicePageTest {
     private static final Instant NOW = Instant.parse("2026-11-26T12:00:00Z");
 
     @Test
-    void saysFirstWhyADeviceIsSilentAndThenWhatIsKnownOfIt() throws Exception {
+    void reportsFirstWhyADeviceIsSilentAndThenWhatIsKnownOfIt() throws Exception {
         assertThat(page("""
                         {"id": "urn:t:1", "type": "Thermometer", "mission": "m", "domain": "d", "wanted": "running", "from": 5,
                          "status": {"sequence": 3, "state": "running"}, "health": {"heard": 1795687200000, "silent": true, "battery": 0.815},
@@ -40,14 +40,14 @@ class DevicePageTest {
     }
 
     @Test
-    void saysThatADeviceHasNotReportedYet() throws Exception {
+    void reportsThatADeviceHasNotReportedYet() throws Exception {
         assertThat(page("{'id':'urn:t:1','simulated':true,'wanted':'running','from':5}".replace('\'', '"')))
                 .startsWith("Silent:         it has not reported yet")
                 .contains("Type:           not known, simulated", "Last report:    none yet");
     }
 
     @Test
-    void saysNothingOfSilenceWhereADeviceReportsIsOffOrShallNotRun() throws Exception {
+    void reportsNothingOfSilenceWhereADeviceReportsIsOffOrShallNotRun() throws Exception {
         for (String device : List.of(
                 "{'wanted':'running','from':5,'health':{'heard':5,'silent':false}}",
                 "{'wanted':'running','from':5,'health':{'heard':5,'silent':true,'off':true}}",
@@ -57,7 +57,7 @@ class DevicePageTest {
     }
 
     @Test
-    void saysWhatAClockIsAhead() throws Exception {
+    void reportsWhatAClockIsAhead() throws Exception {
         assertThat(page("{\"connection\":{\"lastReport\":{\"time\":1,\"received\":1,\"offset\":-63000}}}"))
                 .contains("Clock:          its clock is 1 min 3 s ahead");
     }

@@ -12,7 +12,7 @@ class MissionPageTest {
     private static final Instant NOW = Instant.parse("2026-11-26T12:00:00Z");
 
     @Test
-    void saysHowAMissionIsAndWhichDevicesItMisses() throws Exception {
+    void reportsHowAMissionIsAndWhichDevicesItMisses() throws Exception {
         assertThat(MissionPage.of(NgsiJson.mapper().readTree("""
                         {"mission": "m", "domain": "d", "template": "t@2", "running": true, "start": 1795687200000, "created": 1795680000000,
                          "sequence": 3, "devices": ["urn:own:1", {"type": "Robot", "id": "urn:r:1", "carriedBy": "g"},

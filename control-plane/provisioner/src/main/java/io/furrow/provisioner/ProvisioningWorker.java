@@ -1,0 +1,288 @@
+package io.furrow.provisioner;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.Collection;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.Set;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.consumer.ConsumerRebalanceListener;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.ConsumerRecords;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.consumer.OffsetAndMetadata;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.Uuid;
+import org.apache.kafka.common.errors.InterruptException;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.kafka.CommittedReader;
+import io.furrow.model.control.Fault;
+import io.furrow.model.device.DesiredDevice;
+import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
+import io.furrow.model.topic.Topics;
+import io.furrow.provisioner.RemovalGuard.Retained;
+
+/**
+ * Provisions the devices of {@code service.devices} at the IoT Agent and at the MQTT brokers, and removes all others.
+ * Of several instances one is at work, another takes over when it dies; each begins with reading all that is requested,
+ * and with asking the agent what it has. Works in steps of a few seconds, between which it polls, so that a slow agent
+ * does not cost it the topic. An agent that is unavailable is tried again forever; a device that it refuses, or a new
+ * one that waits for it, is {@code failed} on {@code service.devices.status} with the reason.
+ */
+final class ProvisioningWorker implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(ProvisioningWorker.class);
+    /** Name of the group; never changed, or two would be at work during an update. */
+    private static final String GROUP = "furrow-provisioner";
+
+    private static final String TAKEN_OVER_AFTER_MS = "10000";
+    private static final Duration POLL_INTERVAL = Duration.ofMillis(500);
+    private static final Duration ADMIN_TIMEOUT = Duration.ofSeconds(15);
+    private static final Duration REPORT_INTERVAL = Duration.ofMinutes(1);
+
+    private final KafkaConsumer<String, byte[]> consumer;
+    private final KafkaProducer<String, byte[]> producer;
+    private final DesiredDeviceTable desired;
+    private final Properties client;
+    /** Its address. */
+    private final String agent;
+    /** Follows {@code service.missions.devices}; null while another instance is active. */
+    private CommittedReader<String> lists;
+
+    private final ProvisioningReconciler provisioning;
+    private final RetrySchedule retrySchedule;
+    private final FailureReporter failures;
+    private final ConnectionPublisher connections;
+    private final Map<TopicPartition, Long> unread = new HashMap<>();
+    private boolean active;
+    private String failure = "";
+    private Retained retained;
+    private long retainedReported;
+    private boolean reported;
+
+    ProvisioningWorker(ProvisioningSettings settings) {
+        this.desired = new DesiredDeviceTable(settings.scope());
+        this.provisioning = new ProvisioningReconciler(settings, desired, System::nanoTime);
+        this.retrySchedule =
+                new RetrySchedule(System::nanoTime, settings.agent().interval());
+        this.client = settings.client();
+        this.agent = settings.agent().base().toString();
+        this.consumer =
+                new KafkaConsumer<>(consumerSettings(client), new StringDeserializer(), new ByteArrayDeserializer());
+        this.producer = new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer());
+        this.failures = new FailureReporter(desired, producer);
+        this.connections = new ConnectionPublisher(settings, desired, producer, System::currentTimeMillis);
+        consumer.subscribe(List.of(Topics.DEVICES), new Assignment());
+    }
+
+    private static Properties consumerSettings(Properties client) {
+        Properties settings = new Properties();
+        settings.putAll(client);
+        settings.setProperty("group.id", GROUP);
+        settings.setProperty("isolation.level", "read_committed");
+        settings.setProperty("enable.auto.commit", "false");
+        settings.setProperty("auto.offset.reset", "earliest");
+        settings.setProperty("session.timeout.ms", TAKEN_OVER_AFTER_MS);
+        return settings;
+    }
+
+    /** Takes what is new and, where it is this one's turn, does some of what is to be done: some seconds at most. */
+    void next() throws InterruptedException {
+        take(consumer.poll(retrySchedule.pause(POLL_INTERVAL)));
+        if (active && readLists()) {
+            retrySchedule.hurry();
+        }
+        if (active && provisioning.isSecretChanged()) {
+            retrySchedule.hurry();
+        }
+        if (active && isCaughtUp()) {
+            if (retrySchedule.isDue()) {
+                step();
+            }
+            reportRetained();
+            connections.publish(provisioning.registered());
+        }
+    }
+
+    /** What it waits for, for people. */
+    String detail() {
+        return active ? failure : "standby";
+    }
+
+    @Override
+    public void close() {
+        consumer.close();
+        closeLists();
+        producer.close();
+    }
+
+    private void take(ConsumerRecords<String, byte[]> records) {
+        for (ConsumerRecord<String, byte[]> record : records) {
+            try {
+                desired.take(record.key(), record.value() == null ? null : DesiredDevice.read(record.value()));
+            } catch (UnreadableException e) {
+                LOG.warn("{}@{} is no wanted device and is passed over", record.topic(), record.offset(), e);
+            }
+        }
+        if (!records.isEmpty()) {
+            retrySchedule.hurry();
+        }
+    }
+
+    /** Processes what has arrived, without waiting. Returns whether anything has. */
+    private boolean readLists() {
+        ConsumerRecords<String, byte[]> records = lists.poll(Duration.ZERO);
+        records.forEach(record -> desired.takeList(record.key(), record.value()));
+        return !records.isEmpty();
+    }
+
+    private Map<String, DeviceConnection> publishedConnections() {
+        Map<String, DeviceConnection> published = new HashMap<>();
+        try (CommittedReader<String> reader = CommittedReader.openExisting(client, Topics.DEVICES_CONNECTION)) {
+            reader.readToEnd(record -> {
+                published.remove(record.key());
+                try {
+                    if (record.value() != null) {
+                        published.put(record.key(), DeviceConnection.read(record.value()));
+                    }
+                } catch (UnreadableException e) { // a later version wrote it; the device is observed anew
+                    LOG.debug("{}@{} is no connection of a device", record.topic(), record.offset(), e);
+                }
+            });
+        }
+        return published;
+    }
+
+    private void closeLists() {
+        if (lists != null) {
+            lists.close();
+            lists = null;
+        }
+    }
+
+    private boolean isCaughtUp() {
+        if (unread.entrySet().removeIf(each -> consumer.position(each.getKey()) >= each.getValue())
+                && unread.isEmpty()) {
+            desired.caughtUp();
+            retrySchedule.hurry();
+        }
+        return unread.isEmpty() && lists.isCaughtUp();
+    }
+
+    private void step() throws InterruptedException {
+        if (retrySchedule.isRefreshDue()) {
+            provisioning.refresh();
+        }
+        try {
+            ProvisioningReconciler.Outcome outcome = provisioning.step();
+            failures.reached();
+            if (!outcome.done()) {
+                retrySchedule.goOn();
+                return;
+            }
+            failures.refused(outcome.refused());
+            failure = outcome.retained() == null ? "" : outcome.retained().summary();
+            if (outcome.retained() != null && !outcome.retained().equals(retained)) {
+                LOG.warn(outcome.retained().text());
+                retainedReported = System.nanoTime() - REPORT_INTERVAL.toNanos();
+            }
+            retained = outcome.retained();
+            noteProvisioned();
+            if (outcome.refused().isEmpty() && outcome.stuck() == null) {
+                retrySchedule.rest();
+            } else if (retrySchedule.failed() && outcome.stuck() != null) {
+                LOG.warn("what is no longer wanted stays at the IoT Agent; it is tried again: {}", outcome.stuck());
+            }
+        } catch (IOException e) {
+            failure = FailureText.of(e);
+            if (retrySchedule.failed()) {
+                LOG.warn("devices wait to be provisioned: {}", e.getMessage(), e);
+            }
+            failures.unavailable(FailureText.of(e));
+        }
+    }
+
+    /** An alarm is raised of it, as long as it is repeated. */
+    private void reportRetained() {
+        if (retained != null && System.nanoTime() - retainedReported >= REPORT_INTERVAL.toNanos()) {
+            retainedReported = System.nanoTime();
+            producer.send(new ProducerRecord<>(Topics.FAULTS, "provisioner", new Fault(retained.text()).toBytes()));
+        }
+    }
+
+    /** Nothing reads by this offset: it says that the devices of this Kafka were provisioned at this IoT Agent. */
+    private void noteProvisioned() {
+        if (provisioning.isSettled() && !reported) {
+            Map<TopicPartition, OffsetAndMetadata> offsets = new HashMap<>();
+            consumer.assignment()
+                    .forEach(partition ->
+                            offsets.put(partition, new OffsetAndMetadata(consumer.position(partition), agent)));
+            consumer.commitSync(offsets);
+            reported = true;
+        }
+    }
+
+    private RemovalGuard.Origin origin(Collection<TopicPartition> partitions) {
+        try (Admin admin = Admin.create(client)) {
+            Uuid topic = admin.describeTopics(List.of(Topics.DEVICES))
+                    .topicNameValues()
+                    .get(Topics.DEVICES)
+                    .get(ADMIN_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS)
+                    .topicId();
+            boolean provisioned = consumer.committed(Set.copyOf(partitions)).values().stream()
+                    .anyMatch(committed ->
+                            committed != null && committed.metadata().equals(agent));
+            return new RemovalGuard.Origin(Uuid.ZERO_UUID.equals(topic) ? "" : topic.toString(), provisioned);
+        } catch (ExecutionException | TimeoutException e) {
+            throw new KafkaException(Topics.DEVICES + " cannot be described: " + FailureText.of(e), e);
+        } catch (InterruptedException e) {
+            throw new InterruptException(e);
+        }
+    }
+
+    private final class Assignment implements ConsumerRebalanceListener {
+        @Override
+        public void onPartitionsAssigned(Collection<TopicPartition> partitions) {
+            if (partitions.isEmpty()) {
+                return;
+            }
+            active = true;
+            desired.clear();
+            failures.clear();
+            connections.startAnew(publishedConnections());
+            provisioning.startAnew(origin(partitions));
+            retained = null;
+            reported = false;
+            closeLists();
+            lists = CommittedReader.open(client, Topics.MISSION_DEVICES);
+            consumer.seekToBeginning(partitions);
+            unread.putAll(consumer.endOffsets(partitions));
+        }
+
+        @Override
+        public void onPartitionsRevoked(Collection<TopicPartition> partitions) {
+            if (!partitions.isEmpty()) {
+                active = false;
+                closeLists();
+                unread.clear();
+            }
+        }
+    }
+}

@@ -1,0 +1,27 @@
+package io.furrow.control.alarm;
+
+import io.furrow.control.manager.Table;
+
+/**
+ * The stores of the alarm manager.
+ *
+ * @param alarms by id; closed ones for a while
+ * @param current ids of the alarms that are not closed, by kind and identity
+ * @param mutes active mutes by kind and subject or identity; an empty subject stands for all of a kind
+ * @param groups numbers of alarms and of causes without an alarm, by kind and group
+ * @param counted causes without an alarm, by kind and identity
+ */
+record AlarmTables(
+        Table<Alarm> alarms,
+        Table<String> current,
+        Table<Mute> mutes,
+        Table<AlarmLimit.Group> groups,
+        Table<AlarmLimit.Overflow> counted) {
+    /**
+     * Suppresses the delivery of alarms, including future ones.
+     *
+     * @param key kind and subject
+     * @param until epoch ms
+     */
+    record Mute(String key, long until) {}
+}

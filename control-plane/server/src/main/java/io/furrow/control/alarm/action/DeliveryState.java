@@ -1,0 +1,24 @@
+package io.furrow.control.alarm.action;
+
+import io.furrow.control.alarm.AlarmState;
+import io.furrow.control.manager.StateJson;
+
+/**
+ * The last delivery of an alarm to the webhook: a record of {@code service.alarms.delivered} keyed by the alarm's id.
+ *
+ * @param sequence sequence number of the delivered alarm; 0 while no post of it was answered
+ * @param state delivered state
+ * @param time when, epoch ms
+ * @param repeats how often that state was repeated because it lasted
+ * @param refused whether the webhook rejected it permanently
+ */
+record DeliveryState(long sequence, AlarmState state, long time, int repeats, boolean refused) {
+    /** Before the first post of an alarm is answered. */
+    static DeliveryState attempted(long time) {
+        return new DeliveryState(0, AlarmState.OPEN, time, 0, false);
+    }
+
+    byte[] toBytes() {
+        return StateJson.write(this);
+    }
+}

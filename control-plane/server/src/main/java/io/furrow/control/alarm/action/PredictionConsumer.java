@@ -1,0 +1,153 @@
+package io.furrow.control.alarm.action;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Clock;
+import java.time.Duration;
+import java.util.Collection;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.concurrent.TimeUnit;
+
+import org.apache.kafka.clients.consumer.ConsumerRebalanceListener;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.consumer.OffsetAndTimestamp;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.header.Header;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.control.alarm.watch.DeviceTypeCache;
+import io.furrow.control.alarm.watch.EncounterReport;
+import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.RestartingWorker;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Reads predictions from {@code data.collision} and passes them to {@link StopRobots} directly, without waiting for
+ * alarms. Instances share the partitions as a consumer group. No offset is committed, because a prediction is useless
+ * later: an instance that is assigned a partition starts at fresh records and reads the commands already sent from the
+ * audit topic.
+ */
+final class PredictionConsumer implements RestartingWorker.Work, ConsumerRebalanceListener {
+    static final String NAME = "stop-on-predicted";
+
+    private static final Logger LOG = LoggerFactory.getLogger(PredictionConsumer.class);
+    private static final String GROUP = "furrow-stop-on-predicted";
+    private static final Duration POLL = Duration.ofMillis(200);
+    private static final Duration TAKEN_OVER_AFTER = Duration.ofSeconds(10);
+    private static final Duration REMEMBERED = Duration.ofHours(1);
+    private static final String PREDICTED = "predicted";
+
+    private final Properties client;
+    private final StopRobots robots;
+    private final DeviceTypeCache types;
+    private final Clock clock;
+    private KafkaConsumer<String, byte[]> consumer;
+
+    PredictionConsumer(Properties client, StopRobots robots, DeviceTypeCache types, Clock clock) {
+        this.client = client;
+        this.robots = robots;
+        this.types = types;
+        this.clock = clock;
+    }
+
+    @Override
+    public void run(RestartingWorker worker) throws InterruptedException {
+        while (!types.isLoaded()) {
+            if (worker.isClosing()) {
+                return;
+            }
+            TimeUnit.MILLISECONDS.sleep(POLL.toMillis());
+        }
+        try (KafkaConsumer<String, byte[]> subscribed =
+                new KafkaConsumer<>(settings(), new StringDeserializer(), new ByteArrayDeserializer())) {
+            consumer = subscribed;
+            consumer.subscribe(List.of(Topics.COLLISION), this);
+            while (!worker.isClosing()) {
+                consumer.poll(POLL).forEach(this::take);
+            }
+        } finally {
+            Thread.interrupted(); // else the consumer could not leave its group cleanly
+        }
+    }
+
+    private Properties settings() {
+        Properties settings = CommittedReader.settings(client);
+        settings.put("group.id", GROUP);
+        settings.put("auto.offset.reset", "latest");
+        // A transaction of the job may stay open until its next checkpoint; a prediction cannot wait for that and is
+        // valid before.
+        settings.put("isolation.level", "read_uncommitted");
+        settings.put("session.timeout.ms", Long.toString(TAKEN_OVER_AFTER.toMillis()));
+        return settings;
+    }
+
+    private void take(ConsumerRecord<String, byte[]> record) {
+        // Few records of encounters are predictions; the others are not parsed.
+        if (record.value() == null || !new String(record.value(), StandardCharsets.ISO_8859_1).contains(PREDICTED)) {
+            return;
+        }
+        try {
+            robots.take(EncounterReport.read(record.value(), scope(record)), record.timestamp());
+        } catch (UnreadableException e) {
+            LOG.warn(
+                    "record {}-{}@{} is not an encounter and is skipped",
+                    record.topic(),
+                    record.partition(),
+                    record.offset(),
+                    e);
+        }
+    }
+
+    private static FiwareScope scope(ConsumerRecord<?, ?> record) {
+        return FiwareScope.of(header(record, HeaderNames.SERVICE), header(record, HeaderNames.SERVICE_PATH));
+    }
+
+    private static String header(ConsumerRecord<?, ?> record, String name) {
+        Header header = record.headers().lastHeader(name);
+        return header == null || header.value() == null ? null : new String(header.value(), StandardCharsets.UTF_8);
+    }
+
+    @Override
+    public void onPartitionsAssigned(Collection<TopicPartition> partitions) {
+        try (CommittedReader<String> audit = CommittedReader.open(client, Topics.AUDIT)) {
+            audit.seekToTime(clock.millis() - REMEMBERED.toMillis()).readToEnd(this::remember);
+        }
+        Map<TopicPartition, Long> fresh = new HashMap<>();
+        partitions.forEach(partition -> fresh.put(partition, clock.millis() - StopRobots.FRESH.toMillis()));
+        Map<TopicPartition, OffsetAndTimestamp> found = consumer.offsetsForTimes(fresh);
+        Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
+        partitions.forEach(partition -> consumer.seek(
+                partition,
+                found.get(partition) == null
+                        ? ends.get(partition)
+                        : found.get(partition).offset()));
+    }
+
+    private void remember(ConsumerRecord<String, byte[]> entry) {
+        try {
+            if (entry.value() != null) {
+                robots.remember(NgsiJson.read(entry.value()));
+            }
+        } catch (UnreadableException e) {
+            LOG.debug(
+                    "audit record {}-{}@{} is not JSON and is skipped",
+                    entry.topic(),
+                    entry.partition(),
+                    entry.offset(),
+                    e);
+        }
+    }
+
+    @Override
+    public void onPartitionsRevoked(Collection<TopicPartition> partitions) {}
+}

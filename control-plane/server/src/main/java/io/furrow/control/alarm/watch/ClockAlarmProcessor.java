@@ -1,0 +1,58 @@
+package io.furrow.control.alarm.watch;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.Locale;
+import java.util.function.Function;
+
+import io.furrow.control.alarm.AlarmCommandHandler;
+import io.furrow.control.alarm.AlarmGroup;
+import io.furrow.control.alarm.Cause;
+import io.furrow.model.control.AlarmKind;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.result.ClockResult;
+
+/**
+ * Raises alarms for devices whose reports arrive too late and are dropped by all analyses. A job reports such a
+ * device once a minute; the alarm ends after three minutes without a report.
+ */
+final class ClockAlarmProcessor {
+    private static final Duration HOLDS = Duration.ofMinutes(3);
+
+    private final AlarmCommandHandler alarms;
+    private final Function<String, String> types;
+
+    ClockAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types) {
+        this.alarms = alarms;
+        this.types = types;
+    }
+
+    /**
+     * @param now epoch ms
+     * @throws UnreadableException if the record is not an entity or names no device
+     */
+    void take(byte[] record, FiwareScope scope, long now) throws UnreadableException {
+        Entity entity = Entity.parse(record);
+        if (!entity.type().equals(ClockResult.BEHIND_TYPE)) {
+            return;
+        }
+        String device = entity.text(ClockResult.DEVICE)
+                .orElseThrow(
+                        () -> new UnreadableException(Reason.NOT_AN_EVENT, "the report has no attribute 'device'"));
+        String text = String.format(
+                Locale.ROOT,
+                "%s of %s arrive %.1f s too late and are dropped: check its clock and its link",
+                entity.number(ClockResult.REPORTS).isPresent() ? ClockResult.REPORTS : "positions",
+                device,
+                entity.number(ClockResult.LATE).orElse(0.0) / 1000);
+        String type = entity.text(ClockResult.DEVICE_TYPE).orElse("");
+        String existing = type.isEmpty() ? types.apply(scope.identity(device)) : type;
+        List<Cause.AffectedDevice> devices = List.of(Cause.AffectedDevice.of(device, existing, scope));
+        Cause cause = new Cause(AlarmKind.CLOCK_BEHIND, device, text, devices, HOLDS)
+                .identifiedBy(scope.identity(type, device));
+        alarms.raise(cause.inGroup(AlarmGroup.of(entity.text("Mission").orElse(""), "")), now);
+    }
+}

@@ -1,0 +1,75 @@
+package io.furrow.control.alarm.watch;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.function.Function;
+
+import io.furrow.control.alarm.AlarmCommandHandler;
+import io.furrow.control.alarm.AlarmGroup;
+import io.furrow.control.alarm.Cause;
+import io.furrow.model.control.AlarmKind;
+
+/**
+ * Raises alarms for encounters. A collision lasts until the encounter has ended and the pair has kept its distance for a
+ * while: devices at the border of what is close have one alarm, not one per report. Records of an ongoing encounter raise
+ * it too, if it was closed manually or began before the processor started. No record reports the end of a prediction:
+ * it ends when it is not repeated for a while, or when the encounter starts, and there is none while there is a collision. A
+ * collision that is not repeated for {@link AlarmCommandHandler#COLLISION_HOLDS} has ended, too: its last record was lost.
+ */
+public final class EncounterAlarmProcessor {
+    private final AlarmCommandHandler alarms;
+    private final Function<String, String> types;
+    private final AlarmDurations holds;
+
+    /**
+     * How long alarms last without a record of their encounter.
+     *
+     * @param prediction how long a prediction stays valid without being repeated
+     * @param collision how long a collision lasts after the end of its encounter
+     */
+    public record AlarmDurations(Duration prediction, Duration collision) {}
+
+    /** @param types returns the type of a device's entity by tenant, service path and id */
+    public EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations holds) {
+        this.alarms = alarms;
+        this.types = types;
+        this.holds = holds;
+    }
+
+    /** @param now epoch ms */
+    public void take(EncounterReport encounter, long now) {
+        String pair = encounter.identity();
+        switch (encounter.phase()) {
+            case "started" -> {
+                alarms.end(AlarmKind.PREDICTED_ENCOUNTER, pair, "the encounter has started", now);
+                alarms.raiseAnew(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);
+            }
+            case "ongoing" ->
+                alarms.raiseOrExtend(cause(AlarmKind.COLLISION, encounter, AlarmCommandHandler.COLLISION_HOLDS), now);
+            case "ended" ->
+                alarms.endAt(AlarmKind.COLLISION, pair, now + holds.collision().toMillis());
+            case "predicted" -> {
+                if (!alarms.isRaised(AlarmKind.COLLISION, pair)) {
+                    alarms.raise(cause(AlarmKind.PREDICTED_ENCOUNTER, encounter, holds.prediction()), now);
+                }
+            }
+            default -> {} // other phases neither raise nor end an alarm
+        }
+    }
+
+    private Cause cause(AlarmKind kind, EncounterReport encounter, Duration holds) {
+        String text = kind == AlarmKind.COLLISION ? "%s and %s are %s apart" : "%s and %s will come within %s";
+        List<Cause.AffectedDevice> devices = encounter.members().stream()
+                .map(member -> Cause.AffectedDevice.of(member.id(), encounter.typeOf(member, types), encounter.scope()))
+                .toList();
+        return new Cause(
+                        kind,
+                        encounter.pair(),
+                        text.formatted(
+                                encounter.first().id(), encounter.second().id(), encounter.meters()),
+                        devices,
+                        holds)
+                .identifiedBy(encounter.identity())
+                .inGroup(AlarmGroup.of(encounter.mission(), ""));
+    }
+}

@@ -1,0 +1,92 @@
+package io.furrow.control.alarm.watch;
+
+import java.util.List;
+import java.util.Locale;
+import java.util.function.Function;
+
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.result.CollisionResult;
+
+/**
+ * An encounter of two devices from a record of {@code data.collision}.
+ *
+ * @param id of the encounter
+ * @param phase {@code started}, {@code ended}, {@code predicted} and so on
+ * @param distance meters; NaN if not given
+ * @param minDistance meters, the minimum so far; NaN if not given
+ */
+public record EncounterReport(
+        String id, String phase, Member first, Member second, double distance, double minDistance, FiwareScope scope) {
+    /**
+     * One of the two devices.
+     *
+     * @param id of its entity
+     * @param mission empty if it is on none
+     * @param type of its entity; empty if the record does not name it
+     */
+    public record Member(String id, String mission, String type) {}
+
+    /** @throws UnreadableException if the value is not an entity or not an encounter */
+    public static EncounterReport read(byte[] value, FiwareScope scope) throws UnreadableException {
+        Entity entity = Entity.parse(value);
+        return new EncounterReport(
+                needed(entity, CollisionResult.ENCOUNTER),
+                needed(entity, CollisionResult.PHASE),
+                member(entity, CollisionResult.FIRST),
+                member(entity, CollisionResult.SECOND),
+                entity.number(CollisionResult.DISTANCE).orElse(Double.NaN),
+                entity.number(CollisionResult.MIN_DISTANCE)
+                        .orElse(entity.number(CollisionResult.DCPA).orElse(Double.NaN)),
+                scope);
+    }
+
+    /** Returns the key of the pair: both ids, the lesser first. */
+    public String pair() {
+        return first.id() + "-" + second.id();
+    }
+
+    /** Returns what tells the pair from others of the same ids: tenant, service path, both types and the pair. */
+    String identity() {
+        return scope.identity((first.type() + " " + second.type()).strip(), pair());
+    }
+
+    public List<Member> members() {
+        return List.of(first, second);
+    }
+
+    /**
+     * Returns the type of a member's entity; null if unknown.
+     *
+     * @param existing types by tenant, service path and id, for records that name none
+     */
+    public String typeOf(Member member, Function<String, String> existing) {
+        return member.type().isEmpty() ? existing.apply(scope.identity(member.id())) : member.type();
+    }
+
+    /** Returns the mission of the first device that has one; empty if neither has. */
+    String mission() {
+        return first.mission().isEmpty() ? second.mission() : first.mission();
+    }
+
+    /** Returns the distance as text with its unit. */
+    String meters() {
+        double message = Double.isNaN(minDistance) ? distance : minDistance;
+        return String.format(Locale.ROOT, "%.1f m", message);
+    }
+
+    private static Member member(Entity entity, CollisionResult.Member names) throws UnreadableException {
+        return new Member(
+                needed(entity, names.id()),
+                entity.text(names.mission()).orElse(""),
+                entity.text(names.type()).orElse(""));
+    }
+
+    private static String needed(Entity entity, String attribute) throws UnreadableException {
+        return entity.text(attribute)
+                .orElseThrow(() -> new UnreadableException(
+                        Reason.NOT_AN_EVENT, "the encounter has no attribute '" + attribute + "'"));
+    }
+}

@@ -1,0 +1,86 @@
+package io.furrow.control.alarm.watch;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.function.Function;
+
+import io.furrow.control.alarm.AlarmCommandHandler;
+import io.furrow.control.alarm.AlarmGroup;
+import io.furrow.control.alarm.Cause;
+import io.furrow.control.manager.Table;
+import io.furrow.model.control.AlarmKind;
+import io.furrow.model.event.FiwareScope;
+
+/**
+ * Raises an alarm for a sensor that was excluded in three consecutive windows, because a single window may exclude a
+ * sound sensor by chance. The alarm ends when the sensor was not excluded for three windows.
+ */
+final class SensorAlarmProcessor {
+    static final String RUNS = "suspect-runs";
+
+    private static final int WINDOWS = 3;
+    private static final Duration MIN = Duration.ofMinutes(1);
+    /** Runs of a field without windows for this time are discarded. */
+    private static final Duration REMEMBERED = Duration.ofDays(1);
+
+    private static final long CLEARING_INTERVAL = Duration.ofHours(1).toMillis();
+
+    private final AlarmCommandHandler alarms;
+    private final Function<String, String> types;
+    private final Table<SuspectStreaks> runs;
+    private long nextClearing;
+
+    SensorAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, Table<SuspectStreaks> runs) {
+        this.alarms = alarms;
+        this.types = types;
+        this.runs = runs;
+    }
+
+    /** @param now epoch ms */
+    void take(FieldWindow window, FiwareScope scope, long now) {
+        SuspectStreaks existing = runsOf(scope.identity(window.field()), window.windowEnd());
+        SuspectStreaks run = existing.after(window);
+        if (run == existing) {
+            return;
+        }
+        runs.put(run.field(), run); // also without suspects: a late, earlier window must not count
+        Duration holds = Duration.ofMillis((window.windowEnd() - window.windowStart()) * WINDOWS);
+        for (FieldWindow.Suspect suspect : window.suspects()) {
+            String id = suspect.id();
+            String identity = scope.identity(suspect.type(), id);
+            if (run.of(suspect) >= WINDOWS || alarms.isRaised(AlarmKind.SUSPECT_SENSOR, identity)) {
+                String text = "%s deviates from the other sensors in field %s".formatted(id, window.field());
+                String type = suspect.type().isEmpty() ? types.apply(scope.identity(id)) : suspect.type();
+                Cause.AffectedDevice device = Cause.AffectedDevice.of(id, type, scope);
+                Duration atLeast = holds.compareTo(MIN) < 0 ? MIN : holds;
+                Cause cause =
+                        new Cause(AlarmKind.SUSPECT_SENSOR, id, text, List.of(device), atLeast).identifiedBy(identity);
+                alarms.raise(cause.inGroup(AlarmGroup.ofField(window.field())), now);
+            }
+        }
+    }
+
+    /** Removes the runs of fields that no longer produce windows. */
+    void passTime(long now) {
+        if (now < nextClearing) {
+            return;
+        }
+        nextClearing = now + CLEARING_INTERVAL;
+        List<String> passed = new ArrayList<>();
+        runs.forEach(run -> {
+            if (run.windowEnd() + REMEMBERED.toMillis() <= now) {
+                passed.add(run.field());
+            }
+        });
+        passed.forEach(field -> runs.put(field, null));
+    }
+
+    private SuspectStreaks runsOf(String field, long time) {
+        SuspectStreaks existing = runs.get(field);
+        return existing == null || existing.windowEnd() + REMEMBERED.toMillis() <= time
+                ? new SuspectStreaks(field, Long.MIN_VALUE, Map.of())
+                : existing;
+    }
+}

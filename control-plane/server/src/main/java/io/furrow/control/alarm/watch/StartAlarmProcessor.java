@@ -1,0 +1,63 @@
+package io.furrow.control.alarm.watch;
+
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.kafka.streams.processor.api.Record;
+
+import io.furrow.control.alarm.AlarmCommandHandler;
+import io.furrow.control.alarm.AlarmGroup;
+import io.furrow.control.alarm.Cause;
+import io.furrow.control.manager.ObserverProcessor.Observer;
+import io.furrow.control.manager.StateJson;
+import io.furrow.control.mission.MissionState;
+import io.furrow.control.mission.MissionStatus;
+import io.furrow.model.control.AlarmKind;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** Raises an alarm while devices of a mission that starts or runs are missing, as its status says. */
+final class StartAlarmProcessor implements Observer {
+    private final AlarmCommandHandler alarms;
+    /** Reported again and again: an alarm does not take each change at once. */
+    private final Map<String, Cause> causes = new HashMap<>();
+
+    StartAlarmProcessor(AlarmCommandHandler alarms) {
+        this.alarms = alarms;
+    }
+
+    @Override
+    public void take(Record<String, byte[]> record, long now) throws UnreadableException {
+        String mission = record.key();
+        MissionStatus status =
+                record.value() == null ? null : StateJson.readRecord(record.value(), MissionStatus.class);
+        boolean shallRun =
+                status != null && (status.state() == MissionState.STARTING || status.state() == MissionState.RUNNING);
+        if (shallRun && !status.missing().isEmpty()) {
+            Cause cause = cause(mission, status);
+            causes.put(mission, cause);
+            alarms.report(cause, null, now);
+        } else {
+            causes.remove(mission);
+            alarms.end(
+                    AlarmKind.MISSING_DEVICES, AlarmGroup.of(mission, ""), "its devices are up or were stopped", now);
+        }
+    }
+
+    @Override
+    public void passTime(long now) {
+        causes.values().forEach(cause -> alarms.report(cause, null, now));
+    }
+
+    private static Cause cause(String mission, MissionStatus status) {
+        List<Cause.AffectedDevice> some = status.missing().stream()
+                .map(device -> new Cause.AffectedDevice(device.id(), null, null, null))
+                .toList();
+        return Cause.ofMany(
+                AlarmKind.MISSING_DEVICES,
+                AlarmGroup.of(mission, ""),
+                "mission %s: %s".formatted(mission, status.reason()),
+                some,
+                new Cause.Extent(status.devices() - status.confirmed(), status.devices()));
+    }
+}

@@ -1,0 +1,20 @@
+package io.furrow.control.device;
+
+import java.io.IOException;
+
+/** A command that the context broker refused, and would refuse again; the message is a sentence that says why. */
+public final class RejectedCommandException extends IOException {
+    private static final long serialVersionUID = 1L;
+
+    private final int status;
+
+    RejectedCommandException(int status, String message) {
+        super(message);
+        this.status = status;
+    }
+
+    /** What the context broker answered: 400, 404, 409 or 422. */
+    public int status() {
+        return status;
+    }
+}

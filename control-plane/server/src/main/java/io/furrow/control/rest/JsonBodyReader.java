@@ -1,0 +1,131 @@
+package io.furrow.control.rest;
+
+import java.io.ByteArrayOutputStream;
+import java.io.IOException;
+import java.io.InputStream;
+import java.lang.reflect.Method;
+import java.time.Duration;
+import java.util.Set;
+import java.util.stream.Stream;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.ws.rs.container.ContainerRequestContext;
+import jakarta.ws.rs.container.ContainerRequestFilter;
+import jakarta.ws.rs.container.ContainerResponseContext;
+import jakarta.ws.rs.container.ContainerResponseFilter;
+import jakarta.ws.rs.container.ResourceInfo;
+import jakarta.ws.rs.core.Context;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.control.rest.access.ProblemException;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** Bodies of requests: one JSON object, as strictly read as everything else. */
+final class JsonBodyReader {
+    /** Who sends more sees his connection end. */
+    private static final long MAX_READ = 64L * 1024 * 1024;
+
+    private static final Duration TIMEOUT = Duration.ofSeconds(10);
+    private static final int BUFFER_BYTES = 8192;
+
+    private JsonBodyReader() {}
+
+    /** An empty body is an empty object. @throws ProblemException where it is no object, or too large */
+    static ObjectNode read(InputStream body) throws IOException {
+        byte[] bytes = bytes(body, Limits.REQUEST_BYTES);
+        if (bytes.length == 0) {
+            return JsonNodeFactory.instance.objectNode();
+        }
+        try {
+            JsonNode json = NgsiJson.read(bytes);
+            if (json instanceof ObjectNode object) {
+                return object;
+            }
+        } catch (UnreadableException e) {
+            throw new ProblemException(ErrorCode.NOT_JSON, "the body is not JSON: " + e.getMessage());
+        }
+        throw new ProblemException(ErrorCode.NOT_A_REQUEST, "the body is no JSON object");
+    }
+
+    /** At most so many. What is too large is read too, or many a client would see no answer. */
+    static byte[] bytes(InputStream body, int max) throws IOException {
+        ByteArrayOutputStream buffered = new ByteArrayOutputStream();
+        if (read(body, max, buffered) > max) {
+            throw ProblemException.tooLarge(-1, max);
+        }
+        return buffered.toByteArray();
+    }
+
+    /** In time, because whoever sends slowly occupies a thread. */
+    private static long read(InputStream body, int max, ByteArrayOutputStream buffered) throws IOException {
+        long end = System.nanoTime() + TIMEOUT.toNanos();
+        byte[] buffer = new byte[BUFFER_BYTES];
+        long total = 0;
+        for (int count = body.read(buffer); count >= 0 && total <= MAX_READ; count = body.read(buffer)) {
+            total += count;
+            if (total <= max) {
+                buffered.write(buffer, 0, count);
+            }
+            if (System.nanoTime() - end > 0) {
+                throw new ProblemException(
+                        408, "request-timeout", "the body did not come within %d s".formatted(TIMEOUT.toSeconds()));
+            }
+        }
+        return total;
+    }
+
+    /**
+     * Reads what was left of a body before the answer is written. Otherwise Jetty ends the connection while the client still sends, or sends
+     * its next request, and the client sees no answer. A resource that takes no body may answer on a thread that must not wait: its body is
+     * read before. Whoever is refused for who he is may occupy no thread: what has come is read, then his connection ends, and the answer
+     * says so.
+     */
+    static final class Drain implements ContainerRequestFilter, ContainerResponseFilter {
+        private static final Logger LOG = LoggerFactory.getLogger(Drain.class);
+        private static final String CONTINUE = "100-continue";
+        private static final Set<Integer> UNREAD = Set.of(401, 403, 408);
+
+        @Context
+        private ResourceInfo resource;
+
+        @Override
+        public void filter(ContainerRequestContext request) {
+            Method method = resource.getResourceMethod(); // null of what Jersey answers by itself
+            boolean takesBody =
+                    method != null && Stream.of(method.getParameterTypes()).anyMatch(InputStream.class::equals);
+            if (!takesBody) {
+                drain(request);
+            }
+        }
+
+        @Override
+        public void filter(ContainerRequestContext request, ContainerResponseContext response) throws IOException {
+            if (!UNREAD.contains(response.getStatus())) {
+                drain(request);
+            } else if (request.getLength() > 0 || request.getHeaderString("Transfer-Encoding") != null) {
+                InputStream body = request.getEntityStream();
+                while (body.available() > 0) {
+                    body.skipNBytes(body.available());
+                }
+                response.getHeaders().putSingle("Connection", "close");
+            }
+        }
+
+        private static void drain(ContainerRequestContext request) {
+            if (CONTINUE.equalsIgnoreCase(request.getHeaderString("Expect"))) {
+                return; // the client sends none before it is asked to
+            }
+            try {
+                read(request.getEntityStream(), 0, new ByteArrayOutputStream(0));
+            } catch (IOException | ProblemException e) {
+                LOG.debug("the rest of a body was not read", e);
+            }
+        }
+    }
+}

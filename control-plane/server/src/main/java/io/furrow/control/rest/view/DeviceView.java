@@ -1,0 +1,114 @@
+package io.furrow.control.rest.view;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.control.health.SilenceCause;
+import io.furrow.model.device.DesiredDevice;
+import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.device.MissionDeviceList;
+import io.furrow.model.device.MissionDeviceLists;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/** Reads desired devices with the settings of their groups, and how they are connected. */
+public final class DeviceView {
+    private final StateView view;
+
+    public DeviceView(StateView view) {
+        this.view = view;
+    }
+
+    /** @param identity tenant, service path and id of the entity */
+    public Optional<DesiredDevice> find(String identity) {
+        return view.find(Topics.DEVICES, identity).flatMap(device -> read(device, new MissionDeviceLists()));
+    }
+
+    /** Those of a mission that shall run. */
+    public List<DesiredDevice> of(String mission) {
+        MissionDeviceLists lists = new MissionDeviceLists();
+        int parts = view.find(Topics.MISSIONS, mission)
+                .map(found -> found.path("parts").asInt())
+                .orElse(0);
+        for (int part = 0; part < parts; part++) {
+            take(lists, MissionDeviceList.key(mission, part));
+        }
+        List<DesiredDevice> devices = new ArrayList<>();
+        view.entries(Topics.DEVICES)
+                .map(StateView.Entry::value)
+                .filter(device -> mission.equals(device.path("mission").textValue())
+                        && "running".equals(device.path("wanted").textValue()))
+                .forEach(device -> resolve(device, lists).ifPresent(devices::add));
+        return devices;
+    }
+
+    /** The device with what is known of how it is connected; lists of devices leave that out. */
+    public ObjectNode withConnection(String key, ObjectNode device) {
+        ObjectNode connection =
+                view.find(Topics.DEVICES_CONNECTION, key).orElseGet(JsonNodeFactory.instance::objectNode);
+        JsonNode health = device.path("health");
+        Long heard = health.hasNonNull("heard") ? health.path("heard").longValue() : null;
+        silence(connection, device).ifPresent(cause -> connection.put("cause", cause.text()));
+        if (heard != null) {
+            long time = health.path(health.has("deviceTime") ? "deviceTime" : "lastSeen")
+                    .longValue();
+            connection
+                    .putObject("lastReport")
+                    .put("time", time)
+                    .put("received", heard)
+                    .put("offset", heard - time);
+        }
+        return connection.isEmpty() ? device : device.set("connection", connection);
+    }
+
+    private static Optional<SilenceCause> silence(ObjectNode connection, ObjectNode device) {
+        if (connection.isEmpty()) {
+            return Optional.empty();
+        }
+        long from = device.path("from").longValue();
+        long heard = device.path("health").path("heard").longValue();
+        JsonNode status = device.path("status");
+        boolean current =
+                status.path("sequence").longValue() >= device.path("sequence").longValue();
+        try {
+            DeviceConnection existing = DeviceConnection.read(NgsiJson.write(connection));
+            if (heard >= from && heard > 0) {
+                boolean silent = device.path("health").path("silent").booleanValue();
+                return silent ? SilenceCause.of(existing, heard) : Optional.empty();
+            }
+            String failure = current ? status.path("reason").textValue() : null;
+            return Optional.of(SilenceCause.ofUnheard(existing, failure, from));
+        } catch (UnreadableException e) { // a later version wrote it, or somebody else: it is shown as it is
+            return Optional.empty();
+        }
+    }
+
+    private Optional<DesiredDevice> read(ObjectNode device, MissionDeviceLists lists) {
+        take(
+                lists,
+                MissionDeviceList.key(
+                        device.path("mission").asText(),
+                        device.at("/group/part").asInt()));
+        return resolve(device, lists);
+    }
+
+    private void take(MissionDeviceLists lists, String key) {
+        view.find(Topics.MISSION_DEVICES, key).ifPresent(list -> lists.take(key, NgsiJson.write(list)));
+    }
+
+    /** Without settings where those of its group are not known yet. */
+    private static Optional<DesiredDevice> resolve(ObjectNode device, MissionDeviceLists lists) {
+        try {
+            DesiredDevice desired = DesiredDevice.read(NgsiJson.write(device));
+            return lists.resolve(desired).or(() -> Optional.of(desired));
+        } catch (UnreadableException e) {
+            return Optional.empty(); // the readers of the topic report it
+        }
+    }
+}

@@ -1,0 +1,68 @@
+package io.furrow.control.rest.view;
+
+import java.util.List;
+import java.util.Optional;
+import java.util.stream.Stream;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.control.rest.access.ProblemException;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.topic.Topics;
+
+/** The replays that are requested, each with what its player says of it as the member {@code status}. */
+public final class ReplayStatusView {
+    public static final String REPLAY = "replay";
+    public static final String GROUP = "group";
+
+    private final StateView view;
+
+    public ReplayStatusView(StateView view) {
+        this.view = view;
+    }
+
+    boolean isComplete() {
+        return view.isComplete();
+    }
+
+    /** In the order of their names. @throws ProblemException where the topics were not read to their ends yet */
+    public Stream<ObjectNode> all() {
+        return view.all(Topics.REPLAYS).map(this::withStatus);
+    }
+
+    List<String> names() {
+        return view.entries(Topics.REPLAYS).map(StateView.Entry::key).toList();
+    }
+
+    Optional<ObjectNode> find(String replay) {
+        return view.find(Topics.REPLAYS, replay).map(this::withStatus);
+    }
+
+    /** @throws ProblemException if there is none */
+    public ObjectNode get(String replay) {
+        return find(replay)
+                .orElseThrow(() -> new ProblemException(
+                        ErrorCode.UNKNOWN_REPLAY, "there is no replay '%s', or it is over".formatted(replay)));
+    }
+
+    /** Those of a group. @throws ProblemException if there is none */
+    public List<ObjectNode> group(String group) {
+        List<ObjectNode> members =
+                all().filter(each -> group.equals(each.path(GROUP).textValue())).toList();
+        if (members.isEmpty()) {
+            throw new ProblemException(
+                    ErrorCode.UNKNOWN_REPLAY, "there is no group '%s', or it is over".formatted(group));
+        }
+        return members;
+    }
+
+    /** What its player said last. */
+    Optional<ObjectNode> status(String replay) {
+        return view.find(Topics.REPLAYS_STATUS, replay);
+    }
+
+    private ObjectNode withStatus(ObjectNode desired) {
+        status(desired.path(REPLAY).asText()).ifPresent(status -> desired.set("status", status));
+        return desired;
+    }
+}

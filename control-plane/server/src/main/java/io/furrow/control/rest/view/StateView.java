@@ -1,0 +1,177 @@
+package io.furrow.control.rest.view;
+
+import java.util.ArrayDeque;
+import java.util.Deque;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.ConcurrentSkipListMap;
+import java.util.stream.Stream;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.control.rest.access.ProblemException;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/**
+ * What is on the compacted topics of the control plane, and the end of its audit topic. Held as bytes, because trees take ten times
+ * the room; whoever reads gets a tree of his own.
+ */
+public final class StateView {
+    /** The topics that are held whole. */
+    static final List<String> TOPICS = List.of(
+            Topics.DOMAINS,
+            Topics.MISSIONS,
+            Topics.MISSION_DEVICES,
+            Topics.MISSIONS_STATUS,
+            Topics.TEMPLATES,
+            Topics.DEVICES,
+            Topics.DEVICES_STATUS,
+            Topics.DEVICES_HEALTH,
+            Topics.DEVICES_CONNECTION,
+            Topics.REPLAYS,
+            Topics.REPLAYS_STATUS,
+            Topics.RECORDINGS,
+            Topics.ALARMS);
+
+    /** How many entries of the audit topic are held. */
+    public static final int AUDITED = 1000;
+
+    private final Map<String, Map<String, byte[]>> byTopic = new ConcurrentHashMap<>();
+    private final Deque<Audited> audited = new ArrayDeque<>();
+    private boolean auditedWhole;
+    private volatile boolean complete;
+    private volatile Listener listener;
+
+    /** Hears on the thread that reads the topics, and may not block it. */
+    interface Listener {
+        void changed(String topic, String key);
+
+        /** All was read again. */
+        void completed();
+    }
+
+    /** An entry of the audit topic. @param offset its place there */
+    private record Audited(long offset, byte[] value) {}
+
+    /**
+     * Entries of the audit topic, the newest first.
+     *
+     * @param isWhole whether there are no older ones in the topic
+     */
+    public record AuditPage(List<AuditedEntry> entries, boolean isWhole) {}
+
+    /** What is under a key of a topic. */
+    public record Entry(String key, ObjectNode value) {}
+
+    /** Begins again; nothing can be read until {@link #complete()}. */
+    void clear() {
+        complete = false;
+        TOPICS.forEach(topic -> byTopic.put(topic, new ConcurrentSkipListMap<>()));
+        synchronized (audited) {
+            audited.clear();
+        }
+    }
+
+    /** @param value a JSON object; null removes it */
+    void put(String topic, String key, byte[] value) {
+        if (value == null) {
+            byTopic.get(topic).remove(key);
+        } else {
+            byTopic.get(topic).put(key, value);
+        }
+        if (complete && listener != null) {
+            listener.changed(topic, key);
+        }
+    }
+
+    /** Says what the audit begins with. @param isFirst whether the topic holds nothing before it */
+    void auditFrom(boolean isFirst) {
+        synchronized (audited) {
+            auditedWhole = isFirst;
+        }
+    }
+
+    /** @param offset of the entry in the topic, greater than those before */
+    void audit(long offset, byte[] entry) {
+        synchronized (audited) {
+            audited.addFirst(new Audited(offset, entry));
+            if (audited.size() > AUDITED) {
+                audited.removeLast();
+                auditedWhole = false;
+            }
+        }
+    }
+
+    void complete() {
+        complete = true;
+        if (listener != null) {
+            listener.completed();
+        }
+    }
+
+    /** Called once, before anything is put. */
+    public void listen(Listener to) {
+        listener = to;
+    }
+
+    public boolean isComplete() {
+        return complete;
+    }
+
+    /** @throws ProblemException where the topics were not read to their ends yet */
+    public Optional<ObjectNode> find(String topic, String key) {
+        return Optional.ofNullable(read(topic).get(key)).map(StateView::parse);
+    }
+
+    /** In the order of the keys. @throws ProblemException as {@link #find} */
+    public Stream<ObjectNode> all(String topic) {
+        return read(topic).values().stream().map(StateView::parse);
+    }
+
+    /** In their order. @throws ProblemException as {@link #find} */
+    public Stream<String> keys(String topic) {
+        return read(topic).keySet().stream();
+    }
+
+    /** With their keys, in their order. @throws ProblemException as {@link #find} */
+    public Stream<Entry> entries(String topic) {
+        return read(topic).entrySet().stream().map(each -> new Entry(each.getKey(), parse(each.getValue())));
+    }
+
+    private Map<String, byte[]> read(String topic) {
+        if (!complete) {
+            throw ProblemException.notReady();
+        }
+        return byTopic.get(topic);
+    }
+
+    /** Of the newest {@value #AUDITED} those before a place. @throws ProblemException as {@link #find} */
+    public AuditPage audited(long before) {
+        if (!complete) {
+            throw ProblemException.notReady();
+        }
+        List<Audited> entries;
+        boolean isWhole;
+        synchronized (audited) {
+            entries = audited.stream().filter(each -> each.offset() < before).toList();
+            isWhole = auditedWhole;
+        }
+        return new AuditPage(
+                entries.stream()
+                        .map(each -> new AuditedEntry(each.offset(), parse(each.value())))
+                        .toList(),
+                isWhole);
+    }
+
+    private static ObjectNode parse(byte[] value) {
+        try {
+            return (ObjectNode) NgsiJson.read(value);
+        } catch (UnreadableException e) {
+            throw new IllegalStateException("what was put is no JSON object", e);
+        }
+    }
+}

@@ -1,0 +1,255 @@
+package io.furrow.control.rest.view;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.ListOffsetsOptions;
+import org.apache.kafka.clients.admin.OffsetSpec;
+import org.apache.kafka.clients.consumer.Consumer;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.ConsumerRecords;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.consumer.OffsetAndTimestamp;
+import org.apache.kafka.common.IsolationLevel;
+import org.apache.kafka.common.PartitionInfo;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
+import org.apache.kafka.common.errors.WakeupException;
+import org.apache.kafka.common.header.Header;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.PartStatus;
+import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.RequestFingerprint;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Follows the topics of the control plane, what is committed on them, with a consumer of no group: so each instance sees all. An
+ * answer is forwarded when the view has come as far as the topics were when it was read: what it reports can be seen then.
+ */
+public final class StateViewUpdater implements AutoCloseable {
+    static final List<String> MANAGERS =
+            List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER, Topics.ALARM_MANAGER);
+
+    private static final Logger LOG = LoggerFactory.getLogger(StateViewUpdater.class);
+    private static final Duration POLL = Duration.ofMillis(100);
+    private static final Duration POLL_WITH_ANSWERS = Duration.ofMillis(5);
+    private static final ListOffsetsOptions COMMITTED = new ListOffsetsOptions(IsolationLevel.READ_COMMITTED);
+    private static final long PAUSE_MS = 1000;
+    private static final long TIMEOUT_SECONDS = 10;
+
+    private final Properties settings;
+    private final Duration remembered;
+    private final StateView view;
+    private final PendingReplies answers;
+    private final CountDownLatch closing = new CountDownLatch(1);
+    private final Thread thread = new Thread(this::run, "control-plane-view");
+    private volatile Consumer<String, byte[]> consumer;
+    private volatile Instant lastPoll;
+    private volatile String failure = "";
+
+    /** @param remembered how far back answers are read at the start */
+    public StateViewUpdater(Properties client, Duration remembered, StateView view, PendingReplies answers) {
+        this.settings = CommittedReader.settings(client);
+        this.remembered = remembered;
+        this.view = view;
+        this.answers = answers;
+    }
+
+    public void start() {
+        view.clear();
+        thread.setDaemon(true);
+        thread.start();
+    }
+
+    public PartStatus status() {
+        PartStatus.State state = !thread.isAlive()
+                ? PartStatus.State.DEAD
+                : view.isComplete() ? PartStatus.State.UP : PartStatus.State.DOWN;
+        return new PartStatus(
+                "api", state, lastPoll, state == PartStatus.State.UP ? "" : "reads its topics; " + failure);
+    }
+
+    /** Clears the view when the thread ends: nothing would update it any more. */
+    private void run() {
+        try {
+            follow();
+        } finally {
+            view.clear();
+        }
+    }
+
+    private void follow() {
+        while (closing.getCount() > 0) {
+            try (Admin admin = Admin.create(settings);
+                    Consumer<String, byte[]> fresh =
+                            new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
+                consumer = fresh;
+                view.clear();
+                read(fresh, admin);
+            } catch (WakeupException e) { // to look whether it is closed
+                LOG.debug("the view of the control plane's topics was woken up", e);
+            } catch (RuntimeException e) { // of Kafka, or of ours: without a view nothing can be read
+                LOG.warn("the view of the control plane's topics failed and begins anew", e);
+                failure = FailureText.of(e);
+                view.clear();
+                pause();
+            }
+        }
+    }
+
+    private void pause() {
+        try {
+            closing.await(PAUSE_MS, TimeUnit.MILLISECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            closing.countDown();
+        }
+    }
+
+    /** @param admin asks for the ends of topics: a broker would leave such a request of the consumer behind its waiting fetch */
+    private void read(Consumer<String, byte[]> from, Admin admin) {
+        List<TopicPartition> viewed = partitions(from, StateView.TOPICS);
+        List<TopicPartition> all = begin(from, viewed);
+        Map<TopicPartition, Long> ends = from.endOffsets(all);
+        Map<TopicPartition, OffsetSpec> latest = new HashMap<>();
+        viewed.forEach(each -> latest.put(each, OffsetSpec.latest()));
+        ReadYourWritesBarrier gate = new ReadYourWritesBarrier(answers);
+        while (closing.getCount() > 0) {
+            Map<PendingReplies.Key, CommandResult> fresh = take(from.poll(gate.isEmpty() ? POLL : POLL_WITH_ANSWERS));
+            lastPoll = Instant.now();
+            if (!view.isComplete() && ReadYourWritesBarrier.reached(ends, from::position)) {
+                view.complete();
+                LOG.info("the view of the control plane's topics is complete");
+            }
+            if (!fresh.isEmpty()) {
+                gate.hold(fresh, admin.listOffsets(latest, COMMITTED).all());
+            }
+            gate.release(from::position);
+        }
+    }
+
+    /** What is held whole from its beginning, the rest from as far back as it counts. */
+    private List<TopicPartition> begin(Consumer<String, byte[]> from, List<TopicPartition> viewed) {
+        List<TopicPartition> managers = partitions(from, MANAGERS);
+        List<TopicPartition> audit = partitions(from, List.of(Topics.AUDIT));
+        List<TopicPartition> all = new ArrayList<>(viewed);
+        all.addAll(managers);
+        all.addAll(audit);
+        from.assign(all);
+        from.seekToBeginning(viewed);
+
+        Map<TopicPartition, Long> since = new HashMap<>();
+        managers.forEach(each -> since.put(each, System.currentTimeMillis() - remembered.toMillis()));
+        Map<TopicPartition, OffsetAndTimestamp> found = from.offsetsForTimes(since);
+        Map<TopicPartition, Long> ends = from.endOffsets(all);
+        Map<TopicPartition, Long> beginnings = from.beginningOffsets(audit);
+        for (TopicPartition each : managers) {
+            from.seek(
+                    each,
+                    found.get(each) == null ? ends.get(each) : found.get(each).offset());
+        }
+        for (TopicPartition each : audit) { // every transaction has a marker, which has an offset too
+            long start = Math.max(beginnings.get(each), ends.get(each) - 2L * StateView.AUDITED);
+            from.seek(each, start);
+            view.auditFrom(start == beginnings.get(each));
+        }
+        return all;
+    }
+
+    private static List<TopicPartition> partitions(Consumer<String, byte[]> consumer, List<String> topics) {
+        List<TopicPartition> partitions = new ArrayList<>();
+        for (String topic : topics) {
+            List<PartitionInfo> found = consumer.partitionsFor(topic);
+            if (found == null || found.isEmpty()) {
+                throw new UnknownTopicOrPartitionException("there is no topic " + topic + " yet");
+            }
+            found.forEach(each -> partitions.add(new TopicPartition(topic, each.partition())));
+        }
+        return partitions;
+    }
+
+    /** Answers the answers among them that somebody waits for. */
+    private Map<PendingReplies.Key, CommandResult> take(ConsumerRecords<String, byte[]> records) {
+        Map<PendingReplies.Key, CommandResult> fresh = new HashMap<>();
+        for (ConsumerRecord<String, byte[]> record : records) {
+            if (MANAGERS.contains(record.topic())) {
+                takeAnswer(record, fresh);
+            } else {
+                takeValue(record);
+            }
+        }
+        return fresh;
+    }
+
+    private void takeAnswer(ConsumerRecord<String, byte[]> record, Map<PendingReplies.Key, CommandResult> fresh) {
+        CommandResult answer;
+        try {
+            answer = CommandResult.read(record.value() == null ? new byte[0] : record.value());
+        } catch (UnreadableException e) { // a request, or what somebody else wrote there
+            return;
+        }
+        if (view.isComplete()) {
+            answers.count(record.topic(), answer.status());
+        }
+        answer.requestId().ifPresent(id -> {
+            PendingReplies.Key key = new PendingReplies.Key(record.topic(), id);
+            String fingerprint = fingerprint(record);
+            answers.remember(key, fingerprint, record.value(), answer);
+            if (answers.isAwaited(key, fingerprint)) {
+                fresh.put(key, answer);
+            }
+        });
+    }
+
+    /** Of the request that a record answers; null if it does not say. */
+    private static String fingerprint(ConsumerRecord<String, byte[]> record) {
+        Header header = record.headers().lastHeader(RequestFingerprint.HEADER);
+        return header == null ? null : new String(header.value(), StandardCharsets.UTF_8);
+    }
+
+    private void takeValue(ConsumerRecord<String, byte[]> record) {
+        try {
+            boolean object = record.value() != null && NgsiJson.read(record.value()) instanceof ObjectNode;
+            byte[] value = object ? record.value() : null;
+            if (!record.topic().equals(Topics.AUDIT)) {
+                view.put(record.topic(), record.key() == null ? "" : record.key(), value);
+            } else if (value != null) {
+                view.audit(record.offset(), value);
+            }
+        } catch (UnreadableException e) { // managers and hosts write nothing of the kind
+            LOG.debug("{}-{}@{} is no JSON", record.topic(), record.partition(), record.offset(), e);
+        }
+    }
+
+    @Override
+    public void close() {
+        closing.countDown();
+        Consumer<String, byte[]> current = consumer;
+        if (current != null) {
+            current.wakeup();
+        }
+        try {
+            thread.join(TimeUnit.SECONDS.toMillis(TIMEOUT_SECONDS));
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+}

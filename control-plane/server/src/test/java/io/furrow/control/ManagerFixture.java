@@ -1,0 +1,136 @@
+package io.furrow.control;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Properties;
+import java.util.Set;
+
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.apache.kafka.streams.StreamsConfig;
+import org.apache.kafka.streams.TopologyTestDriver;
+import org.apache.kafka.streams.test.TestRecord;
+
+import io.furrow.control.mission.MissionSettings;
+import io.furrow.control.replay.ReplaySettings;
+import io.furrow.model.control.CommandResult;
+import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** The topology of the managers in a test's hands: what is asked, what is answered, what hosts report. */
+final class ManagerFixture implements AutoCloseable {
+    static final Duration REMEMBERED = Duration.ofHours(1);
+    static final Instant START = Instant.parse("2026-03-01T08:00:00Z");
+
+    private final TopologyTestDriver driver;
+
+    ManagerFixture() {
+        this(false);
+    }
+
+    /** @param hasRecordings whether only missions that {@code service.recordings} lists can be played back */
+    ManagerFixture(boolean hasRecordings) {
+        MissionSettings missions = new MissionSettings(Duration.ofSeconds(30), new FiwareScope("farm", "/"), false);
+        ReplaySettings replays = ReplaySettings.DEFAULT.withMongo(hasRecordings ? "mongodb://unused" : null);
+        driver = new TopologyTestDriver(ControlTopology.of(REMEMBERED, missions, replays), settings(), START);
+    }
+
+    void pass(Duration time) {
+        driver.advanceWallClockTime(time);
+    }
+
+    Set<String> stores() {
+        return driver.getAllStateStores().keySet();
+    }
+
+    /** How many answers a store holds. */
+    int remembered(String store) {
+        int remembered = 0;
+        try (var all = driver.<String, byte[]>getWindowStore(store).all()) {
+            while (all.hasNext()) {
+                all.next();
+                remembered++;
+            }
+        }
+        return remembered;
+    }
+
+    void request(String topic, String key, String json) {
+        pipe(topic, key, json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+    }
+
+    void pipe(String topic, String key, byte[] value) {
+        driver.createInputTopic(topic, new StringSerializer(), new ByteArraySerializer())
+                .pipeInput(key, value);
+    }
+
+    List<TestRecord<String, byte[]>> read(String topic) {
+        return driver.createOutputTopic(topic, new StringDeserializer(), new ByteArrayDeserializer())
+                .readRecordsToList();
+    }
+
+    TestRecord<String, byte[]> only(String topic) {
+        List<TestRecord<String, byte[]>> all = read(topic);
+        assertThat(all).hasSize(1);
+        return all.get(0);
+    }
+
+    /** The newest that {@code service.missions.status} says. */
+    String state(String mission) throws Exception {
+        String state = null;
+        for (TestRecord<String, byte[]> record : read(Topics.MISSIONS_STATUS)) {
+            assertThat(record.key()).isEqualTo(mission);
+            state = NgsiJson.read(record.value()).path("state").asText();
+        }
+        return state;
+    }
+
+    /** Reports a state of each device that was asked for since. */
+    int hostAll(DeviceStatus.State state) throws Exception {
+        List<TestRecord<String, byte[]>> requested = new ArrayList<>(read(Topics.DEVICES));
+        for (TestRecord<String, byte[]> record : requested) {
+            long sequence = DeviceVersion.read(record.value()).sequence();
+            pipe(Topics.DEVICES_STATUS, record.key(), new DeviceStatus(sequence, state, null).toBytes());
+        }
+        return requested.size();
+    }
+
+    static String error(TestRecord<String, byte[]> record) {
+        return response(record).error().orElseThrow();
+    }
+
+    static CommandResult response(TestRecord<String, byte[]> record) {
+        try {
+            return CommandResult.read(record.value());
+        } catch (io.furrow.model.ngsi.UnreadableException e) {
+            throw new AssertionError(e);
+        }
+    }
+
+    static String text(byte[] bytes) {
+        return new String(bytes, StandardCharsets.UTF_8);
+    }
+
+    private static Properties settings() {
+        Properties settings = new Properties();
+        settings.setProperty(StreamsConfig.APPLICATION_ID_CONFIG, "furrow-control-plane");
+        settings.setProperty(StreamsConfig.BOOTSTRAP_SERVERS_CONFIG, "unused:0");
+        settings.setProperty(StreamsConfig.PROCESSING_GUARANTEE_CONFIG, StreamsConfig.EXACTLY_ONCE_V2);
+        return settings;
+    }
+
+    @Override
+    public void close() {
+        driver.close();
+    }
+}

@@ -1,0 +1,79 @@
+package io.furrow.dashboard.feed;
+
+import java.time.Duration;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+import java.util.concurrent.TimeUnit;
+import java.util.function.Function;
+
+/**
+ * Reads the known state of topics in threads of its own: of one topic at a time once, for all who asked before the reading
+ * began. Nobody waits for another topic's history, unless as many are read as there are threads.
+ */
+public final class InitialStateReader implements AutoCloseable {
+    private static final int THREADS = 16;
+    private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(2);
+
+    private final Function<String, List<FeedRecord>> reader;
+    private final ExecutorService threads = Executors.newFixedThreadPool(THREADS, task -> {
+        Thread thread = new Thread(task, "initial-state");
+        thread.setDaemon(true);
+        return thread;
+    });
+    /** Readings that have not begun. */
+    private final Map<String, CompletableFuture<List<FeedRecord>>> next = new HashMap<>();
+    /** Topics that are read, or are about to be. */
+    private final Set<String> busy = new HashSet<>();
+
+    /** @param reader reads the known state of a topic */
+    public InitialStateReader(Function<String, List<FeedRecord>> reader) {
+        this.reader = reader;
+    }
+
+    /**
+     * The state as of a moment after this call, so that nothing lies between it and a stream that has begun.
+     *
+     * @throws java.util.concurrent.RejectedExecutionException if it is closed
+     */
+    public synchronized CompletableFuture<List<FeedRecord>> read(String topic) {
+        if (!busy.contains(topic)) {
+            threads.execute(() -> readNext(topic));
+            busy.add(topic);
+        }
+        return next.computeIfAbsent(topic, any -> new CompletableFuture<>());
+    }
+
+    private void readNext(String topic) {
+        CompletableFuture<List<FeedRecord>> reading;
+        synchronized (this) {
+            reading = next.remove(topic);
+        }
+        try {
+            reading.complete(reader.apply(topic));
+        } catch (RuntimeException | Error e) { // nobody else would hear of it, and the topic stay busy
+            reading.completeExceptionally(e);
+        }
+        synchronized (this) {
+            busy.remove(topic);
+            if (next.containsKey(topic) && !threads.isShutdown()) {
+                read(topic);
+            }
+        }
+    }
+
+    @Override
+    public void close() {
+        threads.shutdownNow();
+        try {
+            threads.awaitTermination(CLOSE_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+}

@@ -1,0 +1,226 @@
+/** What the records of each topic change in the store. */
+import { named, newEntity, applyPast, applyReport } from './entity.js';
+import { fullKey, scopeOf } from './identities.js';
+
+/** Entities in the store at most; beyond it the ones that have not reported for longest are removed. */
+const MAX_ENTITIES = 5_000;
+
+/** @template T @param {T} Base @returns {T} whose `apply…` methods change the store by a record */
+export const Reducers = (Base) => class extends Base {
+  /** @param {import('./stream.js').TopicRecord} record of an entity @returns {string[]} the keys of the entities that it changes */
+  applyEntity(record) {
+    if (record.value === null && !record.cut) {
+      const deleted = this.identities.deletedBy(record);
+      deleted.forEach((each) => this.forgetEntity(each));
+      return deleted;
+    }
+    const identity = this.identities.identify(record);
+    if (!identity) {
+      return [];
+    }
+    const key = identity.key;
+    let entity = this.entities.get(key);
+    if (!entity) {
+      entity = newEntity(identity);
+      this.entities.set(key, entity);
+      this.nameAll(identity);
+      this.entities.size > MAX_ENTITIES && this.forgetOldest();
+    }
+    if (record.cut) {
+      entity.cut = record.cut;
+      entity.time = Math.max(entity.time, record.time);
+    } else if (typeof record.value === 'object' && !Array.isArray(record.value)) {
+      applyReport(entity, record);
+    }
+    entity.suspect = this.suspects.has(key);
+    entity.state = this.stateOf(entity);
+    this.notify('entities', key);
+    return [key];
+  }
+
+  forgetEntity(key) {
+    const entity = this.entities.get(key);
+    if (entity) {
+      this.entities.delete(key);
+      this.identities.forget(entity.identity);
+      this.nameAll(entity.identity);
+      this.all = true;
+      this.notify('entities', key);
+    }
+  }
+
+  /** Entities of one id say in their names how they differ. */
+  nameAll(identity) {
+    for (const { key } of this.identities.all(identity.id)) {
+      const entity = this.entities.get(key);
+      if (entity) {
+        entity.difference = this.identities.difference(entity.identity);
+        entity.name = named(entity);
+        this.notify('entities', key);
+      }
+    }
+  }
+
+  /**
+   * What was reported before the page was opened: lines and trails, and what `data.latest` did not have yet.
+   *
+   * @param {import('./stream.js').TopicRecord[]} records oldest first
+   */
+  applyPast(records) {
+    const reports = new Map();
+    for (const record of records) {
+      const isDeleted = record.value === null && !record.cut;
+      const keys = isDeleted ? this.identities.deletedBy(record) : [this.identities.identify(record)?.key ?? null];
+      keys.forEach((key) => reports.has(key) ? reports.get(key).push(record) : reports.set(key, [record]));
+    }
+    reports.delete(null);
+    for (const [key, of] of reports) {
+      const latest = this.entities.get(key)?.time ?? -Infinity;
+      const newer = of.filter((each) => each.time > latest);
+      const deleted = newer.findLastIndex((each) => each.value === null && !each.cut);
+      newer.slice(Math.max(0, deleted)).forEach((each) => this.applyEntity(each));
+      const entity = this.entities.get(key);
+      if (entity && latest > -Infinity) {
+        applyPast(entity, of.filter((each) => each.time <= latest));
+        entity.state = this.stateOf(entity);
+        this.notify('entities', key);
+      }
+    }
+  }
+
+  forgetOldest() {
+    let oldest = null;
+    for (const each of this.entities.values()) {
+      oldest = oldest === null || each.time < oldest.time ? each : oldest;
+    }
+    this.forgetEntity(oldest.id);
+  }
+
+  /** @param {{headers: Object=}} record that names entities by their ids, and by their types where they are known @returns {string[]} under which keys they are here */
+  keysOf({ headers }, ids, types) {
+    return ids.map((id, i) => this.identities.keyOf(id, scopeOf(headers), types?.[i]));
+  }
+
+  applyEncounter(record) {
+    const value = record.value;
+    if (!value || value.type !== 'Analytics:Collision') {
+      return;
+    }
+    const of = (name) => value[name]?.value;
+    const phase = of('phase');
+    if (typeof of('Device1_ID') !== 'string' || typeof of('Device2_ID') !== 'string') {
+      return;
+    }
+    const [a, b] = this.keysOf(record, [of('Device1_ID'), of('Device2_ID')], [of('Device1_type'), of('Device2_type')]);
+    const pair = `${a}|${b}`;
+    const existing = this.encounters.get(pair);
+    if (existing && existing.time > record.time) {
+      return;
+    }
+    if (phase === 'predicted' && existing && (existing.phase === 'started' || existing.phase === 'ongoing')) {
+      return;
+    }
+    this.encounters.set(pair, {
+      pair, a, b, phase, id: of('encounter'),
+      distance: of('distance'), minDistance: of('minDistance') ?? of('dcpa') ?? of('distance'),
+      time: record.time, start: of('startTime') ?? record.time, tcpa: of('tcpa'),
+      at: [[of('Device1_longitude'), of('Device1_latitude')], [of('Device2_longitude'), of('Device2_latitude')]],
+    });
+    this.notify('encounters');
+  }
+
+  applyTemperature(record) {
+    const value = record.value;
+    const of = (name) => value?.[name]?.value;
+    const field = of('field');
+    // the field itself may come later: its topic is another one
+    if (value?.type !== 'Analytics:FieldTemperature' || this.averages.get(field)?.time > record.time) {
+      return;
+    }
+    const suspects = this.keysOf(record, Array.isArray(of('suspects')) ? of('suspects') : [], of('suspectTypes'));
+    this.averages.set(field, {
+      value: of('averageTemperature'), count: of('devices'), time: record.time, suspects,
+      verified: of('quality') !== 'unverified', quality: of('quality'), window: [of('windowStart'), of('windowEnd')],
+    });
+    for (const [device, suspect] of this.suspects) {
+      if (suspect.field === field && !suspects.includes(device)) {
+        this.suspects.delete(device);
+        this.remark(device);
+      }
+    }
+    for (const device of suspects) {
+      this.suspects.set(device, { field, mean: of('averageTemperature'), time: record.time });
+      this.remark(device);
+    }
+    this.notify('suspects');
+    this.notify('fields');
+  }
+
+  remark(id) {
+    const entity = this.entities.get(id);
+    if (entity) {
+      entity.suspect = this.suspects.has(id);
+      entity.state = this.stateOf(entity);
+      this.notify('entities', id);
+    }
+  }
+
+  /** A version of a field, or that it is taken back; a key without a time stands for all of them. */
+  applyField({ key, value }) {
+    const [, id, time] = /^(.+)@([^@]*)$/s.exec(key) ?? [null, key, null];
+    const versions = this.fieldVersions.get(id) ?? new Map();
+    if (value) {
+      versions.set(Date.parse(time) || 0, value);
+    } else {
+      time === null ? versions.clear() : versions.delete(Date.parse(time) || 0);
+    }
+    this.fieldVersions.set(id, versions);
+    this.showField(id);
+  }
+
+  /** Of the versions of a field the one that holds at the time of what is shown. */
+  showField(id) {
+    const now = this.now();
+    const versions = this.fieldVersions.get(id);
+    const validFrom = Math.max(...[...versions.keys()].filter((from) => from <= now));
+    const version = versions.get(validFrom);
+    if (this.fields.get(id)?.version === version) {
+      return;
+    }
+    if (version?.geometry) {
+      const properties = version.properties ?? {};
+      this.fields.set(id, {
+        id, version, validFrom, properties, geometry: version.geometry, name: typeof properties.name === 'string' ? properties.name : id,
+        exclusion: properties.kind === 'exclusion' || properties.zone !== undefined,
+      });
+    } else if (!this.fields.delete(id)) {
+      return;
+    }
+    this.notify('fields');
+  }
+
+  applyImage(record) {
+    const image = record.value;
+    if (image?.entity) {
+      // the camera itself may come later, while another one has its id
+      this.images.set(fullKey(scopeOf(record.headers), image.type ?? '', image.entity), { ...image, time: record.time });
+      this.keysOf(record, [image.entity], [image.type]).forEach((key) => this.notify('images', key));
+    }
+  }
+
+  /** The newest picture of an entity; those of an older job do not say its type. */
+  imageOf({ identity }) {
+    return this.images.get(fullKey(identity, identity.type, identity.id)) ?? this.images.get(fullKey(identity, '', identity.id));
+  }
+
+  applyAlarm(record) {
+    record.value ? this.alarms.set(record.key, record.value) : this.alarms.delete(record.key);
+    this.notify('alarms');
+  }
+
+  /** All alarms that there were are known. */
+  alarmsRead() {
+    this.alarmsLoaded = true;
+    this.notify('alarms');
+  }
+};

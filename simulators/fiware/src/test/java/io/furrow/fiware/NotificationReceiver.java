@@ -1,0 +1,87 @@
+package io.furrow.fiware;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
+import java.util.concurrent.CopyOnWriteArrayList;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.sun.net.httpserver.HttpExchange;
+import com.sun.net.httpserver.HttpServer;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** Keeps every notification that it is sent and answers with a status of choice. */
+public final class NotificationReceiver implements AutoCloseable {
+    /**
+     * @param sender the port that it was sent from
+     * @param headers by name, without regard to case
+     */
+    public record ReceivedNotification(int sender, String path, Map<String, String> headers, String body) {
+        public JsonNode json() {
+            try {
+                return NgsiJson.read(body.getBytes(StandardCharsets.UTF_8));
+            } catch (UnreadableException e) {
+                throw new AssertionError("a notification that is no JSON: " + body, e);
+            }
+        }
+    }
+
+    private final HttpServer server;
+    private final ExecutorService threads = Executors.newCachedThreadPool();
+    private final List<ReceivedNotification> received = new CopyOnWriteArrayList<>();
+    private volatile int status = 200;
+
+    public NotificationReceiver() {
+        try {
+            server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+        server.setExecutor(threads);
+        server.createContext("/", this::receive);
+        server.start();
+    }
+
+    public NotificationReceiver answering(int other) {
+        status = other;
+        return this;
+    }
+
+    public URI url(String path) {
+        return URI.create("http://127.0.0.1:" + server.getAddress().getPort() + path);
+    }
+
+    public List<ReceivedNotification> received() {
+        return received;
+    }
+
+    public List<ReceivedNotification> at(String path) {
+        return received.stream().filter(one -> one.path().equals(path)).toList();
+    }
+
+    @Override
+    public void close() {
+        server.stop(0);
+        threads.shutdownNow();
+    }
+
+    private void receive(HttpExchange exchange) throws IOException {
+        String body = new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8);
+        Map<String, String> headers = new TreeMap<>(String.CASE_INSENSITIVE_ORDER);
+        exchange.getRequestHeaders().forEach((name, values) -> headers.put(name, String.join(",", values)));
+        received.add(new ReceivedNotification(
+                exchange.getRemoteAddress().getPort(), exchange.getRequestURI().toString(), headers, body));
+        exchange.sendResponseHeaders(status, -1);
+        exchange.close();
+    }
+}

@@ -1,0 +1,49 @@
+package io.furrow.soak;
+
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.function.Predicate;
+
+/**
+ * How the results of a topic differ from what they must be.
+ *
+ * @param required how many there must be
+ * @param missing required and not there
+ * @param repeated there for a second time
+ * @param wrong there and not to be, or with another value
+ */
+record ResultComparison(int required, List<String> missing, List<String> repeated, List<String> wrong) {
+    /** @param horizon results that are known later, epoch ms, may be there and may not */
+    static ResultComparison of(List<Result> expected, List<Result> actual, long horizon) {
+        Map<String, String> values = new HashMap<>();
+        expected.forEach(result -> values.put(result.name(), result.value()));
+        Map<String, String> found = new HashMap<>();
+        List<String> repeated = new ArrayList<>();
+        List<String> wrong = new ArrayList<>();
+        for (Result result : actual) {
+            if (found.put(result.name(), result.value()) != null) {
+                repeated.add(result.name());
+            } else if (!result.value().equals(values.get(result.name()))) {
+                wrong.add(result.name() + " says " + result.value() + " instead of " + values.get(result.name()));
+            }
+        }
+        Predicate<Result> due = result -> result.time() <= horizon;
+        List<String> missing = expected.stream()
+                .filter(due.and(result -> !found.containsKey(result.name())))
+                .map(Result::name)
+                .toList();
+        return new ResultComparison((int) expected.stream().filter(due).count(), missing, repeated, wrong);
+    }
+
+    boolean isClean() {
+        return required > 0 && missing.isEmpty() && repeated.isEmpty() && wrong.isEmpty();
+    }
+
+    @Override
+    public String toString() {
+        return "%5d required, %d missing, %d repeated, %d wrong"
+                .formatted(required, missing.size(), repeated.size(), wrong.size());
+    }
+}

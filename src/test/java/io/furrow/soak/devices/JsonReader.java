@@ -1,0 +1,21 @@
+package io.furrow.soak.devices;
+
+import java.nio.charset.StandardCharsets;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** Reads what can only be JSON. */
+final class JsonReader {
+    private JsonReader() {}
+
+    static JsonNode read(String text) {
+        try {
+            return NgsiJson.read(text.getBytes(StandardCharsets.UTF_8));
+        } catch (UnreadableException e) {
+            throw new IllegalStateException("no JSON: " + text, e);
+        }
+    }
+}

@@ -1,0 +1,28 @@
+package io.furrow.soak.source;
+
+import java.io.IOException;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+
+/** One change of one entity: the value that its attribute {@code Number} got, which grows by one each time. */
+record NumberedChange(int entity, int number) {
+    static final String TYPE = "Thermometer";
+
+    private static final String PREFIX = "urn:ngsi-ld:Thermometer:";
+
+    static NumberedChange read(byte[] json) throws IOException {
+        return of(NgsiJson.mapper().readTree(json));
+    }
+
+    static NumberedChange of(JsonNode entity) {
+        return new NumberedChange(
+                Integer.parseInt(entity.path("id").asText().substring(PREFIX.length())),
+                entity.path("Number").path("value").asInt(-1));
+    }
+
+    String id() {
+        return PREFIX + entity;
+    }
+}

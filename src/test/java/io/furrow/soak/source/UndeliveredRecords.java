@@ -1,0 +1,48 @@
+package io.furrow.soak.source;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.Comparator;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+import java.util.stream.Stream;
+
+/** What a worker that stopped in order said of its disk; its gauges end with it. */
+final class UndeliveredRecords {
+    private static final Pattern LEFT = Pattern.compile("LeftRecords .*: (\\d+) records in (\\S+) are not in Kafka");
+    private static final Pattern JOURNAL = Pattern.compile("\\d+-[0-9a-f]{16}");
+
+    private UndeliveredRecords() {}
+
+    /** Records that its tasks left, by the last line on each journal that is still there. */
+    static long records(Path log) throws IOException {
+        Map<Path, Long> left = new HashMap<>();
+        for (String line : Files.readAllLines(log)) {
+            Matcher found = LEFT.matcher(line);
+            if (found.find() && Files.isDirectory(Path.of(found.group(2)))) {
+                left.put(Path.of(found.group(2)), Long.parseLong(found.group(1)));
+            }
+        }
+        return left.values().stream().mapToLong(Long::longValue).sum();
+    }
+
+    /** A planted fault. */
+    static void deleteJournals(Path disk) throws IOException {
+        try (Stream<Path> found = Files.walk(disk.resolve("journal"))) {
+            List<Path> journals = found.filter(path ->
+                            JOURNAL.matcher(path.getFileName().toString()).matches())
+                    .toList();
+            for (Path journal : journals) {
+                try (Stream<Path> files = Files.walk(journal)) {
+                    for (Path path : files.sorted(Comparator.reverseOrder()).toList()) {
+                        Files.delete(path);
+                    }
+                }
+            }
+        }
+    }
+}

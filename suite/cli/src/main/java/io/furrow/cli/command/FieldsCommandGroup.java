@@ -1,0 +1,134 @@
+package io.furrow.cli.command;
+
+import java.io.IOException;
+import java.time.DateTimeException;
+import java.time.Instant;
+import java.time.OffsetDateTime;
+import java.time.temporal.ChronoUnit;
+import java.util.List;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.ITypeConverter;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.TypeConversionException;
+
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.field.FieldReport;
+import io.furrow.cli.field.FieldsOptions;
+import io.furrow.cli.option.CommandException;
+import io.furrow.cli.option.CommandGroup;
+import io.furrow.kafka.field.FieldChange;
+import io.furrow.model.field.FieldVersion;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** {@code ./furrow fields}. */
+@Command(
+        name = "fields",
+        description = {
+            "Imports, lists, renames, ends and deletes the fields of the farm.",
+            "list and import use the topic service.fields itself (--kafka); rename, end and delete ask the control plane (--api)."
+        },
+        synopsisSubcommandLabel = "COMMAND",
+        subcommands = FieldsImportCommand.class)
+public final class FieldsCommandGroup extends CommandGroup {
+    private static final String FIELDS = "/api/fields";
+    private static final String ID = "Id of the field; ./furrow fields list shows it.";
+
+    @Command(name = "list", description = "Prints the fields as of a time.")
+    int list(
+            @Mixin FieldsOptions fields,
+            @Option(
+                            names = "--at",
+                            paramLabel = "TIME",
+                            converter = TimeConverter.class,
+                            description = "Event time, for instance 2026-03-01T00:00:00Z. Default: now.")
+                    Instant at,
+            @Option(names = "--versions", description = "All versions of all times, ends too.") boolean versions) {
+        try {
+            List<FieldVersion> existing = fields.topic().read();
+            Instant time = at == null ? Instant.now() : at;
+            List<FieldVersion> shown = versions
+                    ? existing
+                    : List.copyOf(
+                            FieldChange.asOf(time.toEpochMilli(), existing).values());
+            fields.print(FieldReport.lines(shown), FieldReport.json(shown));
+            return 0;
+        } catch (IOException e) {
+            throw new CommandException(e.getMessage(), e);
+        }
+    }
+
+    @Command(name = "rename", description = "Gives a field another name, in all its versions; its id stays.")
+    int rename(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "ID", description = ID) String id,
+            @Option(names = "--name", paramLabel = "NAME", required = true, description = "Name for people.")
+                    String name) {
+        return control.run(api -> control.answered(
+                api.send("PATCH", path(id), NgsiJson.mapper().createObjectNode().put("name", name)),
+                "Field %s is now called %s.".formatted(id, name)));
+    }
+
+    @Command(
+            name = "end",
+            description = {
+                "Ends a field: from a time on there are no averages and no stays of it.",
+                "What was found before stays, and a replay of an earlier time has the field as it was. Versions that were to"
+                        + " begin after that time are taken back."
+            })
+    int end(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "ID", description = ID) String id,
+            @Option(
+                            names = "--at",
+                            paramLabel = "TIME",
+                            converter = TimeConverter.class,
+                            description =
+                                    "Event time from which on it is no more, for instance 2026-10-01T00:00:00Z. Default: now.")
+                    Instant at) {
+        String time =
+                (at == null ? Instant.now() : at).truncatedTo(ChronoUnit.MILLIS).toString();
+        return control.run(api -> control.answered(
+                api.send("PATCH", path(id), NgsiJson.mapper().createObjectNode().put("validTo", time)),
+                "Field %s ends at %s.".formatted(id, time)));
+    }
+
+    @Command(
+            name = "delete",
+            description = {
+                "Deletes a field with all its versions, as if it had never been; this cannot be undone.",
+                "Averages and stays that were found of it stay where they are stored, under its id; a replay of an earlier time"
+                        + " finds no new ones. To keep the past, end it instead."
+            })
+    int delete(@Mixin ControlOptions control, @Parameters(paramLabel = "ID", description = ID) String id) {
+        return control.run(api -> {
+            JsonNode answer = api.send("DELETE", path(id), null);
+            int versions = answer.path("versions").asInt();
+            control.answered(
+                    answer,
+                    "Field %s is deleted, with %s."
+                            .formatted(id, versions == 1 ? "its one version" : "its %d versions".formatted(versions)));
+        });
+    }
+
+    private static String path(String id) {
+        return FIELDS + ControlApi.part(id);
+    }
+
+    /** ISO 8601 with an offset. */
+    static final class TimeConverter implements ITypeConverter<Instant> {
+        @Override
+        public Instant convert(String value) {
+            try {
+                return OffsetDateTime.parse(value).toInstant();
+            } catch (DateTimeException e) {
+                throw new TypeConversionException(
+                        "'" + value + "' is no time; write for instance 2026-03-01T00:00:00Z");
+            }
+        }
+    }
+}

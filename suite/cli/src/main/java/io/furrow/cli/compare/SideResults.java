@@ -1,0 +1,34 @@
+package io.furrow.cli.compare;
+
+import java.util.EnumMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+
+/**
+ * What analytics found on one side of a comparison.
+ *
+ * @param name replay, or {@code live}
+ * @param epoch of the replay; 0 of live results
+ * @param spans results by kind
+ * @param missing kinds whose topic is not there: nothing was found, or the job never ran
+ */
+record SideResults(String name, long epoch, Map<ResultKind, List<AnalyticsResult>> spans, Set<ResultKind> missing) {
+    SideResults {
+        Map<ResultKind, List<AnalyticsResult>> all = new EnumMap<>(ResultKind.class);
+        for (ResultKind kind : ResultKind.values()) {
+            all.put(kind, List.copyOf(spans.getOrDefault(kind, List.of())));
+        }
+        spans = Map.copyOf(all);
+        missing = Set.copyOf(missing);
+    }
+
+    /** How many tenants and service paths it reports. */
+    long scopes() {
+        return spans.values().stream()
+                .flatMap(List::stream)
+                .map(span -> span.subject().scope())
+                .distinct()
+                .count();
+    }
+}

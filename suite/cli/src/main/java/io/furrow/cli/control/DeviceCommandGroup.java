@@ -1,0 +1,161 @@
+package io.furrow.cli.control;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Instant;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.TextNode;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.control.table.DevicePage;
+import io.furrow.cli.option.CommandGroup;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** {@code ./furrow device}. */
+@Command(
+        name = "device",
+        description = "Lists devices with their status, sends them commands, and gives them credentials.",
+        synopsisSubcommandLabel = "COMMAND")
+public final class DeviceCommandGroup extends CommandGroup {
+    private static final String DEVICES = "/api/devices";
+    private static final String VALUE =
+            "What it says beside: a number, true, false, null, an object or a list as JSON, all else as text; \"3\" in quotation marks is a text.";
+    private static final String ID = "Id of the device's entity, as in urn:ngsi-ld:Thermometer:weeding-1.";
+
+    @Command(name = "list", description = "Lists devices: status, when last heard of, battery, whether silent.")
+    int list(
+            @Mixin ControlOptions control,
+            @Option(names = "--domain", paramLabel = "DOMAIN", description = "Only those of this domain.")
+                    String domain,
+            @Option(names = "--mission", paramLabel = "MISSION", description = "Only those of this mission.")
+                    String mission) {
+        Map<String, String> only = new LinkedHashMap<>();
+        only.put("domain", domain);
+        only.put("mission", mission);
+        String query = only.entrySet().stream()
+                .filter(each -> each.getValue() != null)
+                .map(each ->
+                        each.getKey() + "=" + ControlApi.part(each.getValue()).substring(1))
+                .collect(Collectors.joining("&"));
+        return control.show(
+                query.isEmpty() ? DEVICES : DEVICES + "?" + query,
+                new ControlTable("There is no such device.")
+                        .text("DEVICE", "/id")
+                        .text("TYPE", "/type")
+                        .text("MISSION", "/mission")
+                        .text("WANTED", "/wanted")
+                        .text("STATE", "/status/state")
+                        .time("LAST SEEN", "/health/lastSeen")
+                        .text("BATTERY", "/health/battery")
+                        .text("SILENT", "/health/silent")
+                        .text("REASON", "/status/reason"));
+    }
+
+    @Command(
+            name = "show",
+            description = "Shows one device: why it is silent, what was heard of it, how it is connected.")
+    int show(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin DeviceScope scope) {
+        return control.showPage(
+                DEVICES + ControlApi.part(device) + scope.query(), shown -> DevicePage.of(shown, Instant.now()));
+    }
+
+    @Command(
+            name = "credentials",
+            description = {
+                "Shows what a device needs to report over MQTT: broker, login, topics, what it may send, and an example. Of all real "
+                        + "devices of a mission with --mission, also as csv or env."
+            })
+    int credentials(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID, arity = "0..1") String device,
+            @Option(names = "--mission", paramLabel = "MISSION", description = "All real devices of this mission.")
+                    String mission,
+            @Mixin DeviceScope scope) {
+        if ((device == null) == (mission == null)) {
+            throw control.refused("Name a device, or a mission with --mission.");
+        }
+        return control.showCredentials(
+                device == null
+                        ? "/api/missions" + ControlApi.part(mission) + "/credentials"
+                        : DEVICES + ControlApi.part(device) + "/credentials" + scope.query());
+    }
+
+    @Command(
+            name = "rotate",
+            description = {
+                "Gives a device a new password and shows its credentials. The old password is refused at once, and a connection that",
+                "was made with it is cut off; other devices are not affected."
+            })
+    int rotate(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin DeviceScope scope) {
+        return control.commandShown("POST", DEVICES + ControlApi.part(device) + "/credentials" + scope.query());
+    }
+
+    @Command(name = "on", description = "Switches a device on.")
+    int on(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin DeviceScope scope) {
+        return command(control, device, "on", null, null, scope);
+    }
+
+    @Command(name = "off", description = "Switches a device off.")
+    int off(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin DeviceScope scope) {
+        return command(control, device, "off", null, null, scope);
+    }
+
+    @Command(name = "restart", description = "Restarts a device.")
+    int restart(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID) String device,
+            @Mixin DeviceScope scope) {
+        return command(control, device, "restart", null, null, scope);
+    }
+
+    @Command(name = "command", description = "Sends a device any command, as Stop to a robot.")
+    int command(
+            @Mixin ControlOptions control,
+            @Parameters(index = "0", paramLabel = "DEVICE", description = ID) String device,
+            @Parameters(index = "1", paramLabel = "COMMAND", description = "The command.") String command,
+            @Parameters(index = "2", paramLabel = "VALUE", arity = "0..1", description = VALUE) String value,
+            @Option(
+                            names = "--type",
+                            paramLabel = "TYPE",
+                            description = "Type of its entity; needed of a device that reports by itself, as ROBOT.")
+                    String type,
+            @Mixin DeviceScope scope) {
+        Map<String, Object> body = new LinkedHashMap<>();
+        body.put("type", type);
+        body.put("command", command);
+        body.put("value", value == null ? null : valueOf(value));
+        return control.command(
+                "POST", DEVICES + ControlApi.part(device) + "/commands" + scope.query(), ControlOptions.object(body));
+    }
+
+    /** JSON as what it is, all else as text. */
+    static JsonNode valueOf(String value) {
+        try {
+            return NgsiJson.read(value.getBytes(StandardCharsets.UTF_8));
+        } catch (UnreadableException e) {
+            return TextNode.valueOf(value);
+        }
+    }
+}

@@ -1,0 +1,141 @@
+package io.furrow.cli.control;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.StringJoiner;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.control.table.JsonFile;
+import io.furrow.cli.option.CommandGroup;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** {@code ./furrow domain}. */
+@Command(
+        name = "domain",
+        description = "Creates, changes, lists and deletes domains: what missions belong to.",
+        synopsisSubcommandLabel = "COMMAND")
+public final class DomainCommandGroup extends CommandGroup {
+    private static final String DOMAINS = "/api/domains";
+    private static final String NAME = "Name of the domain: 1 to 64 of A-Z a-z 0-9 _ -.";
+
+    /** What can be said of a domain. */
+    static final class Details {
+        @Option(names = "--name", paramLabel = "TEXT", description = "Name for people.")
+        private String name;
+
+        @Option(names = "--description", paramLabel = "TEXT", description = "What it is.")
+        private String description;
+
+        @Option(names = "--area", paramLabel = "FILE", description = "GeoJSON Polygon or MultiPolygon of its area.")
+        private Path area;
+
+        @Option(
+                names = "--fields",
+                paramLabel = "ID",
+                split = ",",
+                description = "Ids of its fields, parted by commas.")
+        private List<String> fields;
+
+        ObjectNode json() throws IOException {
+            ObjectNode json = NgsiJson.mapper().createObjectNode();
+            if (name != null) {
+                json.put("name", name);
+            }
+            if (description != null) {
+                json.put("description", description);
+            }
+            if (area != null) {
+                json.set("area", JsonFile.read(area));
+            }
+            if (fields != null) {
+                fields.forEach(json.withArray("fields")::add);
+            }
+            return json;
+        }
+    }
+
+    @Command(name = "list", description = "Lists all domains.")
+    int list(@Mixin ControlOptions control) {
+        return control.show(
+                DOMAINS,
+                new ControlTable("There is no domain yet; ./furrow domain create makes one.")
+                        .text("DOMAIN", "/domain")
+                        .text("NAME", "/name")
+                        .text("DESCRIPTION", "/description")
+                        .count("FIELDS", "/fields")
+                        .time("CREATED", "/created"));
+    }
+
+    @Command(name = "show", description = "Shows one domain.")
+    int show(@Mixin ControlOptions control, @Parameters(paramLabel = "DOMAIN", description = NAME) String domain) {
+        return control.showOne(DOMAINS + ControlApi.part(domain));
+    }
+
+    @Command(name = "create", description = "Creates a domain.")
+    int create(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DOMAIN", description = NAME) String domain,
+            @Mixin Details details) {
+        return control.run(
+                api -> control.answered(api.send("POST", DOMAINS, details.json().put("domain", domain))));
+    }
+
+    @Command(name = "change", description = "Changes what is said of a domain; what is not said stays.")
+    int change(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DOMAIN", description = NAME) String domain,
+            @Mixin Details details) {
+        return control.run(
+                api -> control.answered(api.send("PATCH", DOMAINS + ControlApi.part(domain), details.json())));
+    }
+
+    @Command(
+            name = "delete",
+            description = {
+                "Deletes a domain with its missions and their devices, and ends its fields; refused while missions run in it.",
+                "What was recorded of the missions stays as long as missions are kept, and what was found of the fields too."
+            })
+    int delete(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DOMAIN", description = NAME) String domain,
+            @Option(names = "--force", description = "Also where missions run in it, which are stopped.")
+                    boolean force) {
+        return control.run(api -> {
+            JsonNode answer =
+                    api.send("DELETE", DOMAINS + ControlApi.part(domain) + (force ? "?force=true" : ""), null);
+            control.answered(
+                    answer,
+                    "deleted: domain %s; missions deleted: %s%s; fields ended: %s"
+                            .formatted(
+                                    domain,
+                                    counted(answer, "missionCount", "missions"),
+                                    answer.path("stopped").isEmpty()
+                                            ? ""
+                                            : ", of which ran: " + names(answer.path("stopped")),
+                                    counted(answer, "fieldCount", "fields")));
+        });
+    }
+
+    /** A count, and the names that the answer has room for. */
+    private static String counted(JsonNode answer, String count, String member) {
+        int all = answer.path(count).asInt();
+        int named = answer.path(member).size();
+        return all == 0 ? "none" : "%d (%s%s)".formatted(all, names(answer.path(member)), named < all ? ", …" : "");
+    }
+
+    private static String names(JsonNode list) {
+        StringJoiner names = new StringJoiner(", ");
+        list.forEach(name -> names.add(name.asText()));
+        return names.toString();
+    }
+}

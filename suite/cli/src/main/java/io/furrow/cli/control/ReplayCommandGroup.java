@@ -1,0 +1,156 @@
+package io.furrow.cli.control;
+
+import java.util.List;
+import java.util.Map;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+
+import io.furrow.cli.compare.CompareCommand;
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.option.CommandGroup;
+
+/** {@code ./furrow replay}. */
+@Command(
+        name = "replay",
+        description = "Asks for replays of missions, steers, follows and compares them.",
+        synopsisSubcommandLabel = "COMMAND",
+        subcommands = CompareCommand.class)
+public final class ReplayCommandGroup extends CommandGroup {
+    private static final String REPLAYS = "/api/replays";
+
+    @Command(name = "list", description = "Lists replays, those that rest at their ends among them.")
+    int list(@Mixin ControlOptions control) {
+        return control.show(
+                REPLAYS,
+                new ControlTable("There is no replay; ./furrow replay start MISSION asks for one.")
+                        .text("REPLAY", "/replay")
+                        .text("GROUP", "/group")
+                        .text("STATE", ReplayScreen::listed)
+                        .text("SPEED", "/speed")
+                        .time("POSITION", "/status/progress/position")
+                        .text("TOPIC", "/topic")
+                        .time("CREATED", "/created"));
+    }
+
+    @Command(
+            name = "missions",
+            description = "Lists the missions that can be played back, and from when to when they reach.")
+    int missions(@Mixin ControlOptions control) {
+        return control.show(
+                "/api/recordings",
+                new ControlTable("No mission is kept yet.")
+                        .text("MISSION", "/mission")
+                        .time("FIRST", "/first")
+                        .time("LAST", "/last"));
+    }
+
+    @Command(name = "show", description = "Shows one replay: what is wanted of it, and how far it is.")
+    int show(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "REPLAY", description = "Name of the replay, MISSION.ID.") String replay) {
+        return control.showOne(REPLAYS + ControlApi.part(replay));
+    }
+
+    @Command(name = "start", description = "Asks for a replay of a mission, or of several by one clock.")
+    int start(@Mixin ControlOptions control, @Mixin ReplayStart start) {
+        JsonNode body = start.body(control);
+        return control.run(api -> {
+            JsonNode answer = api.send("POST", REPLAYS, body);
+            control.answered(answer);
+            List<String> commands = start.commands(answer);
+            if (!control.isJson() && !commands.isEmpty()) {
+                control.out()
+                        .println(
+                                "Analytics run by themselves beside ./furrow demo, up and replay analytics. On another Flink:");
+                commands.forEach(control.out()::println);
+            }
+        });
+    }
+
+    @Command(
+            name = "watch",
+            description = {
+                "Follows a replay. At a terminal it is drawn in place and steered by keys, also back from its end; elsewhere it is a line per second "
+                        + "until its end.",
+                "Keys: space pauses and resumes; left and right seek by 10 s of event time, [ and ] or with shift by a minute; . and , step "
+                        + "while it is paused; + and - double and halve the speed; l sets where a range begins, then where it ends, then "
+                        + "takes it away; m makes a marker; ? shows the keys; q ends."
+            })
+    int watch(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "REPLAY", description = "Name of the replay, MISSION.ID.") String replay) {
+        return control.run(new ReplayWatch(control, REPLAYS + ControlApi.part(replay)));
+    }
+
+    @Command(name = "stop", description = "Ends a replay.")
+    int stop(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
+        target.arguments(control, 0, 0, "nothing");
+        return control.commandDone("DELETE", target.path(control), "stopped");
+    }
+
+    @Command(name = "pause", description = "Holds a replay.")
+    int pause(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
+        target.arguments(control, 0, 0, "nothing");
+        return steer(control, target, "pause", Map.of());
+    }
+
+    @Command(name = "resume", description = "Lets a held replay go on.")
+    int resume(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
+        target.arguments(control, 0, 0, "nothing");
+        return steer(control, target, "resume", Map.of());
+    }
+
+    @Command(name = "seek", description = "Jumps to an event time, " + ReplayArguments.TIME)
+    int seek(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
+        String to = target.arguments(control, 1, 1, "TIME").get(0);
+        return steer(control, target, "seek", Map.of("to", ReplayArguments.time(to)));
+    }
+
+    @Command(name = "speed", description = "Changes the speed: 0.1 to 1000, or max.")
+    int speed(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
+        String speed = target.arguments(control, 1, 1, "a speed").get(0);
+        return steer(control, target, "speed", Map.of("speed", ReplayArguments.speed(speed)));
+    }
+
+    @Command(name = "step", description = "Lets a held replay play N events, or go back by -N. Default: 1.")
+    int step(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
+        List<String> arguments = target.arguments(control, 0, 1, "how many events, -N to go back");
+        String count = arguments.isEmpty() ? "1" : arguments.get(0);
+        if (!count.matches("[+-]?[0-9]{1,7}")) {
+            throw control.refused("'%s' is no number of events".formatted(count));
+        }
+        return steer(control, target, "step", Map.of("count", Integer.valueOf(count)));
+    }
+
+    @Command(
+            name = "loop",
+            description = "Plays what is between two event times, A and B, over and over; --off ends that.")
+    int loop(
+            @Mixin ControlOptions control,
+            @Mixin ReplayTarget target,
+            @Option(names = "--off", description = "Play on to the end.") boolean off) {
+        List<String> arguments =
+                off ? target.arguments(control, 0, 0, "nothing") : target.arguments(control, 2, 2, "A B");
+        return steer(
+                control,
+                target,
+                "loop",
+                off
+                        ? Map.of()
+                        : Map.of(
+                                "from",
+                                ReplayArguments.time(arguments.get(0)),
+                                "to",
+                                ReplayArguments.time(arguments.get(1))));
+    }
+
+    private static int steer(ControlOptions control, ReplayTarget target, String verb, Map<String, ?> body) {
+        return control.command("POST", target.path(control) + "/" + verb, ControlOptions.object(body));
+    }
+}

@@ -1,0 +1,89 @@
+package io.furrow.cli.dead;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.Arrays;
+import java.util.List;
+import java.util.Optional;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.common.PartitionInfo;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.header.Header;
+
+import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.Original;
+
+/** Reads the records that dead letters stand for, from where these say they are. */
+final class OriginalReader implements AutoCloseable {
+    private final KafkaConsumer<byte[], byte[]> consumer;
+
+    /** @param consumer is closed with this */
+    OriginalReader(KafkaConsumer<byte[], byte[]> consumer) {
+        this.consumer = consumer;
+    }
+
+    /**
+     * Empty if the record is no longer there, or another is in its place, because the topic was made again: letter and original
+     * have one time and one key.
+     *
+     * @throws IOException if Kafka does not answer
+     */
+    Optional<ConsumerRecord<byte[], byte[]>> find(Original original, ConsumerRecord<byte[], byte[]> deadLetter)
+            throws IOException {
+        TopicPartition partition = new TopicPartition(original.topic(), original.partition());
+        List<PartitionInfo> existing = consumer.partitionsFor(original.topic(), Redrive.TIMEOUT);
+        if (existing == null || existing.stream().noneMatch(info -> info.partition() == original.partition())) {
+            return Optional.empty();
+        }
+        consumer.assign(List.of(partition));
+        long first =
+                consumer.beginningOffsets(List.of(partition), Redrive.TIMEOUT).get(partition);
+        long end = consumer.endOffsets(List.of(partition), Redrive.TIMEOUT).get(partition);
+        if (original.offset() < first || original.offset() >= end) {
+            return Optional.empty();
+        }
+        consumer.seek(partition, original.offset());
+        return read(partition, original.offset()).filter(found -> isOf(deadLetter, found));
+    }
+
+    private Optional<ConsumerRecord<byte[], byte[]>> read(TopicPartition partition, long offset) throws IOException {
+        long until = System.nanoTime() + Redrive.TIMEOUT.toNanos();
+        while (consumer.position(partition) <= offset) {
+            for (ConsumerRecord<byte[], byte[]> record : consumer.poll(Duration.ofMillis(200))) {
+                if (record.offset() == offset) {
+                    return Optional.of(record);
+                }
+            }
+            if (System.nanoTime() > until) {
+                throw new IOException("%s-%d@%d cannot be read; does its broker answer?"
+                        .formatted(partition.topic(), partition.partition(), offset));
+            }
+        }
+        return Optional.empty();
+    }
+
+    /** That of the original: what is set aside as from the future has a time of its own. */
+    static long timeOf(ConsumerRecord<byte[], byte[]> deadLetter) {
+        Header time = deadLetter.headers().lastHeader(DeadLetter.TIME);
+        try {
+            return time == null
+                    ? deadLetter.timestamp()
+                    : Long.parseLong(new String(time.value(), StandardCharsets.UTF_8));
+        } catch (NumberFormatException e) { // somebody else's
+            return deadLetter.timestamp();
+        }
+    }
+
+    private static boolean isOf(ConsumerRecord<byte[], byte[]> deadLetter, ConsumerRecord<byte[], byte[]> found) {
+        boolean sameKey = deadLetter.key() == null || Arrays.equals(deadLetter.key(), found.key());
+        return sameKey && timeOf(deadLetter) == found.timestamp();
+    }
+
+    @Override
+    public void close() {
+        consumer.close();
+    }
+}

@@ -1,0 +1,131 @@
+package io.furrow.launcher.command;
+
+import java.io.IOException;
+import java.nio.file.FileAlreadyExistsException;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.time.Instant;
+import java.time.temporal.ChronoUnit;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+import io.furrow.cli.option.CommandException;
+import io.furrow.cli.option.CommandGroup;
+import io.furrow.launcher.suite.FarmSecretFile;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.FarmSecretCodec;
+import io.furrow.model.file.FileProblem;
+import io.furrow.model.file.PrivateFile;
+
+/** {@code ./furrow secret}. */
+@Command(
+        name = "secret",
+        description = "Makes and rotates the farm's secret, of which the credentials of all devices are made.",
+        synopsisSubcommandLabel = "COMMAND")
+public final class SecretCommandGroup extends CommandGroup {
+    private static final String FILE = "File of the farm's secret.";
+
+    @Spec
+    private CommandSpec spec;
+
+    @Command(name = "new", description = "Makes the secret of a new farm, in a file that only its owner may read.")
+    int create(@Parameters(paramLabel = "FILE", description = FILE) Path file) {
+        try {
+            FarmSecret secret = FarmSecretFile.make(file);
+            print("%s holds a new secret with the fingerprint %s.".formatted(file, secret.fingerprint()));
+            print(
+                    "Give a copy to every process of the farm, and keep one in a safe place: without it all devices need new credentials.");
+            return 0;
+        } catch (FileAlreadyExistsException e) {
+            return refuse(
+                    file + " is there already and stays as it is; ./furrow secret rotate gives a farm another key", e);
+        } catch (IOException e) {
+            return refuse("%s cannot be written (%s)".formatted(file, FileProblem.of(e)), e);
+        }
+    }
+
+    @Command(name = "show", description = "Shows fingerprints and times of the keys of a secret, nothing of the keys.")
+    int show(@Parameters(paramLabel = "FILE", description = FILE) Path file) {
+        FarmSecret secret = read(file);
+        Instant now = Instant.now();
+        for (FarmSecret.KeyInfo key : secret.describe()) {
+            String passwords = "makes passwords";
+            if (key.until() != null) {
+                passwords = key.until().isAfter(now)
+                        ? "its passwords are accepted until " + key.until()
+                        : "its passwords are no longer accepted";
+            }
+            print("key %d  %s  %s%s"
+                    .formatted(
+                            key.number(), key.fingerprint(), passwords, key.makesApiKeys() ? ", makes API keys" : ""));
+        }
+        return 0;
+    }
+
+    @Command(
+            name = "rotate",
+            description = {
+                "Adds a key that makes passwords from now on; those of the key before are accepted for a time.",
+                "Processes that run read the file again when it changes."
+            })
+    int rotate(
+            @Parameters(paramLabel = "FILE", description = FILE) Path file,
+            @Option(
+                            names = "--keep-old",
+                            paramLabel = "DURATION",
+                            description =
+                                    "How long the old passwords are accepted, such as 30d or 12h; 0s for not at all. Default: 30d, "
+                                            + "with --api-keys 0s.")
+                    Duration retainOld,
+            @Option(
+                            names = "--api-keys",
+                            description =
+                                    "Make new API keys too. They are part of the MQTT topics: no device is heard until it has "
+                                            + "its new credentials.")
+                    boolean apiKeys) {
+        if (apiKeys && retainOld != null && !retainOld.isZero()) {
+            throw new ParameterException(
+                    spec.commandLine(), "with --api-keys the old credentials are of no use; leave --keep-old out");
+        }
+        FarmSecret secret = read(file);
+        Duration retained = retainOld == null ? apiKeys ? Duration.ZERO : Duration.ofDays(30) : retainOld;
+        Instant now = Instant.now().truncatedTo(ChronoUnit.SECONDS);
+        FarmSecret rotated = secret.rotated(now, now.plus(retained), apiKeys);
+        try {
+            PrivateFile.replace(file, FarmSecretCodec.write(rotated));
+        } catch (IOException e) {
+            return refuse("%s cannot be replaced (%s); it is as it was".formatted(file, FileProblem.of(e)), e);
+        }
+        print("%s holds key %d with the fingerprint %s.".formatted(file, rotated.newestKey(), rotated.fingerprint()));
+        print(
+                retained.isZero()
+                        ? "Passwords of key %d are refused from now on.".formatted(secret.newestKey())
+                        : "Passwords of key %d are accepted until %s."
+                                .formatted(secret.newestKey(), now.plus(retained)));
+        print(
+                "Give a copy to every process of the farm, the control plane first; then give each device its new credentials: ./furrow device credentials DEVICE");
+        return 0;
+    }
+
+    private static FarmSecret read(Path file) {
+        try {
+            return FarmSecret.read(file);
+        } catch (IOException e) {
+            throw new CommandException(e.getMessage(), e);
+        }
+    }
+
+    private void print(String line) {
+        spec.commandLine().getOut().println(line);
+        spec.commandLine().getOut().flush();
+    }
+
+    private static int refuse(String message, IOException cause) {
+        throw new CommandException(message, cause);
+    }
+}
