@@ -119,7 +119,7 @@ public final class CollisionMeasurement {
     private record Bare(double perSecond, int compared, int different) {}
 
     private static Bare bare(CollisionPlan plan, Progress progress) {
-        BareLoop loop = new BareLoop(plan.devices());
+        BaselineLoop loop = new BaselineLoop(plan.devices());
         int complete = (int) Math.min(MAX_COMPARED, progress.millis() / 1000 - 1);
         int different = 0;
         long second = 0;

@@ -65,14 +65,14 @@ final class CrowdReader implements AutoCloseable {
     }
 
     /** What was found by now; the fleet's starts are compared with those of the bare loop. */
-    CrowdHeld held(CrowdHeld.Plan plan, int others, List<Long> lags) {
-        BareLoop loop = new BareLoop(others, CrowdedFleet::told);
+    SustainedCrowd held(SustainedCrowd.Plan plan, int others, List<Long> lags) {
+        BaselineLoop loop = new BaselineLoop(others, CrowdedFleet::told);
         int compared = (int) Math.max(0, (newestOfFleet - topic.begin()) / 1000 - OPEN_SECONDS);
         int different = 0;
         for (long second = 0; second < compared; second++) {
             different += loop.second(second) == starts.getOrDefault(second, 0) ? 0 : 1;
         }
-        return new CrowdHeld(plan, others, lags, count, List.copyOf(overflows), compared, different);
+        return new SustainedCrowd(plan, others, lags, count, List.copyOf(overflows), compared, different);
     }
 
     @SuppressWarnings("NonAtomicOperationOnVolatileField") // one thread reads

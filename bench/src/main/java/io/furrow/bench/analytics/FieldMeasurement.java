@@ -26,7 +26,7 @@ import io.furrow.analytics.presence.TrackPresence;
 import io.furrow.analytics.temperature.AssignFields;
 import io.furrow.analytics.temperature.Reading;
 import io.furrow.bench.analytics.load.Fleet;
-import io.furrow.bench.analytics.load.MadeUpFields;
+import io.furrow.bench.analytics.load.SyntheticFields;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.BroadcastLatenessOperator;
 import io.furrow.model.event.FiwareScope;
@@ -40,7 +40,7 @@ public final class FieldMeasurement {
     private static final String TOPIC = "data.raw";
     private static final PresenceRules PRESENCE = new PresenceRules(Duration.ofMinutes(5), Duration.ZERO);
 
-    private final MadeUpFields fields;
+    private final SyntheticFields fields;
     private final long points;
     private final Consumer<String> progress;
 
@@ -57,7 +57,7 @@ public final class FieldMeasurement {
      * @param points of each round
      */
     public FieldMeasurement(int fields, int corners, long points, Consumer<String> progress) {
-        this.fields = new MadeUpFields(fields, corners);
+        this.fields = new SyntheticFields(fields, corners);
         this.points = points;
         this.progress = progress;
     }
@@ -101,7 +101,7 @@ public final class FieldMeasurement {
 
     private void temperature(int parallelism) throws Exception {
         StreamExecutionEnvironment env = environment(parallelism);
-        MadeUpFields where = fields; // this object does not travel with the job
+        SyntheticFields where = fields; // this object does not travel with the job
         GeneratorFunction<Long, Reading> nth = n -> new Reading(
                 "urn:ngsi-ld:Thermometer:1",
                 "Thermometer",
@@ -119,7 +119,7 @@ public final class FieldMeasurement {
 
     private void presence(int parallelism) throws Exception {
         StreamExecutionEnvironment env = environment(parallelism);
-        MadeUpFields where = fields;
+        SyntheticFields where = fields;
         GeneratorFunction<Long, PositionFix> nth = n -> {
             Position position = where.position(n);
             String id = "urn:ngsi-ld:Robot:" + n % DEVICES;

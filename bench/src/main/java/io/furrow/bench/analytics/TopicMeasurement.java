@@ -49,7 +49,7 @@ public final class TopicMeasurement {
         try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, partitions, cluster.kafka())) {
             topic.fill(devices, records);
             progress.accept("%,d records of %,d devices written".formatted(records, devices));
-            double bare = BareReader.perSecond(topic, devices);
+            double bare = BaselineReader.perSecond(topic, devices);
             long span = 1000 * records / devices;
             Running job = start(topic, parallelism, List.of());
             try (FoundReader found = new FoundReader(cluster.kafka(), topic.results())) {
@@ -88,7 +88,7 @@ public final class TopicMeasurement {
             int devices, double side, int parallelism, String ongoingEvery, Duration warmUp, Duration measured) {}
 
     /** A fleet that reports as time goes by, and how far the job's consumer is behind it, second by second. */
-    public HeldRate held(Held plan) throws Exception {
+    public SustainedRate held(Held plan) throws Exception {
         try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
             Thread fleet = new Thread(() -> topic.report(plan.devices, plan.side), "bench-fleet");
             Running job = start(topic, plan.parallelism, List.of("--ongoing-every", plan.ongoingEvery));
@@ -104,7 +104,7 @@ public final class TopicMeasurement {
                     progress.accept("%d s: lag %,d".formatted(second + 1, lags.get(second)));
                 }
                 double seconds = (System.nanoTime() - begin) / 1e9;
-                return new HeldRate(
+                return new SustainedRate(
                         plan.devices,
                         plan.side,
                         (topic.sent() - sent) / seconds,
@@ -156,7 +156,7 @@ public final class TopicMeasurement {
      * @param plan the devices on the spot
      * @param others devices of the fleet, each with a report a second too
      */
-    public CrowdHeld crowd(CrowdHeld.Plan plan, int others, int parallelism) throws Exception {
+    public SustainedCrowd crowd(SustainedCrowd.Plan plan, int others, int parallelism) throws Exception {
         try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
             CrowdedFleet fleet = new CrowdedFleet(plan.devices(), others);
             Thread reports = new Thread(() -> topic.report(fleet::tick), "bench-fleet");

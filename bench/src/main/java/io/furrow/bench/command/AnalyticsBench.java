@@ -20,7 +20,7 @@ import io.furrow.bench.analytics.CollisionReport;
 import io.furrow.bench.analytics.CollisionRun;
 import io.furrow.bench.analytics.FieldMeasurement;
 import io.furrow.bench.analytics.Figures;
-import io.furrow.bench.analytics.HeldRate;
+import io.furrow.bench.analytics.SustainedRate;
 import io.furrow.bench.analytics.TopicMeasurement;
 import io.furrow.bench.analytics.load.CollisionPlan;
 import io.furrow.bench.ingest.IngestMeasurement.Cluster;
@@ -208,7 +208,7 @@ final class AnalyticsBench implements Callable<Integer> {
         ObjectNode lags = report.object("heldLags");
         for (double side : load.heldSides) {
             report.tell("%,d devices at 1 Hz on %,.0f m".formatted(load.heldDevices, side));
-            HeldRate held = measurement.held(new TopicMeasurement.Held(
+            SustainedRate held = measurement.held(new TopicMeasurement.Held(
                     load.heldDevices,
                     side,
                     most(cores),

@@ -6,7 +6,7 @@ import java.util.List;
 
 import picocli.CommandLine.Option;
 
-import io.furrow.bench.analytics.CrowdHeld;
+import io.furrow.bench.analytics.SustainedCrowd;
 import io.furrow.bench.analytics.CrowdMeasurement;
 import io.furrow.bench.analytics.Figures;
 import io.furrow.bench.analytics.TopicMeasurement;
@@ -64,8 +64,8 @@ final class CrowdLoad {
         Figures figures = new Figures("Devices on one spot at 1 Hz beside a fleet: lag of the results");
         int most = Collections.max(crowds);
         report.tell("%,d devices on one spot beside %,d".formatted(most, others));
-        CrowdHeld held =
-                measurement.crowd(new CrowdHeld.Plan(most, warmUp, Duration.ofSeconds(seconds)), others, parallelism);
+        SustainedCrowd held =
+                measurement.crowd(new SustainedCrowd.Plan(most, warmUp, Duration.ofSeconds(seconds)), others, parallelism);
         held.overflows().forEach(report::tell);
         held.addTo(figures);
         report.add("crowd", figures);

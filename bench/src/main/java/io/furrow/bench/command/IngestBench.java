@@ -21,7 +21,7 @@ import picocli.CommandLine.Spec;
 import io.furrow.bench.ingest.IngestMeasurement;
 import io.furrow.bench.ingest.IngestPlan;
 import io.furrow.bench.ingest.IngestReport;
-import io.furrow.bench.ingest.Peer;
+import io.furrow.bench.ingest.ComparedJob;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
@@ -120,7 +120,7 @@ final class IngestBench implements Callable<Integer> {
             hideParamSyntax = true,
             defaultValue = "COPY_ONCE,COPY_TWICE,ROUTES,INGEST",
             description = "COPY_ONCE, COPY_TWICE, ROUTES, INGEST. Default: all.")
-    private List<Peer> jobs;
+    private List<ComparedJob> jobs;
 
     @Option(
             names = "--mongo",

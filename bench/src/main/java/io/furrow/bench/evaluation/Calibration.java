@@ -15,11 +15,11 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.internals.RecordHeaders;
 import org.apache.kafka.common.record.TimestampType;
 
-import io.furrow.bench.http.BareServer;
+import io.furrow.bench.http.BaselineServer;
 import io.furrow.bench.http.HttpLoad;
 import io.furrow.bench.http.HttpLoadPlan;
 import io.furrow.bench.http.HttpLoadResult;
-import io.furrow.bench.notifications.BareProducer;
+import io.furrow.bench.notifications.BaselineProducer;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.launcher.suite.RunDirectory;
 
@@ -52,7 +52,7 @@ public record Calibration(double producer, double server, double bridge) {
         byte[] value = new byte[BYTES];
         new SplittableRandom(1).nextBytes(value);
         byte[] key = "device".getBytes(StandardCharsets.US_ASCII);
-        BareProducer producer = new BareProducer(client, "calibration");
+        BaselineProducer producer = new BaselineProducer(client, "calibration");
         List<ConsumerRecord<byte[], byte[]>> samples = List.of(new ConsumerRecord<>(
                 "calibration",
                 0,
@@ -70,19 +70,19 @@ public record Calibration(double producer, double server, double bridge) {
     }
 
     private static double serving() {
-        try (BareServer server = BareServer.start()) {
+        try (BaselineServer server = BaselineServer.start()) {
             return answered(server);
         }
     }
 
     private static double bridging(Properties client) {
-        try (BareServer server = BareServer.bridge(client, "calibration-bridge")) {
+        try (BaselineServer server = BaselineServer.bridge(client, "calibration-bridge")) {
             return answered(server);
         }
     }
 
     /** Per second, of a second run. */
-    private static double answered(BareServer server) {
+    private static double answered(BaselineServer server) {
         HttpLoadPlan plan = new HttpLoadPlan(CONNECTIONS, false, 0, BYTES, ENTITIES, LASTING);
         new HttpLoad(server.address(), plan, 0).run();
         HttpLoadResult load = new HttpLoad(server.address(), plan, 0).run();

@@ -71,12 +71,12 @@ public final class IngestMeasurement {
     }
 
     /** One turn of all jobs does not count, because the JVM is cold. */
-    public List<IngestRun> run(List<Peer> peers, List<Delivery> deliveries) throws Exception {
+    public List<IngestRun> run(List<ComparedJob> peers, List<Delivery> deliveries) throws Exception {
         fill();
         List<IngestRun> counted = new ArrayList<>();
         for (int turn = 0; turn <= plan.turns(); turn++) {
             for (Delivery delivery : deliveries) {
-                for (Peer peer : peers) {
+                for (ComparedJob peer : peers) {
                     IngestRun run = run(peer, delivery, turn);
                     progress.accept("%s  %-13s  %-34s %,9.0f records/s %7.1f µs"
                             .formatted(
@@ -105,7 +105,7 @@ public final class IngestMeasurement {
                 .writeTo(Topics.RAW, kafka, written -> progress.accept("%,d written".formatted(written)));
     }
 
-    private IngestRun run(Peer peer, Delivery delivery, int turn) throws Exception {
+    private IngestRun run(ComparedJob peer, Delivery delivery, int turn) throws Exception {
         List<String> topics = new ArrayList<>(List.of(Topics.realtime(ReportedEntities.DOMAIN)));
         topics.addAll(missionTopics());
         long expected = (long) plan.records() * peer.writes();
@@ -125,7 +125,7 @@ public final class IngestMeasurement {
                     throughput.add(written.readable());
                 }
                 long missing = expected - written.counted(expected, TIMEOUT);
-                long stateBytes = turn == 0 || peer != Peer.INGEST
+                long stateBytes = turn == 0 || peer != ComparedJob.INGEST
                         ? 0
                         : Checkpoints.bytesOfNext(checkpoints.resolve(name), TIMEOUT);
                 Throughput.Pace pace = throughput.pace();
@@ -145,7 +145,7 @@ public final class IngestMeasurement {
     }
 
     /** Under a name of its own each reads from the beginning and has its own transactions. */
-    private StreamExecutionEnvironment job(String name, Peer peer, Delivery delivery) {
+    private StreamExecutionEnvironment job(String name, ComparedJob peer, Delivery delivery) {
         List<String> args = new ArrayList<>(peer.options());
         args.addAll(List.of("--bootstrap-servers", kafka.getProperty("bootstrap.servers")));
         args.addAll(List.of("--delivery", words(delivery)));
@@ -153,7 +153,7 @@ public final class IngestMeasurement {
         args.addAll(List.of("--checkpoint-interval", plan.checkpointInterval().toMillis() + "ms"));
         args.addAll(
                 List.of("--checkpoint-dir", checkpoints.resolve(name).toUri().toString()));
-        if (peer == Peer.INGEST && mongo != null) {
+        if (peer == ComparedJob.INGEST && mongo != null) {
             args.addAll(List.of("--mongo", mongo));
         }
         IngestOptions options = new IngestOptions();

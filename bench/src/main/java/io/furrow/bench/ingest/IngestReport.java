@@ -15,21 +15,21 @@ public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
     private static final String ROW = "%-13s  %-34s %10s %14s %13s %10s %14s %15s %8s%n";
 
     /** Records per second. */
-    public double median(Delivery delivery, Peer peer) {
+    public double median(Delivery delivery, ComparedJob peer) {
         return median(delivery, peer, IngestRun::recordsPerSecond);
     }
 
     /** Records per second to those of another job in the same turn; NaN if that had none. */
-    public double ratio(Delivery delivery, Peer peer, Peer other) {
+    public double ratio(Delivery delivery, ComparedJob peer, ComparedJob other) {
         return ratio(delivery, peer, other, IngestRun::recordsPerSecond);
     }
 
     /** The same of records per second of processor time, which other work on the machine disturbs less. */
-    public double processorRatio(Delivery delivery, Peer peer, Peer other) {
+    public double processorRatio(Delivery delivery, ComparedJob peer, ComparedJob other) {
         return ratio(delivery, peer, other, run -> 1 / run.processorMicros());
     }
 
-    private double ratio(Delivery delivery, Peer peer, Peer other, ToDoubleFunction<IngestRun> figure) {
+    private double ratio(Delivery delivery, ComparedJob peer, ComparedJob other, ToDoubleFunction<IngestRun> figure) {
         return median(
                 delivery,
                 peer,
@@ -41,7 +41,7 @@ public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
     }
 
     /** Of an even number the upper one. */
-    private double median(Delivery delivery, Peer peer, ToDoubleFunction<IngestRun> figure) {
+    private double median(Delivery delivery, ComparedJob peer, ToDoubleFunction<IngestRun> figure) {
         double[] sorted = runs.stream()
                 .filter(run -> run.delivery() == delivery && run.peer() == peer)
                 .mapToDouble(figure)
@@ -88,10 +88,10 @@ public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
                                 IngestMeasurement.words(delivery),
                                 peer.title(),
                                 "%,.0f".formatted(median(delivery, peer)),
-                                "%.2f".formatted(ratio(delivery, peer, Peer.COPY_TWICE)),
-                                "%.2f".formatted(ratio(delivery, peer, Peer.COPY_ONCE)),
+                                "%.2f".formatted(ratio(delivery, peer, ComparedJob.COPY_TWICE)),
+                                "%.2f".formatted(ratio(delivery, peer, ComparedJob.COPY_ONCE)),
                                 "%.1f".formatted(median(delivery, peer, IngestRun::processorMicros)),
-                                "%.2f".formatted(processorRatio(delivery, peer, Peer.COPY_TWICE)),
+                                "%.2f".formatted(processorRatio(delivery, peer, ComparedJob.COPY_TWICE)),
                                 "%,.0f".formatted(median(delivery, peer, IngestRun::stateBytes) / plan.devices()),
                                 runs.stream()
                                         .filter(run -> run.delivery() == delivery && run.peer() == peer)

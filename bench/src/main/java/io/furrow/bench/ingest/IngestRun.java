@@ -12,7 +12,7 @@ import io.furrow.flink.job.Delivery;
  * @param missing records that are not on the topics of domain and missions; negative where some are there more than once
  */
 public record IngestRun(
-        Peer peer,
+        ComparedJob peer,
         Delivery delivery,
         int turn,
         double recordsPerSecond,

@@ -17,14 +17,14 @@ import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 
 import io.furrow.bench.arrival.TopicReader;
-import io.furrow.bench.http.BareServer;
+import io.furrow.bench.http.BaselineServer;
 import io.furrow.bench.http.HttpLoad;
 import io.furrow.bench.http.HttpLoadPlan;
 import io.furrow.bench.http.HttpLoadResult;
 
 /**
  * Presses an NGSI source with numbered notifications and reads its topic. Senders, source, broker and reader share the
- * processors; each run is followed by the same load on two {@link BareServer}s, one with Kafka behind it, and by a {@link BareProducer}.
+ * processors; each run is followed by the same load on two {@link BaselineServer}s, one with Kafka behind it, and by a {@link BaselineProducer}.
  */
 public final class NotificationMeasurement implements AutoCloseable {
     /** In large pieces, because the reader shares the processors. */
@@ -133,20 +133,20 @@ public final class NotificationMeasurement implements AutoCloseable {
     }
 
     private HttpLoadResult bareServer(String name, HttpLoadPlan plan) throws InterruptedException {
-        try (BareServer server = BareServer.start()) {
+        try (BaselineServer server = BaselineServer.start()) {
             return send(name + ", bare server", server.address(), plan, null);
         }
     }
 
     private HttpLoadResult bareBridge(String name, HttpLoadPlan plan) throws InterruptedException {
-        try (BareServer server = BareServer.bridge(kafka, BARE_TOPIC)) {
+        try (BaselineServer server = BaselineServer.bridge(kafka, BARE_TOPIC)) {
             return send(name + ", bare bridge", server.address(), plan, null);
         }
     }
 
     private double bareProducer(String name, List<ConsumerRecord<byte[], byte[]>> samples, Duration duration) {
         progress.accept(name + ", bare producer");
-        return samples.isEmpty() ? Double.NaN : new BareProducer(kafka, BARE_TOPIC).perSecond(samples, duration);
+        return samples.isEmpty() ? Double.NaN : new BaselineProducer(kafka, BARE_TOPIC).perSecond(samples, duration);
     }
 
     @Override

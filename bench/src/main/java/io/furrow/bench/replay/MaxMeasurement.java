@@ -62,7 +62,7 @@ public final class MaxMeasurement {
             int events = turn == 0 ? Math.min(WARM_UP_EVENTS, mission.events()) : mission.events();
             Turn measured = new Turn(
                     replay(3 * turn, events),
-                    bare(3 * turn + 1, events, BareCursor.FIRST_QUERY),
+                    bare(3 * turn + 1, events, BaselineCursor.FIRST_QUERY),
                     bare(3 * turn + 2, events, mission.events()));
             progress.accept(String.format(
                     Locale.ROOT,
@@ -84,7 +84,7 @@ public final class MaxMeasurement {
     /** Plays it once. @return heap in use after collections while it was played, less than before, MiB at most */
     public long heldWhilePlayed() throws Exception {
         store();
-        try (HeldHeap heap = HeldHeap.start(progress)) {
+        try (HeapGrowth heap = HeapGrowth.start(progress)) {
             Run run = replay(0, mission.events());
             progress.accept(String.format(
                     Locale.ROOT, "%,d events in %.1f s, %d missing", mission.events(), run.seconds(), run.missing()));
@@ -119,7 +119,7 @@ public final class MaxMeasurement {
         cluster.make(List.of(replay.topic()));
         long begun = System.currentTimeMillis();
         try (KafkaProducer<byte[], byte[]> producer = cluster.producer()) {
-            new BareCursor(cluster.mongo(), replay, events, perQuery).write(producer);
+            new BaselineCursor(cluster.mongo(), replay, events, perQuery).write(producer);
         }
         return run(replay.topic(), begun, events);
     }

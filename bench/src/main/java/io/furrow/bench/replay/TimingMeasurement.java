@@ -74,7 +74,7 @@ public final class TimingMeasurement {
     /** Plays them once. @return heap in use after collections while they were played, less than before, MiB at most */
     public long heldWhilePlayed() throws Exception {
         store();
-        try (HeldHeap heap = HeldHeap.start(progress)) {
+        try (HeapGrowth heap = HeapGrowth.start(progress)) {
             List<DesiredReplay> desired = desired(0, Long.MAX_VALUE, null);
             cluster.want(desired);
             cluster.awaitEnd(desired);
@@ -130,7 +130,7 @@ public final class TimingMeasurement {
             again = IntStream.range(0, replays)
                     .mapToObj(i -> schedule.get(i).onto(others.get(i), later))
                     .toList();
-            new BareSchedule(again, until).write(producer);
+            new BaselineSchedule(again, until).write(producer);
         }
         Timing.Collected written = collected();
         Map<String, List<PlayedRecord>> onTopics = ScheduledReplay.events(cluster, others);

@@ -20,7 +20,7 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
-import io.furrow.bench.http.BareServer;
+import io.furrow.bench.http.BaselineServer;
 import io.furrow.bench.http.HttpLoad;
 import io.furrow.bench.http.HttpLoadPlan;
 import io.furrow.bench.http.NotificationRequest;
@@ -52,7 +52,7 @@ public final class SinkMeasurement {
     /** Into a receiver that only answers. */
     public SinkRun run(String name, SinkPlan plan, SinkStart sink) throws InterruptedException, ExecutionException {
         fill(name, plan);
-        try (AnsweringBroker broker = AnsweringBroker.start()) {
+        try (StubBroker broker = StubBroker.start()) {
             sink.start(name, name, broker.uri());
             awaitCommitted(name, plan.records(), () -> broker.entities() + " entities written");
             long missing = missing(plan, broker.numbers());
@@ -136,7 +136,7 @@ public final class SinkMeasurement {
     }
 
     private static double bareEntitiesPerSecond(SinkPlan plan) {
-        try (BareServer server = BareServer.start()) {
+        try (BaselineServer server = BaselineServer.start()) {
             HttpLoadPlan load =
                     new HttpLoadPlan(4, false, 0, ENTITIES_PER_REQUEST * plan.payloadBytes(), 1, Duration.ofSeconds(3));
             return new HttpLoad(server.address(), load, 0).run().perSecond() * ENTITIES_PER_REQUEST;

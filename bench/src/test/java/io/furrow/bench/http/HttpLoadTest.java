@@ -24,7 +24,7 @@ class HttpLoadTest {
     @ParameterizedTest
     @ValueSource(booleans = {true, false})
     void countsEachAnsweredNotificationUnderItsNumber(boolean newConnections) {
-        try (BareServer server = BareServer.start()) {
+        try (BaselineServer server = BaselineServer.start()) {
             HttpLoad load = new HttpLoad(server.address(), plan(8, newConnections, 0, 500), 5_000);
             HttpLoadResult result = load.run();
 
@@ -38,7 +38,7 @@ class HttpLoadTest {
 
     @Test
     void sendsWhatIsDueAndNoMore() {
-        try (BareServer server = BareServer.start()) {
+        try (BaselineServer server = BaselineServer.start()) {
             HttpLoadResult result = new HttpLoad(server.address(), plan(8, false, 200, 1000), 0).run();
 
             assertThat(result.answered()).isEqualTo(200);

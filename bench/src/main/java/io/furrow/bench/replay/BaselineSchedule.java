@@ -17,7 +17,7 @@ import io.furrow.mission.StoredEvent;
 import io.furrow.replay.record.EventEncoder;
 
 /** Writes the events of replays when they are due: one thread, one producer, and sleep until the next. */
-final class BareSchedule {
+final class BaselineSchedule {
     private final List<Turn> turns = new ArrayList<>();
 
     private record Turn(long due, ScheduledReplay replay, EventEncoder encoder, StoredEvent event, long sequence) {
@@ -27,7 +27,7 @@ final class BareSchedule {
     }
 
     /** @param until event time before which all is written, epoch ms */
-    BareSchedule(List<ScheduledReplay> replays, long until) {
+    BaselineSchedule(List<ScheduledReplay> replays, long until) {
         Map<StoredMission, List<StoredEvent>> events = new HashMap<>();
         for (ScheduledReplay replay : replays) {
             long sequence = 0;

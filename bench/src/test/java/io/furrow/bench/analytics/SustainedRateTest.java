@@ -8,24 +8,24 @@ import org.junit.jupiter.api.Test;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
-class HeldRateTest {
+class SustainedRateTest {
     @Test
     void holdsWhereTheLagSwingsWithTheCheckpoints() {
-        HeldRate held = new HeldRate(1000, 2000, 1000, 1, lags(0, 700));
+        SustainedRate held = new SustainedRate(1000, 2000, 1000, 1, lags(0, 700));
         assertThat(held.slope()).isCloseTo(0, within(10.0));
         assertThat(held.isHeld()).isTrue();
     }
 
     @Test
     void doesNotHoldWhereTheLagGrows() {
-        HeldRate grown = new HeldRate(1000, 2000, 1000, 1, lags(20, 700));
+        SustainedRate grown = new SustainedRate(1000, 2000, 1000, 1, lags(20, 700));
         assertThat(grown.slope()).isCloseTo(20, within(10.0));
         assertThat(grown.isHeld()).isFalse();
     }
 
     @Test
     void doesNotHoldWhereTheFleetSentLess() {
-        assertThat(new HeldRate(1000, 2000, 950, 1, lags(0, 0)).isHeld()).isFalse();
+        assertThat(new SustainedRate(1000, 2000, 950, 1, lags(0, 0)).isHeld()).isFalse();
     }
 
     private static List<Long> lags(long growth, long swing) {

@@ -14,11 +14,11 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
  * The rate at which one producer writes records like these, as fast as it can, with the settings that a Connect worker gives
  * to its producers: all replicas acknowledge, one request at a time to each broker.
  */
-public final class BareProducer {
+public final class BaselineProducer {
     private final Properties client;
     private final String topic;
 
-    public BareProducer(Properties client, String topic) {
+    public BaselineProducer(Properties client, String topic) {
         this.client = client;
         this.topic = topic;
     }

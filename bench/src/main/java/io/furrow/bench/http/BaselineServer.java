@@ -29,7 +29,7 @@ import org.eclipse.jetty.util.thread.QueuedThreadPool;
  * A Jetty on 127.0.0.1 that reads each body and answers 200: one that forgets it, which no receiver built on it can exceed; or one that
  * answers when Kafka has it, the simplest bridge that loses nothing that it acknowledged.
  */
-public final class BareServer implements AutoCloseable {
+public final class BaselineServer implements AutoCloseable {
     private static final int THREADS = 16;
     private static final String LINGER_MS = "1";
 
@@ -37,7 +37,7 @@ public final class BareServer implements AutoCloseable {
     private final ServerConnector connector;
     private final Closeable behind;
 
-    private BareServer(Handler handler, Closeable behind) {
+    private BaselineServer(Handler handler, Closeable behind) {
         this.behind = behind;
         QueuedThreadPool threads = new QueuedThreadPool(THREADS, 4);
         threads.setName("bare-server");
@@ -53,7 +53,7 @@ public final class BareServer implements AutoCloseable {
     }
 
     /** On a free port. */
-    public static BareServer start() {
+    public static BaselineServer start() {
         return start(new Answering(), () -> {});
     }
 
@@ -61,7 +61,7 @@ public final class BareServer implements AutoCloseable {
      * A bridge to a topic. Its producer sends what has come when an earlier request is on its way, since each sender waits for its
      * answer: with the default {@code linger.ms} of 5 they would only wait longer.
      */
-    public static BareServer bridge(Properties kafka, String topic) {
+    public static BaselineServer bridge(Properties kafka, String topic) {
         Properties settings = new Properties();
         settings.putAll(kafka);
         settings.setProperty("acks", "all");
@@ -72,8 +72,8 @@ public final class BareServer implements AutoCloseable {
         return start(new Bridging(producer, topic), producer);
     }
 
-    private static BareServer start(Handler handler, Closeable behind) {
-        BareServer bare = new BareServer(handler, behind);
+    private static BaselineServer start(Handler handler, Closeable behind) {
+        BaselineServer bare = new BaselineServer(handler, behind);
         LifeCycle.start(bare.server);
         return bare;
     }

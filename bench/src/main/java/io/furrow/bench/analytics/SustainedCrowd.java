@@ -14,7 +14,7 @@ import java.util.List;
  * @param secondsCompared seconds of event time whose starts among the fleet were compared with the bare loop's
  * @param secondsDifferent of these, in how many the numbers differ: 0, or something is wrong
  */
-public record CrowdHeld(
+public record SustainedCrowd(
         Plan plan,
         int others,
         List<Long> lags,

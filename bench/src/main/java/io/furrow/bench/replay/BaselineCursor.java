@@ -25,7 +25,7 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.replay.record.EventEncoder;
 
 /** Reads a mission by event time with a cursor of MongoDB's driver, decodes each document and sends its record, in one thread. */
-final class BareCursor {
+final class BaselineCursor {
     /** As a recording in MongoDB is read: of the first query; a full one is followed by one twice as long, within the bytes. */
     static final int FIRST_QUERY = 2_000;
 
@@ -48,7 +48,7 @@ final class BareCursor {
      * @param most events
      * @param perQuery documents of the first query, more than are of one millisecond
      */
-    BareCursor(String mongo, DesiredReplay replay, int most, int perQuery) {
+    BaselineCursor(String mongo, DesiredReplay replay, int most, int perQuery) {
         this.mongo = mongo;
         this.replay = replay;
         this.encoder = PlayedRecord.encoder(replay);

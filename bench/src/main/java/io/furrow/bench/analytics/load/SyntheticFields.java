@@ -19,7 +19,7 @@ import io.furrow.model.topic.Topics;
  * Fields side by side on a square grid of 0.01 degrees, each a wavy outline around the center of its cell that fills about
  * half of it; made again wherever they are read, so that only their number travels.
  */
-public record MadeUpFields(int fields, int corners) implements TopicSnapshot {
+public record SyntheticFields(int fields, int corners) implements TopicSnapshot {
     private static final double CELL = 0.01;
     private static final double WEST = -3.5;
     private static final double SOUTH = 40.3;

@@ -22,7 +22,7 @@ import org.eclipse.jetty.util.thread.QueuedThreadPool;
 import io.furrow.bench.http.NotificationRequest;
 
 /** A context broker that knows no entity and takes every update: it notes the numbers in the bodies, and when they came. */
-public final class AnsweringBroker implements AutoCloseable {
+public final class StubBroker implements AutoCloseable {
     private static final String QUERY = "/v2/op/query";
     private static final byte[] NO_ENTITIES = "[]".getBytes(StandardCharsets.US_ASCII);
 
@@ -34,7 +34,7 @@ public final class AnsweringBroker implements AutoCloseable {
     private long firstNanos;
     private long lastNanos;
 
-    private AnsweringBroker() {
+    private StubBroker() {
         QueuedThreadPool threads = new QueuedThreadPool(16, 4);
         threads.setName("bare-broker");
         threads.setDaemon(true);
@@ -48,8 +48,8 @@ public final class AnsweringBroker implements AutoCloseable {
     }
 
     /** On a free port. */
-    public static AnsweringBroker start() {
-        AnsweringBroker broker = new AnsweringBroker();
+    public static StubBroker start() {
+        StubBroker broker = new StubBroker();
         LifeCycle.start(broker.server);
         return broker;
     }

@@ -5,7 +5,7 @@ import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
 
 /** Triggers garbage collection every few seconds and reports the growth of the heap in use. */
-final class HeldHeap implements AutoCloseable {
+final class HeapGrowth implements AutoCloseable {
     private static final long SECONDS = 5;
     private static final long MEBI = 1024 * 1024;
 
@@ -14,14 +14,14 @@ final class HeldHeap implements AutoCloseable {
     private final long before;
     private volatile long most;
 
-    private HeldHeap(Consumer<String> progress) {
+    private HeapGrowth(Consumer<String> progress) {
         before = used();
         progress.accept("heap before: %,d MiB".formatted(before));
         thread = new Thread(() -> sample(progress), "bench-heap");
     }
 
-    static HeldHeap start(Consumer<String> progress) {
-        HeldHeap heap = new HeldHeap(progress);
+    static HeapGrowth start(Consumer<String> progress) {
+        HeapGrowth heap = new HeapGrowth(progress);
         heap.thread.start();
         return heap;
     }

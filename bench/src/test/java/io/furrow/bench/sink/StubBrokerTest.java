@@ -16,7 +16,7 @@ import io.furrow.bench.http.NotificationRequest;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-class AnsweringBrokerTest {
+class StubBrokerTest {
     private final HttpClient client = HttpClient.newHttpClient();
 
     @Test
@@ -25,7 +25,7 @@ class AnsweringBrokerTest {
                 NotificationRequest.to(InetSocketAddress.createUnresolved("127.0.0.1", 0), 500, 10);
         String update = "{\"actionType\":\"append\",\"entities\":[%s,%s]}"
                 .formatted(text(entities.entityWith(3, 0)), text(entities.entityWith(5, 0)));
-        try (AnsweringBroker broker = AnsweringBroker.start()) {
+        try (StubBroker broker = StubBroker.start()) {
             HttpResponse<String> known = post(broker.uri().resolve("/v2/op/query?limit=1000"), "{}");
             HttpResponse<String> updated = post(broker.uri().resolve("/v2/op/update"), update);
 

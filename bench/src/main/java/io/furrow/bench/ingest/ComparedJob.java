@@ -3,7 +3,7 @@ package io.furrow.bench.ingest;
 import java.util.List;
 
 /** The jobs that take turns. */
-public enum Peer {
+public enum ComparedJob {
     /** Copies each record once, to the topic of the domain. */
     COPY_ONCE("copies to one topic", 1),
     /** Copies each record to the topics of the domain and of a mission. */
@@ -16,7 +16,7 @@ public enum Peer {
     private final String title;
     private final int writes;
 
-    Peer(String title, int writes) {
+    ComparedJob(String title, int writes) {
         this.title = title;
         this.writes = writes;
     }

@@ -18,14 +18,14 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.EntityReader;
 import io.furrow.model.position.PositionReading;
 
-/** One thread that reads a topic with a consumer and gives the positions to a {@link BareLoop}, in the order of arrival. */
-final class BareReader {
-    private BareReader() {}
+/** One thread that reads a topic with a consumer and gives the positions to a {@link BaselineLoop}, in the order of arrival. */
+final class BaselineReader {
+    private BaselineReader() {}
 
     static double perSecond(FleetTopic topic, int devices) throws UnreadableException {
         Properties properties = new Properties();
         properties.putAll(topic.kafka());
-        BareLoop loop = new BareLoop(devices);
+        BaselineLoop loop = new BaselineLoop(devices);
         EntityReader reader = new EntityReader(Set.of());
         try (var consumer = new KafkaConsumer<>(properties, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
             List<TopicPartition> partitions = IntStream.range(0, topic.partitions())

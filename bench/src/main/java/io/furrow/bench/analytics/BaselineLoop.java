@@ -23,7 +23,7 @@ import io.furrow.bench.analytics.load.Fleet;
  * The same grid and predicate in one thread and plain maps, for positions in order: no serialization, no state backend, no
  * timers, no distance of what lasts. What Flink's stages could be at best, and what they must agree with.
  */
-final class BareLoop {
+final class BaselineLoop {
     private final Tracker tracker = new Tracker(CollisionRules.DEFAULT);
     private final Matching matching = new Matching(CollisionRules.DEFAULT);
     private final Fleet fleet;
@@ -36,12 +36,12 @@ final class BareLoop {
     private long now = Long.MIN_VALUE;
     private long starts;
 
-    BareLoop(int devices) {
+    BaselineLoop(int devices) {
         this(devices, UnaryOperator.identity());
     }
 
     /** @param told what a report reports where a device is */
-    BareLoop(int devices, UnaryOperator<PositionFix> told) {
+    BaselineLoop(int devices, UnaryOperator<PositionFix> told) {
         this.told = told;
         fleet = new Fleet(devices, 0, 1);
         tracks = new Track[devices];

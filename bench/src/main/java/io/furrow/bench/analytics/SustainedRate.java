@@ -12,7 +12,7 @@ import java.util.List;
  * @param foundPerSecond records that the job wrote
  * @param lags the least of the job's consumer in each second, in records, as of its newest checkpoint
  */
-public record HeldRate(int devices, double side, double sentPerSecond, double foundPerSecond, List<Long> lags) {
+public record SustainedRate(int devices, double side, double sentPerSecond, double foundPerSecond, List<Long> lags) {
     /** Of the rate: what the slope of a lag that does not grow stays below. */
     private static final double GROWTH = 0.01;
 
