@@ -27,7 +27,7 @@ final class BaselineLoop {
     private final Tracker tracker = new Tracker(CollisionRules.DEFAULT);
     private final Matching matching = new Matching(CollisionRules.DEFAULT);
     private final Fleet fleet;
-    private final UnaryOperator<PositionFix> told;
+    private final UnaryOperator<PositionFix> received;
     private final Track[] tracks;
     private final Map<Long, Cell> cells = new HashMap<>();
     private final Map<Long, List<CellUpdate>> instant = new HashMap<>();
@@ -40,9 +40,9 @@ final class BaselineLoop {
         this(devices, UnaryOperator.identity());
     }
 
-    /** @param told what a report reports where a device is */
-    BaselineLoop(int devices, UnaryOperator<PositionFix> told) {
-        this.told = told;
+    /** @param received the position that a receiver of the report reads */
+    BaselineLoop(int devices, UnaryOperator<PositionFix> received) {
+        this.received = received;
         fleet = new Fleet(devices, 0, 1);
         tracks = new Track[devices];
     }
@@ -51,7 +51,7 @@ final class BaselineLoop {
     long second(long second) {
         starts = 0;
         for (long part = 0; part < Fleet.TICKS_PER_SECOND; part++) {
-            fleet.tick(second * Fleet.TICKS_PER_SECOND + part, fix -> take(told.apply(fix)));
+            fleet.tick(second * Fleet.TICKS_PER_SECOND + part, fix -> take(received.apply(fix)));
         }
         apply();
         return starts;

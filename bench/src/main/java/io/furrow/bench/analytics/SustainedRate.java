@@ -3,18 +3,30 @@ package io.furrow.bench.analytics;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
+import java.util.stream.IntStream;
+
+import io.furrow.bench.frame.Chart;
+import io.furrow.bench.frame.Figures;
 
 /**
  * A fleet that reported once a second, and the job behind it.
  *
- * @param side meters, of the square in which they are
  * @param sentPerSecond what the fleet really sent
  * @param foundPerSecond records that the job wrote
  * @param lags the least of the job's consumer in each second, in records, as of its newest checkpoint
  */
-public record SustainedRate(int devices, double side, double sentPerSecond, double foundPerSecond, List<Long> lags) {
+record SustainedRate(Plan plan, double sentPerSecond, double foundPerSecond, List<Long> lags) {
     /** Of the rate: what the slope of a lag that does not grow stays below. */
     private static final double GROWTH = 0.01;
+
+    /**
+     * What is to be sustained.
+     *
+     * @param devices each reports once a second
+     * @param side meters, of the square in which they are
+     * @param ongoingEvery option of the job
+     */
+    record Plan(int devices, double side, int parallelism, String ongoingEvery) {}
 
     /** The least of each time between two checkpoints: right after one is done, so that they do not swing with them. */
     List<Long> troughs() {
@@ -41,14 +53,14 @@ public record SustainedRate(int devices, double side, double sentPerSecond, doub
     }
 
     /** Whether all devices reported and the lag did not grow. */
-    public boolean isHeld() {
-        return sentPerSecond >= (1 - GROWTH) * devices && slope() <= GROWTH * devices;
+    boolean isHeld() {
+        return sentPerSecond >= (1 - GROWTH) * plan.devices && slope() <= GROWTH * plan.devices;
     }
 
-    public void addTo(Figures figures) {
+    void addTo(Figures figures) {
         figures.add(
-                "devices", devices,
-                "side m", side,
+                "devices", plan.devices,
+                "side m", plan.side,
                 "sent/s", sentPerSecond,
                 "found/s", foundPerSecond,
                 "seconds", lags.size(),
@@ -59,15 +71,13 @@ public record SustainedRate(int devices, double side, double sentPerSecond, doub
     }
 
     /** Lag over seconds. */
-    public String svg() {
-        List<double[]> points = new ArrayList<>();
-        for (int second = 0; second < lags.size(); second++) {
-            points.add(new double[] {second + 1, Math.max(1, lags.get(second))});
-        }
-        Plot plot = new Plot(
-                "Lag of the consumer in records, %,d devices at 1 Hz on %,.0f m".formatted(devices, side), "seconds");
-        plot.line("lag", points);
-        plot.line("a second's", List.of(new double[] {1, devices}, new double[] {lags.size(), devices}));
-        return plot.svg();
+    Chart chart() {
+        List<Integer> seconds = IntStream.rangeClosed(1, lags.size()).boxed().toList();
+        String title =
+                "Lag of the consumer in records, %,d devices at 1 Hz on %,.0f m".formatted(plan.devices, plan.side);
+        return new Chart(title, "seconds", "")
+                .logarithmic()
+                .line("lag", seconds, second -> second, second -> Math.max(1, lags.get(second - 1)))
+                .line("a second's", List.of(1, lags.size()), second -> second, second -> plan.devices);
     }
 }

@@ -1,8 +1,8 @@
 package io.furrow.bench.evaluation;
 
+import java.io.PrintWriter;
 import java.lang.management.ManagementFactory;
 import java.nio.charset.StandardCharsets;
-import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.Locale;
@@ -15,13 +15,10 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.internals.RecordHeaders;
 import org.apache.kafka.common.record.TimestampType;
 
+import io.furrow.bench.frame.Engines;
 import io.furrow.bench.http.BaselineServer;
 import io.furrow.bench.http.HttpLoad;
-import io.furrow.bench.http.HttpLoadPlan;
-import io.furrow.bench.http.HttpLoadResult;
 import io.furrow.bench.notifications.BaselineProducer;
-import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.launcher.suite.RunDirectory;
 
 /**
  * What this machine can do in these minutes, without anything of ours.
@@ -30,7 +27,7 @@ import io.furrow.launcher.suite.RunDirectory;
  * @param server requests of 1 kB a second that a Jetty answers without looking at them
  * @param bridge requests of 1 kB a second that a Jetty answers when Kafka has them
  */
-public record Calibration(double producer, double server, double bridge) {
+record Calibration(double producer, double server, double bridge) {
     private static final Duration LASTING = Duration.ofSeconds(3);
     private static final int BYTES = 1_000;
     private static final int CONNECTIONS = 64;
@@ -38,13 +35,9 @@ public record Calibration(double producer, double server, double bridge) {
     private static final long MEGABYTE = 1 << 20;
 
     /** Takes some 20 seconds. */
-    public static Calibration measure() throws Exception {
-        try (RunDirectory directory = RunDirectory.open(null);
-                EmbeddedKafka kafka =
-                        EmbeddedKafka.start(Path.of(directory.path().toString(), "kafka"))) {
-            Properties client = new Properties();
-            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-            return new Calibration(producing(client), serving(), bridging(client));
+    static Calibration measure(PrintWriter out) throws Exception {
+        try (Engines engines = Engines.in(null, out).kafka()) {
+            return new Calibration(producing(engines.client()), serving(), bridging(engines.client()));
         }
     }
 
@@ -83,14 +76,14 @@ public record Calibration(double producer, double server, double bridge) {
 
     /** Per second, of a second run. */
     private static double answered(BaselineServer server) {
-        HttpLoadPlan plan = new HttpLoadPlan(CONNECTIONS, false, 0, BYTES, ENTITIES, LASTING);
+        HttpLoad.Plan plan = new HttpLoad.Plan(CONNECTIONS, false, 0, BYTES, ENTITIES, LASTING);
         new HttpLoad(server.address(), plan, 0).run();
-        HttpLoadResult load = new HttpLoad(server.address(), plan, 0).run();
-        return load.answered() * 1e9 / load.nanos();
+        HttpLoad.Result load = new HttpLoad(server.address(), plan, 0).run();
+        return load.perSecond();
     }
 
     /** Of this JVM, MB, as it was started; what {@link Runtime#maxMemory} returns changes by the collector's arrangements. */
-    public static long maxHeap() {
+    static long maxHeap() {
         return Long.parseLong(ManagementFactory.getPlatformMXBean(HotSpotDiagnosticMXBean.class)
                         .getVMOption("MaxHeapSize")
                         .getValue())
@@ -98,7 +91,7 @@ public record Calibration(double producer, double server, double bridge) {
     }
 
     /** For the head of a report. */
-    public String sentence() {
+    String sentence() {
         return String.format(
                 Locale.ROOT,
                 "Machine: %d processors, %s %s, Java %s with a heap of %,d MB at most; in the same minutes a bare producer writes %,.0f records of 1 kB a second, a bare"

@@ -11,12 +11,13 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
+import java.util.Properties;
 import java.util.concurrent.atomic.LongAdder;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 
-import io.furrow.bench.arrival.TopicReader;
 import io.furrow.bench.evaluation.Sweep.Point;
+import io.furrow.bench.frame.TopicReader;
 import io.furrow.bench.load.LoadMeasurement;
 import io.furrow.bench.load.LoadReport;
 import io.furrow.bench.whole.ThreadTimes;
@@ -25,6 +26,7 @@ import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.topic.Topics;
+import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.load.LoadPlan;
 
 /**
@@ -154,12 +156,8 @@ public final class Evaluation {
         LoadReport report;
         // Only where there are copies: another reader of large messages would change what is measured.
         if (point.sweep() == Sweep.SUBSCRIPTIONS) {
-            try (TopicReader raw = new TopicReader(
-                    target.kafka(),
-                    Topics.RAW,
-                    Map.of(),
-                    records -> records.forEach(record -> count(record, load, notified)))) {
-                raw.start();
+            try (TopicReader raw = TopicReader.fromEnd(target.kafka(), TopicReader.COMMITTED, Topics.RAW)) {
+                raw.follow(records -> records.forEach(record -> count(record, load, notified)));
                 report = measurement.run(load);
             }
         } else {
@@ -215,5 +213,18 @@ public final class Evaluation {
     private void progress(String line) {
         out.println("  " + line);
         out.flush();
+    }
+
+    /**
+     * A suite that is evaluated.
+     *
+     * @param devices where loads go in
+     * @param kafka settings of a client of the Kafka at which they come out
+     * @param isOurs whether it runs in this JVM, so that its processor time and memory can be told
+     */
+    public record Target(FleetSettings devices, Properties kafka, boolean isOurs) {
+        static Target of(Suite suite) {
+            return new Target(suite.devices(), suite.kafka().clientProperties(), true);
+        }
     }
 }

@@ -1,6 +1,7 @@
 package io.furrow.bench.fleet;
 
 import java.io.IOException;
+import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -9,30 +10,34 @@ import io.furrow.simulators.host.DeviceHostCommand;
 
 /** A host of devices in a JVM of its own, so that its memory and processor time are its own. */
 final class HostProcess implements AutoCloseable {
+    /** Of the farm that is made up. */
+    static final String SECRET = "bench bench bench bench";
+
     private final Process process;
 
     private HostProcess(Process process) {
         this.process = process;
     }
 
-    static HostProcess start(FleetPlan plan, FleetPlan.Ends ends) throws IOException {
-        Path secret = Files.writeString(ends.folder().resolve("secret"), FleetPlan.SECRET);
+    /** @param folder of its files */
+    static HostProcess start(int heapMb, String kafka, URI mqtt, Path folder) throws IOException {
+        Path secret = Files.writeString(folder.resolve("secret"), SECRET);
         return new HostProcess(new ProcessBuilder(
                         Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                        "-Xmx" + plan.heapMb() + "m",
+                        "-Xmx" + heapMb + "m",
                         "-XX:+UseParallelGC",
-                        "-Dfurrow.log=" + ends.folder().resolve("fleet.log"),
+                        "-Dfurrow.log=" + folder.resolve("fleet.log"),
                         "-cp",
                         System.getProperty("java.class.path"),
                         DeviceHostCommand.class.getName(),
                         "--kafka",
-                        ends.kafka(),
+                        kafka,
                         "--mqtt",
-                        ends.mqtt().toString(),
+                        mqtt.toString(),
                         "--farm-secret",
                         secret.toString())
                 .redirectErrorStream(true)
-                .redirectOutput(ends.folder().resolve("host.log").toFile())
+                .redirectOutput(folder.resolve("host.log").toFile())
                 .start());
     }
 

@@ -1,8 +1,5 @@
 package io.furrow.bench.http;
 
-import java.io.Closeable;
-import java.io.IOException;
-import java.io.UncheckedIOException;
 import java.net.InetSocketAddress;
 import java.nio.ByteBuffer;
 import java.util.Properties;
@@ -35,12 +32,16 @@ public final class BaselineServer implements AutoCloseable {
 
     private final Server server;
     private final ServerConnector connector;
-    private final Closeable behind;
+    private Producer<byte[], byte[]> producer;
 
-    private BaselineServer(Handler handler, Closeable behind) {
-        this.behind = behind;
+    /** Answers a request without blocking. */
+    public interface Action {
+        void handle(Request request, Response response, Callback callback);
+    }
+
+    private BaselineServer(String threadName, Action action) {
         QueuedThreadPool threads = new QueuedThreadPool(THREADS, 4);
-        threads.setName("bare-server");
+        threads.setName(threadName);
         threads.setDaemon(true);
         server = new Server(threads);
         HttpConfiguration http = new HttpConfiguration();
@@ -49,12 +50,28 @@ public final class BaselineServer implements AutoCloseable {
         connector.setHost("127.0.0.1");
         connector.setAcceptQueueSize(1024);
         server.addConnector(connector);
-        server.setHandler(handler);
+        server.setHandler(new Handler.Abstract.NonBlocking() {
+            @Override
+            public boolean handle(Request request, Response response, Callback callback) {
+                action.handle(request, response, callback);
+                return true;
+            }
+        });
     }
 
-    /** On a free port. */
+    /** On a free port. @param threadName of its threads */
+    public static BaselineServer start(String threadName, Action action) {
+        BaselineServer started = new BaselineServer(threadName, action);
+        LifeCycle.start(started.server);
+        return started;
+    }
+
+    /** One that forgets what it reads. */
     public static BaselineServer start() {
-        return start(new Answering(), () -> {});
+        return start(
+                "bare-server",
+                (request, response, callback) -> Content.Source.consumeAll(
+                        request, Callback.from(() -> answer(200, response, callback), callback::failed)));
     }
 
     /**
@@ -69,13 +86,21 @@ public final class BaselineServer implements AutoCloseable {
         settings.setProperty("max.in.flight.requests.per.connection", "5");
         Producer<byte[], byte[]> producer =
                 new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
-        return start(new Bridging(producer, topic), producer);
+        Action forward = (request, response, callback) -> Content.Source.asByteBuffer(
+                request,
+                Promise.from(
+                        body -> producer.send(
+                                new ProducerRecord<>(topic, BufferUtil.toArray(body)),
+                                (metadata, failure) -> answer(failure == null ? 200 : 503, response, callback)),
+                        callback::failed));
+        BaselineServer bridge = start("bare-server", forward);
+        bridge.producer = producer;
+        return bridge;
     }
 
-    private static BaselineServer start(Handler handler, Closeable behind) {
-        BaselineServer bare = new BaselineServer(handler, behind);
-        LifeCycle.start(bare.server);
-        return bare;
+    private static void answer(int status, Response response, Callback callback) {
+        response.setStatus(status);
+        response.write(true, ByteBuffer.allocate(0), callback);
     }
 
     public InetSocketAddress address() {
@@ -85,49 +110,8 @@ public final class BaselineServer implements AutoCloseable {
     @Override
     public void close() {
         LifeCycle.stop(server);
-        try {
-            behind.close();
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        }
-    }
-
-    private static final class Answering extends Handler.Abstract.NonBlocking {
-        @Override
-        public boolean handle(Request request, Response response, Callback callback) {
-            Content.Source.consumeAll(
-                    request,
-                    Callback.from(
-                            () -> {
-                                response.setStatus(200);
-                                response.write(true, ByteBuffer.allocate(0), callback);
-                            },
-                            callback::failed));
-            return true;
-        }
-    }
-
-    private static final class Bridging extends Handler.Abstract.NonBlocking {
-        private final Producer<byte[], byte[]> producer;
-        private final String topic;
-
-        Bridging(Producer<byte[], byte[]> producer, String topic) {
-            this.producer = producer;
-            this.topic = topic;
-        }
-
-        @Override
-        public boolean handle(Request request, Response response, Callback callback) {
-            Content.Source.asByteBuffer(
-                    request,
-                    Promise.from(
-                            body -> producer.send(
-                                    new ProducerRecord<>(topic, BufferUtil.toArray(body)), (metadata, failure) -> {
-                                        response.setStatus(failure == null ? 200 : 503);
-                                        response.write(true, ByteBuffer.allocate(0), callback);
-                                    }),
-                            callback::failed));
-            return true;
+        if (producer != null) {
+            producer.close();
         }
     }
 }

@@ -3,7 +3,7 @@ package io.furrow.bench.ingest;
 import java.util.List;
 
 /** The jobs that take turns. */
-public enum ComparedJob {
+enum ComparedJob {
     /** Copies each record once, to the topic of the domain. */
     COPY_ONCE("copies to one topic", 1),
     /** Copies each record to the topics of the domain and of a mission. */

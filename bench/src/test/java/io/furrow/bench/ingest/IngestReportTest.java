@@ -1,6 +1,5 @@
 package io.furrow.bench.ingest;
 
-import java.time.Duration;
 import java.util.List;
 
 import org.junit.jupiter.api.Test;
@@ -10,7 +9,7 @@ import io.furrow.flink.job.Delivery;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class IngestReportTest {
-    private static final IngestPlan PLAN = new IngestPlan(1000, 4, 10, 2, 1000, 3, 2, Duration.ofSeconds(5));
+    private static final IngestReport.Plan PLAN = new IngestReport.Plan(1000, 4, 1000, 10, 2, 2, 5_000);
 
     @Test
     void comparesTheRunsOfOneTurn() {
@@ -34,12 +33,13 @@ class IngestReportTest {
 
     @Test
     void isNotCompleteWhereOneRunLostARecordAndAnotherWroteOneTwice() {
-        IngestReport report = new IngestReport(PLAN, List.of(run(ComparedJob.ROUTES, 1, 1, 1), run(ComparedJob.ROUTES, 2, 1, -1)));
+        IngestReport report =
+                new IngestReport(PLAN, List.of(run(ComparedJob.ROUTES, 1, 1, 1), run(ComparedJob.ROUTES, 2, 1, -1)));
 
         assertThat(report.isComplete()).isFalse();
     }
 
-    private static IngestRun run(ComparedJob peer, int turn, double perSecond, long missing) {
-        return new IngestRun(peer, Delivery.AT_LEAST_ONCE, turn, perSecond, 1e6 / perSecond, 0, missing);
+    private static IngestReport.Run run(ComparedJob peer, int turn, double perSecond, long missing) {
+        return new IngestReport.Run(peer, Delivery.AT_LEAST_ONCE, turn, perSecond, 1e6 / perSecond, 0, missing);
     }
 }
