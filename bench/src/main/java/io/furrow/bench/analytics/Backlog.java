@@ -42,8 +42,8 @@ record Backlog(int devices, int seconds, int padding, String maxDrift) {
             this.plan = plan;
         }
 
-        /** One look, and what it has shown. */
-        String look(GroupLag lag) throws InterruptedException, ExecutionException {
+        /** One sample, in words. */
+        String sample(GroupLag lag) throws InterruptedException, ExecutionException {
             double live = liveMebibytes() - before;
             long first = lag.committed(0);
             long second = lag.committed(1);

@@ -41,8 +41,8 @@ final class CrowdResults implements AutoCloseable {
                 .follow(records -> records.forEach(this::take));
     }
 
-    /** Notes how far the newest result of the crowd, or of the fleet, is behind the clock, in milliseconds. */
-    long noteLag() {
+    /** Records how far the newest result of the crowd, or of the fleet, is behind the clock, in milliseconds. */
+    long recordLag() {
         long oldest = Math.min(newestOfCrowd, newestOfFleet);
         lags.add(System.currentTimeMillis() - Math.max(oldest, topic.begin()));
         return lags.get(lags.size() - 1);

@@ -96,8 +96,8 @@ final class TopicMeasurement {
     /** In the second that begins at this time. */
     private static long leastLag(GroupLag lag, long begin) throws Exception {
         long least = Long.MAX_VALUE;
-        for (int look = 1; look <= POLLS_PER_SECOND; look++) {
-            long next = begin + Duration.ofSeconds(look).toNanos() / POLLS_PER_SECOND;
+        for (int poll = 1; poll <= POLLS_PER_SECOND; poll++) {
+            long next = begin + Duration.ofSeconds(poll).toNanos() / POLLS_PER_SECOND;
             TimeUnit.NANOSECONDS.sleep(next - System.nanoTime());
             least = Math.min(least, lag.records());
         }
@@ -116,7 +116,7 @@ final class TopicMeasurement {
                     GroupLag lag = new GroupLag(topic.kafka(), topic.name(), jobName())) {
                 while (found.newest() < plan.end() - BEHIND_MS) {
                     TimeUnit.SECONDS.sleep(Backlog.POLL_INTERVAL_SECONDS);
-                    progress.accept(reading.look(lag));
+                    progress.accept(reading.sample(lag));
                 }
                 reading.addTo(figures, (System.nanoTime() - begin) / 1e9, found.count());
             } finally {
@@ -138,7 +138,7 @@ final class TopicMeasurement {
                 for (long second = 1; second <= seconds; second++) {
                     TimeUnit.SECONDS.sleep(1);
                     progress.accept(
-                            "%d s: lag %,d ms, %,d records".formatted(second, results.noteLag(), results.count()));
+                            "%d s: lag %,d ms, %,d records".formatted(second, results.recordLag(), results.count()));
                 }
                 topic.stop();
                 TimeUnit.MILLISECONDS.sleep(2 * BEHIND_MS);

@@ -1,6 +1,5 @@
 package io.furrow.bench.evaluation;
 
-import java.io.PrintWriter;
 import java.lang.management.ManagementFactory;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
@@ -15,10 +14,11 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.internals.RecordHeaders;
 import org.apache.kafka.common.record.TimestampType;
 
-import io.furrow.bench.frame.Engines;
 import io.furrow.bench.http.BaselineServer;
 import io.furrow.bench.http.HttpLoad;
 import io.furrow.bench.notifications.BaselineProducer;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.launcher.suite.RunDirectory;
 
 /**
  * What this machine can do in these minutes, without anything of ours.
@@ -35,9 +35,12 @@ record Calibration(double producer, double server, double bridge) {
     private static final long MEGABYTE = 1 << 20;
 
     /** Takes some 20 seconds. */
-    static Calibration measure(PrintWriter out) throws Exception {
-        try (Engines engines = Engines.in(null, out).kafka()) {
-            return new Calibration(producing(engines.client()), serving(), bridging(engines.client()));
+    static Calibration measure() throws Exception {
+        try (RunDirectory directory = RunDirectory.open(null);
+                EmbeddedKafka kafka = EmbeddedKafka.start(directory.resolve("kafka"))) {
+            Properties client = new Properties();
+            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            return new Calibration(producing(client), serving(), bridging(client));
         }
     }
 

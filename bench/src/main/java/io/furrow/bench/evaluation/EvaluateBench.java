@@ -75,7 +75,7 @@ public final class EvaluateBench extends Benchmark {
         Files.createDirectories(results.toAbsolutePath().getParent());
         long lasting = isShort ? SHORT_SECONDS : seconds;
         EvaluationResults known = EvaluationResults.in(results);
-        Calibration machine = Calibration.measure(out());
+        Calibration machine = Calibration.measure();
         print("%s%n", machine.sentence());
         Evaluation.Target target = deployment.target();
         EvaluationResults.Run run =

@@ -1,10 +1,7 @@
 package io.furrow.bench.evaluation;
 
-import java.io.IOException;
 import java.io.PrintWriter;
 import java.nio.charset.StandardCharsets;
-import java.nio.file.Files;
-import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -17,6 +14,7 @@ import java.util.concurrent.atomic.LongAdder;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 
 import io.furrow.bench.evaluation.Sweep.Point;
+import io.furrow.bench.frame.ProcessStatus;
 import io.furrow.bench.frame.TopicReader;
 import io.furrow.bench.load.LoadMeasurement;
 import io.furrow.bench.load.LoadReport;
@@ -172,16 +170,15 @@ public final class Evaluation {
                     .byRole()
                     .forEach((role, time) -> cores.put(role, time / nanos));
         }
-        return PointResult.of(plan.run, point, report, notified.sum(), cores, target.isOurs() ? residentBytes() : 0);
-    }
-
-    /** As Linux tells it. */
-    private static long residentBytes() throws IOException {
-        return Files.readAllLines(Path.of("/proc/self/status")).stream()
-                .filter(line -> line.startsWith("VmRSS:"))
-                .mapToLong(line -> Long.parseLong(line.replaceAll("\\D", "")) * 1024)
-                .findFirst()
-                .orElse(0);
+        return PointResult.of(
+                plan.run,
+                point,
+                report,
+                notified.sum(),
+                cores,
+                target.isOurs()
+                        ? 1024 * ProcessStatus.of(ProcessHandle.current().pid(), "VmRSS")
+                        : 0);
     }
 
     /** Provisioning is notified of too, without a payload. */

@@ -47,30 +47,28 @@ final class EvaluationReport {
     /** By their titles. */
     private static Map<String, Path> pictures(List<List<PointResult>> sweeps, Path images) throws IOException {
         Map<String, Path> pictures = new LinkedHashMap<>();
-        Path delivered = images.resolve("evaluation-delivered.png");
-        EvaluationPlots.delivered(sweeps, delivered);
-        pictures.put("Share of the messages that arrived", delivered);
-        Path delay = images.resolve("evaluation-delay.png");
-        EvaluationPlots.delay(sweeps, delay);
-        pictures.put("Delay from device to reader", delay);
+        EvaluationPlots.delivered(sweeps, add(pictures, "Share of the messages that arrived", images, "delivered"));
+        EvaluationPlots.delay(sweeps, add(pictures, "Delay from device to reader", images, "delay"));
         if (sweeps.stream()
                 .flatMap(List::stream)
                 .anyMatch(result -> !result.cores().isEmpty())) {
-            Path cores = images.resolve("evaluation-cores.png");
-            EvaluationPlots.cores(sweeps, cores);
-            pictures.put("Processor time of the parts that take most", cores);
+            EvaluationPlots.cores(sweeps, add(pictures, "Processor time of the parts that take most", images, "cores"));
         }
         for (List<PointResult> its : sweeps) {
             Sweep sweep = its.get(0).point().sweep();
             String name = sweep.name().toLowerCase(Locale.ROOT);
-            Path messages = images.resolve("evaluation-" + name + "-messages.png");
-            EvaluationPlots.messages(its, messages);
-            pictures.put("Messages over time, " + sweep.title(), messages);
-            Path hops = images.resolve("evaluation-" + name + "-hops.png");
-            EvaluationPlots.hops(its, hops);
-            pictures.put("Delay of each hop over time, " + sweep.title(), hops);
+            EvaluationPlots.messages(
+                    its, add(pictures, "Messages over time, " + sweep.title(), images, name + "-messages"));
+            EvaluationPlots.hops(
+                    its, add(pictures, "Delay of each hop over time, " + sweep.title(), images, name + "-hops"));
         }
         return pictures;
+    }
+
+    private static Path add(Map<String, Path> pictures, String title, Path images, String name) {
+        Path file = images.resolve("evaluation-" + name + ".png");
+        pictures.put(title, file);
+        return file;
     }
 
     /** How far each sweep holds, then all loads of each. */

@@ -56,7 +56,7 @@ final class FleetMeasurement {
         try (HostProcess host = HostProcess.start(plan.heap, engines.bootstrapServers(), mqtt, engines.folder("."));
                 MeasureListener listener = new MeasureListener(mqtt)) {
             long begun = System.nanoTime();
-            want();
+            publish();
             awaitRunning(begun);
             double untilAllRun = (System.nanoTime() - begun) / 1e9;
             TimeUnit.SECONDS.sleep(plan.warmup);
@@ -90,7 +90,7 @@ final class FleetMeasurement {
         }
     }
 
-    private void want() {
+    private void publish() {
         try (TopicFiller filler = new TopicFiller(engines.client(), Map.of())) {
             for (int i = 0; i < plan.devices; i++) {
                 DesiredDevice device = device(i);

@@ -6,6 +6,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 
+import io.furrow.bench.frame.ProcessStatus;
 import io.furrow.simulators.host.DeviceHostCommand;
 
 /** A host of devices in a JVM of its own, so that its memory and processor time are its own. */
@@ -48,17 +49,9 @@ final class HostProcess implements AutoCloseable {
                 .orElseThrow(() -> new IOException("the host of devices has ended; see host.log"));
     }
 
-    /** The most memory that it has had, in MB; 0 where the system does not say. */
+    /** The most memory that it has had, in MB. */
     long peakMb() throws IOException {
-        Path status = Path.of("/proc", Long.toString(process.pid()), "status");
-        if (!Files.exists(status)) {
-            return 0;
-        }
-        return Files.readAllLines(status).stream()
-                .filter(line -> line.startsWith("VmHWM:"))
-                .mapToLong(line -> Long.parseLong(line.replaceAll("\\D", "")) / 1024)
-                .findFirst()
-                .orElse(0);
+        return ProcessStatus.of(process.pid(), "VmHWM") / 1024;
     }
 
     @Override

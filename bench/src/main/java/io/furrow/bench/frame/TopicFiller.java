@@ -1,5 +1,6 @@
 package io.furrow.bench.frame;
 
+import java.util.Collection;
 import java.util.Map;
 import java.util.Properties;
 import java.util.concurrent.atomic.AtomicReference;
@@ -8,7 +9,7 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
-/** A producer that fills a topic before a measurement; a record that is not written fails at the end. */
+/** A producer of which a record that is not written fails at the end. */
 public final class TopicFiller implements AutoCloseable {
     private final AtomicReference<Exception> failure = new AtomicReference<>();
     private final KafkaProducer<byte[], byte[]> producer;
@@ -23,6 +24,15 @@ public final class TopicFiller implements AutoCloseable {
         producer = new KafkaProducer<>(all, new ByteArraySerializer(), new ByteArraySerializer());
     }
 
+    public TopicFiller(KafkaProducer<byte[], byte[]> producer) {
+        this.producer = producer;
+    }
+
+    /** Lets it learn the partitions of topics before it sends anything. */
+    public void learn(Collection<String> topics) {
+        topics.forEach(producer::partitionsFor);
+    }
+
     public void send(ProducerRecord<byte[], byte[]> record) {
         producer.send(record, (done, failed) -> failure.compareAndSet(null, failed));
     }
@@ -30,14 +40,18 @@ public final class TopicFiller implements AutoCloseable {
     /** Waits until all is there. @throws IllegalStateException if a record was not written */
     public void flush() {
         producer.flush();
+        check();
+    }
+
+    private void check() {
         if (failure.get() != null) {
-            throw new IllegalStateException("a topic could not be filled", failure.get());
+            throw new IllegalStateException("a record was not written", failure.get());
         }
     }
 
     @Override
     public void close() {
         producer.close();
-        flush();
+        check();
     }
 }

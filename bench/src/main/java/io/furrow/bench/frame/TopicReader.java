@@ -25,8 +25,8 @@ public final class TopicReader implements AutoCloseable {
 
     private static final Logger LOG = LoggerFactory.getLogger(TopicReader.class);
     private static final Duration POLL = Duration.ofMillis(200);
-    private static final Duration BETWEEN_LOOKS = Duration.ofMillis(20);
-    private static final int LOOKS = 500;
+    private static final Duration BETWEEN_POLLS = Duration.ofMillis(20);
+    private static final int POLLS = 500;
 
     private final KafkaConsumer<byte[], byte[]> consumer;
     private Thread thread;
@@ -64,8 +64,8 @@ public final class TopicReader implements AutoCloseable {
     /** A broker may not know yet of a topic that was made just now. */
     private Stream<TopicPartition> partitions(String topic) {
         List<PartitionInfo> known = consumer.partitionsFor(topic);
-        for (int looks = 0; known.isEmpty() && looks < LOOKS; looks++) {
-            LockSupport.parkNanos(BETWEEN_LOOKS.toNanos());
+        for (int polls = 0; known.isEmpty() && polls < POLLS; polls++) {
+            LockSupport.parkNanos(BETWEEN_POLLS.toNanos());
             known = consumer.partitionsFor(topic);
         }
         return known.stream().map(info -> new TopicPartition(topic, info.partition()));

@@ -90,11 +90,11 @@ public final class LoadMeasurement {
 
     private long send(LoadPlan plan, Arrivals arrivals) throws IOException, InterruptedException {
         try (LoadFleet fleet = LoadFleet.start(devices, plan)) {
-            long looks = 0;
+            long polls = 0;
             while (fleet.sent() < plan.messages()
-                    && looks * POLL_INTERVAL_MS < plan.duration().toMillis() * 2) {
+                    && polls * POLL_INTERVAL_MS < plan.duration().toMillis() * 2) {
                 TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
-                if (looks++ % POLLS_PER_SECOND == 0) {
+                if (polls++ % POLLS_PER_SECOND == 0) {
                     progress.accept(
                             "%d of %d sent, %d arrived".formatted(fleet.sent(), plan.messages(), arrivals.distinct()));
                 }

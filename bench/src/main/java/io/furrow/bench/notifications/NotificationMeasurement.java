@@ -34,7 +34,6 @@ final class NotificationMeasurement implements AutoCloseable {
     private static final String BARE_TOPIC = "bench.bare";
     private static final int PARTITIONS = 4;
     private static final long NUMBERS_PER_RUN = 1_000_000_000L;
-    private static final Duration QUIET = Duration.ofSeconds(20);
     private static final Duration REPEATS_ON_THEIR_WAY = Duration.ofMillis(500);
     private static final long POLL_INTERVAL_MS = 100;
     private static final int POLLS_PER_SECOND = (int) (1000 / POLL_INTERVAL_MS);
@@ -80,7 +79,10 @@ final class NotificationMeasurement implements AutoCloseable {
             CpuByPart before = CpuByPart.now();
             long start = System.nanoTime();
             HttpLoad.Result load = send(name, source, plan, check);
-            awaitArrivals(name, load, check);
+            check.await(
+                    load.acknowledged(),
+                    arrived -> progress.accept(
+                            "%s: %d acknowledged, %d in Kafka".formatted(name, load.answered(), arrived)));
             Map<String, Long> cpu = before.since();
             TimeUnit.MILLISECONDS.sleep(REPEATS_ON_THEIR_WAY.toMillis());
             double inKafka = load.answered() * 1e9 / Math.max(load.nanos(), check.lastNanos() - start);
@@ -96,12 +98,12 @@ final class NotificationMeasurement implements AutoCloseable {
             throws InterruptedException {
         HttpLoad load = new HttpLoad(target, plan, firstNumber);
         CompletableFuture<HttpLoad.Result> result = CompletableFuture.supplyAsync(load::run, sender);
-        for (int looks = 0; !result.isDone(); looks++) {
-            if (looks % POLLS_PER_SECOND == 0) {
+        for (int polls = 0; !result.isDone(); polls++) {
+            if (polls % POLLS_PER_SECOND == 0) {
                 progress.accept("%s: %d s of %d, %d acknowledged%s"
                         .formatted(
                                 name,
-                                looks / POLLS_PER_SECOND,
+                                polls / POLLS_PER_SECOND,
                                 plan.duration().toSeconds(),
                                 load.answered(),
                                 check == null ? "" : ", " + check.distinct() + " in Kafka"));
@@ -109,20 +111,6 @@ final class NotificationMeasurement implements AutoCloseable {
             TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
         }
         return result.join();
-    }
-
-    private void awaitArrivals(String name, HttpLoad.Result load, ArrivalCheck check) throws InterruptedException {
-        long seen = -1;
-        long movedNanos = System.nanoTime();
-        while ((check.distinct() < load.answered() || check.missing(load.acknowledged()) > 0)
-                && System.nanoTime() - movedNanos < QUIET.toNanos()) {
-            if (check.distinct() != seen) {
-                seen = check.distinct();
-                movedNanos = System.nanoTime();
-                progress.accept("%s: %d acknowledged, %d in Kafka".formatted(name, load.answered(), seen));
-            }
-            TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
-        }
     }
 
     private HttpLoad.Result bareServer(String name, HttpLoad.Plan plan) throws InterruptedException {

@@ -2,7 +2,6 @@ package io.furrow.bench.notifications;
 
 import java.net.InetSocketAddress;
 import java.nio.charset.StandardCharsets;
-import java.time.Duration;
 import java.util.List;
 import java.util.Optional;
 import java.util.Properties;
@@ -38,8 +37,6 @@ final class SuiteLoad {
     private static final long NUMBERS_PER_RUN = 1_000_000_000L;
     private static final long MAX_MILLIS = 600_000;
     private static final int DIGITS = 3;
-    private static final Duration QUIET = Duration.ofSeconds(20);
-    private static final Duration POLL_INTERVAL = Duration.ofMillis(100);
     private static final double HELD_MILLIS = 1_000;
     private static final double P99 = 99;
 
@@ -97,15 +94,7 @@ final class SuiteLoad {
             InetSocketAddress listener = new InetSocketAddress(
                     suite.listener().getHost(), suite.listener().getPort());
             HttpLoad.Result load = new HttpLoad(listener, plan, firstNumber).run();
-            long seen = -1;
-            long moved = System.nanoTime();
-            while (check.missing(load.acknowledged()) > 0 && System.nanoTime() - moved < QUIET.toNanos()) {
-                if (check.distinct() != seen) {
-                    seen = check.distinct();
-                    moved = System.nanoTime();
-                }
-                LockSupport.parkNanos(POLL_INTERVAL.toNanos());
-            }
+            check.await(load.acknowledged(), arrived -> {});
             LockSupport.parkNanos(TimeUnit.SECONDS.toNanos(1)); // repeats that are still on their way
             return new Run(load, check.missing(load.acknowledged()), check.repeats(), delay);
         }

@@ -2,7 +2,6 @@ package io.furrow.bench.replay;
 
 import java.util.HashSet;
 import java.util.Set;
-import java.util.concurrent.atomic.AtomicReference;
 
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
@@ -10,12 +9,12 @@ import com.mongodb.client.MongoCollection;
 import com.mongodb.client.MongoCursor;
 import com.mongodb.client.model.Filters;
 import com.mongodb.client.model.Sorts;
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.bson.BsonDateTime;
 import org.bson.BsonType;
 import org.bson.RawBsonDocument;
 import org.bson.conversions.Bson;
 
+import io.furrow.bench.frame.TopicFiller;
 import io.furrow.mission.StoredEvent;
 import io.furrow.mission.mongo.EventDocumentCodec;
 import io.furrow.mission.mongo.MissionCollections;
@@ -39,7 +38,6 @@ final class BaselineCursor {
     private final EventEncoder encoder;
     private final int most;
     private int perQuery;
-    private final AtomicReference<Exception> lost = new AtomicReference<>();
     private final Set<String> atTime = new HashSet<>();
     private long time = Long.MIN_VALUE;
     private long sequence;
@@ -56,7 +54,7 @@ final class BaselineCursor {
         this.perQuery = perQuery;
     }
 
-    void write(KafkaProducer<byte[], byte[]> producer) throws UnreadableException {
+    void write(TopicFiller producer) throws UnreadableException {
         try (MongoClient client = MongoClients.create(mongo)) {
             MongoCollection<RawBsonDocument> collection = client.getDatabase(MongoAccess.DATABASE)
                     .getCollection(MissionCollections.nameOf(replay.mission()), RawBsonDocument.class);
@@ -66,13 +64,10 @@ final class BaselineCursor {
             } while (more && sequence < most);
         }
         producer.flush();
-        if (lost.get() != null) {
-            throw new IllegalStateException("a record was not written", lost.get());
-        }
     }
 
     /** Whether there may be more. */
-    private boolean writePart(MongoCollection<RawBsonDocument> collection, KafkaProducer<byte[], byte[]> producer)
+    private boolean writePart(MongoCollection<RawBsonDocument> collection, TopicFiller producer)
             throws UnreadableException {
         int found = 0;
         long bytes = 0;
@@ -87,9 +82,7 @@ final class BaselineCursor {
                 bytes += document.getByteBuffer().remaining();
                 StoredEvent event = EventDocumentCodec.read(document);
                 if (isNew(event)) {
-                    producer.send(
-                            PlayedRecord.written(event, replay, encoder, sequence++, event.time()),
-                            (done, failure) -> lost.compareAndSet(null, failure));
+                    producer.send(PlayedRecord.written(event, replay, encoder, sequence++, event.time()));
                 }
             }
         }

@@ -9,11 +9,8 @@ import java.util.function.Consumer;
 import java.util.function.Function;
 import java.util.stream.Stream;
 
-import com.mongodb.client.MongoClient;
-import com.mongodb.client.MongoClients;
-import org.apache.kafka.clients.producer.KafkaProducer;
-
 import io.furrow.bench.frame.Figures;
+import io.furrow.bench.frame.TopicFiller;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayPlan;
@@ -53,7 +50,7 @@ final class MaxMeasurement {
     /** @return whether every event was written */
     boolean run(int count, Consumer<Figures> out) throws Exception {
         progress.accept("%,d events into MongoDB".formatted(mission.events()));
-        store();
+        mission.store(cluster.mongo());
         List<Turn> turns = new ArrayList<>();
         for (int turn = 0; turn <= count; turn++) {
             int events = turn == 0 ? Math.min(WARM_UP_EVENTS, mission.events()) : mission.events();
@@ -80,18 +77,12 @@ final class MaxMeasurement {
 
     /** Plays it once. @return heap in use after collections while it was played, less than before, MiB at most */
     long heldWhilePlayed() throws Exception {
-        store();
+        mission.store(cluster.mongo());
         try (HeapGrowth heap = HeapGrowth.start(progress)) {
             Run run = replay(0, mission.events());
             progress.accept(String.format(
                     Locale.ROOT, "%,d events in %.1f s, %d missing", mission.events(), run.seconds(), run.missing()));
             return heap.most();
-        }
-    }
-
-    private void store() {
-        try (MongoClient client = MongoClients.create(cluster.mongo())) {
-            mission.store(client);
         }
     }
 
@@ -114,7 +105,7 @@ final class MaxMeasurement {
         DesiredReplay replay = desired(number, ReplayPlan.PLAIN);
         cluster.make(List.of(replay.topic()));
         long begun = System.currentTimeMillis();
-        try (KafkaProducer<byte[], byte[]> producer = cluster.producer()) {
+        try (TopicFiller producer = cluster.producer()) {
             new BaselineCursor(cluster.mongo(), replay, events, perQuery).write(producer);
         }
         return run(replay.topic(), begun, events);

@@ -22,6 +22,7 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.bench.frame.Engines;
+import io.furrow.bench.frame.TopicFiller;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.kafka.CommittedReader;
@@ -44,7 +45,7 @@ final class ReplayCluster implements AutoCloseable {
     private final String mongo;
     private final long checkpointMillis;
     private final ReplayOptions options = new ReplayOptions();
-    private final KafkaProducer<byte[], byte[]> producer;
+    private final TopicFiller producer;
 
     ReplayCluster(Engines engines, String mongo, long checkpointMillis, int parallelism)
             throws ExecutionException, InterruptedException {
@@ -76,10 +77,10 @@ final class ReplayCluster implements AutoCloseable {
     }
 
     /** With the settings of the job's. */
-    KafkaProducer<byte[], byte[]> producer() {
+    TopicFiller producer() {
         Properties settings = KafkaConnectors.producerProperties(options);
         settings.putAll(kafka);
-        return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
+        return new TopicFiller(new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer()));
     }
 
     void make(Collection<String> topics) throws ExecutionException, InterruptedException {
@@ -114,7 +115,7 @@ final class ReplayCluster implements AutoCloseable {
             while (!open.isEmpty()) {
                 for (ConsumerRecord<String, byte[]> record : reader.poll(POLL)) {
                     until = System.nanoTime() + STALL.toNanos();
-                    note(record, open);
+                    update(record, open);
                 }
                 if (System.nanoTime() > until) {
                     throw new IllegalStateException("nothing is heard of " + open);
@@ -130,7 +131,7 @@ final class ReplayCluster implements AutoCloseable {
         producer.send(new ProducerRecord<>(Topics.REPLAYS, key, value));
     }
 
-    private static void note(ConsumerRecord<String, byte[]> record, Set<String> open) throws UnreadableException {
+    private static void update(ConsumerRecord<String, byte[]> record, Set<String> open) throws UnreadableException {
         ReplayStatus status = ReplayStatus.read(record.value());
         if (open.contains(record.key()) && status.state() == ReplayStatus.State.FAILED) {
             throw new IllegalStateException(record.key() + " failed: " + status.reason());
@@ -157,6 +158,6 @@ final class ReplayCluster implements AutoCloseable {
 
     @Override
     public void close() {
-        producer.close(Duration.ofSeconds(1));
+        producer.close();
     }
 }

@@ -7,9 +7,6 @@ import java.util.Set;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
 
-import com.mongodb.client.MongoClient;
-import com.mongodb.client.MongoClients;
-
 import io.furrow.bench.frame.Figures;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
@@ -42,9 +39,7 @@ final class SeekMeasurement {
     /** @return whether both know the same states */
     boolean run(Consumer<Figures> out) throws RecordingException {
         progress.accept("%,d events into MongoDB".formatted(mission.events()));
-        try (MongoClient client = MongoClients.create(mongo)) {
-            mission.store(client);
-        }
+        mission.store(mongo);
         Figures figures = new Figures(
                 "seek in a mission of %,d events, ms, medians of %d turns".formatted(mission.events(), turns));
         boolean same = true;

@@ -8,11 +8,8 @@ import java.util.Map;
 import java.util.function.Consumer;
 import java.util.stream.IntStream;
 
-import com.mongodb.client.MongoClient;
-import com.mongodb.client.MongoClients;
-import org.apache.kafka.clients.producer.KafkaProducer;
-
 import io.furrow.bench.frame.Figures;
+import io.furrow.bench.frame.TopicFiller;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.topic.Topics;
@@ -55,7 +52,7 @@ final class TimingMeasurement {
 
     /** @return whether every event was written */
     boolean run(int count, Consumer<Figures> out) throws Exception {
-        store();
+        missions.forEach(mission -> mission.store(cluster.mongo()));
         List<Turn> turns = new ArrayList<>();
         for (int turn = 0; turn <= count; turn++) {
             Turn measured = turn(turn);
@@ -75,17 +72,11 @@ final class TimingMeasurement {
 
     /** Plays them once. @return heap in use after collections while they were played, less than before, MiB at most */
     long heldWhilePlayed() throws Exception {
-        store();
+        missions.forEach(mission -> mission.store(cluster.mongo()));
         try (HeapGrowth heap = HeapGrowth.start(progress)) {
             List<DesiredReplay> desired = desired(0, Long.MAX_VALUE, null);
             cluster.play(desired);
             return heap.most();
-        }
-    }
-
-    private void store() {
-        try (MongoClient client = MongoClients.create(cluster.mongo())) {
-            missions.forEach(mission -> mission.store(client));
         }
     }
 
@@ -124,8 +115,8 @@ final class TimingMeasurement {
                 .orElseThrow()
                 .anchor();
         List<ScheduledReplay> again;
-        try (KafkaProducer<byte[], byte[]> producer = cluster.producer()) {
-            topics.forEach(producer::partitionsFor); // what a job that runs knows already
+        try (TopicFiller producer = cluster.producer()) {
+            producer.learn(topics); // what a job that runs knows already
             long later = System.currentTimeMillis() + AHEAD_MILLIS - first;
             again = IntStream.range(0, replays)
                     .mapToObj(i -> schedule.get(i).onto(others.get(i), later))

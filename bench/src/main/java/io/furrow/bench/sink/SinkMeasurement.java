@@ -91,13 +91,13 @@ final class SinkMeasurement {
             throws InterruptedException, ExecutionException {
         long end = System.nanoTime() + TIMEOUT.toNanos();
         try (Admin admin = Admin.create(kafka)) {
-            for (int looks = 0; committed(admin, sink) < records; looks++) {
+            for (int polls = 0; committed(admin, sink) < records; polls++) {
                 if (System.nanoTime() > end) {
                     throw new IllegalStateException("the sink has not committed %d records within %d s"
                             .formatted(records, TIMEOUT.toSeconds()));
                 }
-                if (looks % POLLS_PER_SECOND == 0) {
-                    progress.accept("%s: %d s, %s".formatted(sink, looks / POLLS_PER_SECOND, state.get()));
+                if (polls % POLLS_PER_SECOND == 0) {
+                    progress.accept("%s: %d s, %s".formatted(sink, polls / POLLS_PER_SECOND, state.get()));
                 }
                 TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
             }

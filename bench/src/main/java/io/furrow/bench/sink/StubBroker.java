@@ -16,7 +16,7 @@ import org.eclipse.jetty.util.Promise;
 import io.furrow.bench.http.BaselineServer;
 import io.furrow.bench.http.NotificationRequest;
 
-/** A context broker that knows no entity and takes every update: it notes the numbers in the bodies, and when they came. */
+/** A context broker that knows no entity and takes every update: it records the numbers in the bodies, and when they came. */
 final class StubBroker implements AutoCloseable {
     private static final String QUERY = "/v2/op/query";
     private static final byte[] NO_ENTITIES = "[]".getBytes(StandardCharsets.US_ASCII);
@@ -39,7 +39,7 @@ final class StubBroker implements AutoCloseable {
         return URI.create("http://127.0.0.1:" + server.address().getPort());
     }
 
-    private synchronized void note(String path, byte[] body) {
+    private synchronized void count(String path, byte[] body) {
         requests++;
         lastNanos = System.nanoTime();
         if (firstNanos == 0) {
@@ -79,7 +79,7 @@ final class StubBroker implements AutoCloseable {
                 request,
                 Promise.from(
                         body -> {
-                            note(path, BufferUtil.toArray(body));
+                            count(path, BufferUtil.toArray(body));
                             boolean question = path.equals(QUERY);
                             response.setStatus(question ? 200 : 204);
                             if (question) {
