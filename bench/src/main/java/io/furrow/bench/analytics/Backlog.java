@@ -5,6 +5,7 @@ import java.lang.management.MemoryMXBean;
 import java.util.concurrent.ExecutionException;
 
 import io.furrow.bench.analytics.load.Fleet;
+import io.furrow.bench.frame.Figures;
 
 /**
  * What a job has to catch up with: reports on two partitions, of which the second takes longer to read.
@@ -14,22 +15,22 @@ import io.furrow.bench.analytics.load.Fleet;
  * @param padding characters that the records of the second partition have more
  * @param maxDrift option of the job
  */
-public record Backlog(int devices, int seconds, int padding, String maxDrift) {
+record Backlog(int devices, int seconds, int padding, String maxDrift) {
     static final int POLL_INTERVAL_SECONDS = 5;
     private static final double MEBIBYTE = 1 << 20;
     private static final int PARTITIONS = 2;
 
-    public long records() {
+    long records() {
         return (long) devices * seconds;
     }
 
     /** Event time of the last report, epoch milliseconds. */
-    public long end() {
+    long end() {
         return Fleet.START + 1000L * seconds;
     }
 
     /** What the job that reads it holds, and how far its partitions are apart. */
-    public static final class Reading {
+    static final class Reading {
         private static final MemoryMXBean MEMORY = ManagementFactory.getMemoryMXBean();
 
         private final Backlog plan;
@@ -37,12 +38,12 @@ public record Backlog(int devices, int seconds, int padding, String maxDrift) {
         private double most;
         private double apart;
 
-        public Reading(Backlog plan) {
+        Reading(Backlog plan) {
             this.plan = plan;
         }
 
-        /** One look, and what it has shown. */
-        public String look(GroupLag lag) throws InterruptedException, ExecutionException {
+        /** One sample, in words. */
+        String sample(GroupLag lag) throws InterruptedException, ExecutionException {
             double live = liveMebibytes() - before;
             long first = lag.committed(0);
             long second = lag.committed(1);
@@ -52,7 +53,7 @@ public record Backlog(int devices, int seconds, int padding, String maxDrift) {
             return "%,d and %,d records read, %,.0f s apart, %,.0f MiB held".formatted(first, second, seconds, live);
         }
 
-        public void addTo(Figures figures, double seconds, long found) {
+        void addTo(Figures figures, double seconds, long found) {
             figures.add(
                     "max drift",
                     plan.maxDrift(),

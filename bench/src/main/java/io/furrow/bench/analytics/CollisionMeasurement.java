@@ -1,7 +1,6 @@
 package io.furrow.bench.analytics;
 
 import java.io.IOException;
-import java.lang.management.ManagementFactory;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -10,7 +9,6 @@ import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
 
-import com.sun.management.OperatingSystemMXBean;
 import org.apache.flink.configuration.CheckpointingOptions;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.configuration.ExecutionOptions;
@@ -24,11 +22,11 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import io.furrow.analytics.collision.CollisionDetection;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.bench.analytics.load.CollisionPlan;
 import io.furrow.bench.analytics.load.MoveFleet;
+import io.furrow.bench.frame.CpuReading;
 
 /** Runs the three stages of collision detection in a Flink cluster of this JVM, fed from memory inside the job. */
-public final class CollisionMeasurement {
+final class CollisionMeasurement {
     private static final Duration BUFFER_TIMEOUT = Duration.ofMillis(5);
     static final int MAX_PARALLELISM = 720;
     /** The first second has everything start at once; few more are enough to decide whether the stages agree. */
@@ -37,18 +35,18 @@ public final class CollisionMeasurement {
     private final Path directory;
 
     /** @param directory for savepoints, which are weighed and left there */
-    public CollisionMeasurement(Path directory) {
+    CollisionMeasurement(Path directory) {
         this.directory = directory;
     }
 
-    public CollisionRun run(CollisionPlan plan) throws Exception {
+    CollisionReport.Run run(CollisionReport.Plan plan) throws Exception {
         String name = "collision-" + plan.devices() + "-" + plan.parallelism() + "-" + System.nanoTime();
         Progress progress = Progress.start(name, plan.parallelism());
         JobClient job = start(plan, name);
         TimeUnit.MILLISECONDS.sleep(plan.warmUp().toMillis());
-        Reading before = Reading.of(progress);
+        Reading before = Reading.now(progress);
         TimeUnit.MILLISECONDS.sleep(plan.measured().toMillis());
-        Reading after = Reading.of(progress);
+        Reading after = Reading.now(progress);
         CompletableFuture<?> ended = job.getJobExecutionResult();
         if (ended.isDone()) {
             ended.get(); // throws why
@@ -57,10 +55,10 @@ public final class CollisionMeasurement {
         job.cancel().get(1, TimeUnit.MINUTES);
         Bare bare = bare(plan, progress);
         double updates = (after.eventMillis - before.eventMillis) / 1000.0 * plan.devices();
-        return new CollisionRun(
+        return new CollisionReport.Run(
                 plan,
-                updates / (after.nanos - before.nanos) * 1e9,
-                (after.cpuNanos - before.cpuNanos) / 1e3 / updates,
+                updates / after.cpu.seconds(before.cpu),
+                after.cpu.cpuSeconds(before.cpu) * 1e6 / updates,
                 (after.records - before.records) / updates,
                 bytes / plan.devices(),
                 bare.perSecond,
@@ -72,19 +70,18 @@ public final class CollisionMeasurement {
     }
 
     /** How far a run is at an instant. */
-    private record Reading(long nanos, long cpuNanos, long eventMillis, long records) {
-        static Reading of(Progress progress) {
-            OperatingSystemMXBean system = (OperatingSystemMXBean) ManagementFactory.getOperatingSystemMXBean();
-            return new Reading(System.nanoTime(), system.getProcessCpuTime(), progress.millis(), progress.records());
+    private record Reading(CpuReading cpu, long eventMillis, long records) {
+        static Reading now(Progress progress) {
+            return new Reading(CpuReading.now(), progress.millis(), progress.records());
         }
     }
 
-    private JobClient start(CollisionPlan plan, String name) throws Exception {
+    private JobClient start(CollisionReport.Plan plan, String name) throws Exception {
         StreamExecutionEnvironment env =
                 StreamExecutionEnvironment.createLocalEnvironment(plan.parallelism(), settings());
         CollisionDetection.define(MoveFleet.in(env, plan.devices()).keyBy(PositionFix::device), CollisionRules.DEFAULT)
                 .encounters()
-                .sinkTo(new CountEncounters(name))
+                .sinkTo(new Progress.Counter(name))
                 .uid("count");
         return env.executeAsync(name);
     }
@@ -118,8 +115,8 @@ public final class CollisionMeasurement {
     /** The bare loop over the same seconds, and in how many of them the two disagree. */
     private record Bare(double perSecond, int compared, int different) {}
 
-    private static Bare bare(CollisionPlan plan, Progress progress) {
-        BareLoop loop = new BareLoop(plan.devices());
+    private static Bare bare(CollisionReport.Plan plan, Progress progress) {
+        BaselineLoop loop = new BaselineLoop(plan.devices());
         int complete = (int) Math.min(MAX_COMPARED, progress.millis() / 1000 - 1);
         int different = 0;
         long second = 0;

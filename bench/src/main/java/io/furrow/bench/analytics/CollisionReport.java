@@ -1,13 +1,53 @@
 package io.furrow.bench.analytics;
 
+import java.time.Duration;
 import java.util.List;
 
-/** What was measured of collision detection from memory, as figures. */
-public record CollisionReport(List<CollisionRun> runs) {
-    public Figures figures() {
+import io.furrow.bench.frame.Figures;
+
+/** What was measured of collision detection from memory. */
+record CollisionReport(List<Run> runs) {
+    /**
+     * One measurement.
+     *
+     * @param devices each reports once per second of event time
+     * @param parallelism subtasks of each stage
+     * @param warmUp before anything counts
+     * @param measured for how long
+     */
+    record Plan(int devices, int parallelism, Duration warmUp, Duration measured) {}
+
+    /**
+     * What was measured of one plan.
+     *
+     * @param updatesPerSecond through all three stages
+     * @param cpuMicros processor time of the whole JVM per update, in microseconds; other work on the machine moves it least
+     * @param recordsPerUpdate records of encounters per update
+     * @param bytesPerDevice of a savepoint in Flink's own form
+     * @param barePerSecond updates per second of the bare loop in one thread
+     * @param redis the same by Redis in a process of its own; null where it is not installed
+     * @param secondsCompared seconds of event time whose starts were compared with the bare loop's
+     * @param secondsDifferent of these, in how many the numbers differ: 0, or something is wrong
+     */
+    record Run(
+            Plan plan,
+            double updatesPerSecond,
+            double cpuMicros,
+            double recordsPerUpdate,
+            double bytesPerDevice,
+            double barePerSecond,
+            RedisGeo.Result redis,
+            int secondsCompared,
+            int secondsDifferent) {
+        private boolean agrees() {
+            return secondsDifferent == 0 && secondsCompared > 0 && (redis == null || redis.close() == redis.expected());
+        }
+    }
+
+    Figures figures() {
         Figures figures = new Figures(
                 "Collisions from memory: 5 m, 2 km x 2 km, random walk of 1 m a second, each device once a second");
-        for (CollisionRun run : runs) {
+        for (Run run : runs) {
             RedisGeo.Result redis = run.redis();
             figures.add(
                     "devices", run.plan().devices(),
@@ -25,7 +65,7 @@ public record CollisionReport(List<CollisionRun> runs) {
     }
 
     /** Whether every second that was compared has as many starts as the bare loop's, and Redis finds the pairs that the bare loop finds. */
-    public boolean agrees() {
-        return runs.stream().allMatch(CollisionRun::agrees);
+    boolean agrees() {
+        return runs.stream().allMatch(Run::agrees);
     }
 }

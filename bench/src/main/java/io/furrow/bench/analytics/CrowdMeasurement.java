@@ -16,9 +16,10 @@ import io.furrow.analytics.collision.rules.CellRules;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.bench.analytics.load.CrowdedFleet;
 import io.furrow.bench.analytics.load.Fleet;
+import io.furrow.bench.frame.Figures;
 
 /** What devices on one spot cost in the cell that they share, by processor time of one thread and without Flink. */
-public final class CrowdMeasurement {
+final class CrowdMeasurement {
     private static final ThreadMXBean THREADS = ManagementFactory.getThreadMXBean();
     private static final long CELL = 7;
 
@@ -37,7 +38,7 @@ public final class CrowdMeasurement {
      *
      * @param crowd the option of that name; 0 follows all pairs
      */
-    public static void run(int devices, int crowd, Duration measured, Figures figures) {
+    static void run(int devices, int crowd, Duration measured, Figures figures) {
         CollisionRules rules = CollisionRules.DEFAULT;
         CellRules cells = new CellRules(rules.cellMeters(), crowd);
         new CrowdMeasurement(rules.with(cells), measured).measure(devices, crowd, figures);

@@ -1,13 +1,11 @@
 package io.furrow.bench.analytics;
 
 import java.io.IOException;
-import java.lang.management.ManagementFactory;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 import java.util.function.Consumer;
 
-import com.sun.management.OperatingSystemMXBean;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.configuration.Configuration;
@@ -26,21 +24,23 @@ import io.furrow.analytics.presence.TrackPresence;
 import io.furrow.analytics.temperature.AssignFields;
 import io.furrow.analytics.temperature.Reading;
 import io.furrow.bench.analytics.load.Fleet;
-import io.furrow.bench.analytics.load.MadeUpFields;
+import io.furrow.bench.analytics.load.SyntheticFields;
+import io.furrow.bench.frame.CpuReading;
+import io.furrow.bench.frame.Figures;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.BroadcastLatenessOperator;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.position.Position;
 
 /** Points per second and core through the operators that join readings and devices with fields, beside a bare loop. */
-public final class FieldMeasurement {
+final class FieldMeasurement {
     private static final int VALUE_BYTES = 400;
     private static final int ROUNDS = 3;
     private static final int DEVICES = 10_000;
     private static final String TOPIC = "data.raw";
     private static final PresenceRules PRESENCE = new PresenceRules(Duration.ofMinutes(5), Duration.ZERO);
 
-    private final MadeUpFields fields;
+    private final SyntheticFields fields;
     private final long points;
     private final Consumer<String> progress;
 
@@ -56,14 +56,14 @@ public final class FieldMeasurement {
      * @param corners of each
      * @param points of each round
      */
-    public FieldMeasurement(int fields, int corners, long points, Consumer<String> progress) {
-        this.fields = new MadeUpFields(fields, corners);
+    FieldMeasurement(int fields, int corners, long points, Consumer<String> progress) {
+        this.fields = new SyntheticFields(fields, corners);
         this.points = points;
         this.progress = progress;
     }
 
     /** Rounds in turns, of which only the last counts: before it the JVM is cold. */
-    public void run(Iterable<Integer> parallelisms, Figures figures) throws Exception {
+    void run(Iterable<Integer> parallelisms, Figures figures) throws Exception {
         for (int parallelism : parallelisms) {
             Taken bare = null;
             Taken temperature = null;
@@ -101,7 +101,7 @@ public final class FieldMeasurement {
 
     private void temperature(int parallelism) throws Exception {
         StreamExecutionEnvironment env = environment(parallelism);
-        MadeUpFields where = fields; // this object does not travel with the job
+        SyntheticFields where = fields; // this object does not travel with the job
         GeneratorFunction<Long, Reading> nth = n -> new Reading(
                 "urn:ngsi-ld:Thermometer:1",
                 "Thermometer",
@@ -119,23 +119,15 @@ public final class FieldMeasurement {
 
     private void presence(int parallelism) throws Exception {
         StreamExecutionEnvironment env = environment(parallelism);
-        MadeUpFields where = fields;
+        SyntheticFields where = fields;
         GeneratorFunction<Long, PositionFix> nth = n -> {
             Position position = where.position(n);
             String id = "urn:ngsi-ld:Robot:" + n % DEVICES;
             long time = Fleet.START + n * 1000 / DEVICES;
+            double latitude = position.latitude();
+            double longitude = position.longitude();
             return new PositionFix(
-                    TOPIC,
-                    "farm|/|" + id,
-                    id,
-                    "",
-                    "",
-                    "",
-                    position.latitude(),
-                    position.longitude(),
-                    Double.NaN,
-                    Double.NaN,
-                    time);
+                    TOPIC, "farm|/|" + id, id, "", "", "", latitude, longitude, Double.NaN, Double.NaN, time);
         };
         stream(
                         env,
@@ -176,11 +168,9 @@ public final class FieldMeasurement {
     }
 
     private static Taken measure(Work work) throws Exception {
-        OperatingSystemMXBean process = (OperatingSystemMXBean) ManagementFactory.getOperatingSystemMXBean();
-        long cpu = process.getProcessCpuTime();
-        long begin = System.nanoTime();
+        CpuReading begin = CpuReading.now();
         work.run();
-        double seconds = (System.nanoTime() - begin) / 1e9;
-        return new Taken(seconds, (process.getProcessCpuTime() - cpu) / 1e9);
+        CpuReading end = CpuReading.now();
+        return new Taken(end.seconds(begin), end.cpuSeconds(begin));
     }
 }

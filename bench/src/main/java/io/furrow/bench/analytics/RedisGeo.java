@@ -99,7 +99,7 @@ final class RedisGeo implements AutoCloseable {
     /** The rate at which it takes a fleet's positions, after a quarter as long that does not count, and what it finds. */
     static Result measure(int devices, Duration lasting) throws IOException, InterruptedException {
         try (RedisGeo redis = start()) {
-            BareLoop loop = new BareLoop(2 * NEARBY_PAIRS);
+            BaselineLoop loop = new BaselineLoop(2 * NEARBY_PAIRS);
             nearby(fix -> {
                 redis.take(fix);
                 loop.take(fix);

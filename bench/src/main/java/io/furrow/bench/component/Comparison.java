@@ -9,7 +9,7 @@ import io.furrow.bench.component.Component.Rates;
  * Whether a component became faster or slower, as a share of its peer, which was measured in the same minutes: machines and hours differ
  * more than commits.
  */
-public final class Comparison {
+final class Comparison {
     /** Of fewer turns a difference says nothing. */
     private static final int MIN_TURNS = 3;
     /** Smaller differences of the medians are noise, however well the turns agree. */
@@ -18,13 +18,13 @@ public final class Comparison {
     private final List<Rates> before;
     private final List<Rates> now;
 
-    public Comparison(List<Rates> before, List<Rates> now) {
+    Comparison(List<Rates> before, List<Rates> now) {
         this.before = before;
         this.now = now;
     }
 
     /** A figure's median. @return NaN of none */
-    public static double median(List<Rates> turns, ToDoubleFunction<Rates> figure) {
+    static double median(List<Rates> turns, ToDoubleFunction<Rates> figure) {
         double[] sorted = turns.stream().mapToDouble(figure).sorted().toArray();
         int middle = sorted.length / 2;
         return sorted.length == 0
@@ -33,12 +33,12 @@ public final class Comparison {
     }
 
     /** The share now, of the share before. */
-    public double ratio() {
+    double ratio() {
         return median(now, Rates::share) / median(before, Rates::share);
     }
 
     /** In a word, and why. */
-    public String verdict() {
+    String verdict() {
         if (Math.min(before.size(), now.size()) < MIN_TURNS) {
             return "too few turns (%d and %d, %d are needed)".formatted(before.size(), now.size(), MIN_TURNS);
         }

@@ -10,50 +10,30 @@ import com.fasterxml.jackson.databind.JsonNode;
 public enum Component {
     SOURCE(
             "NGSI source: notifications in Kafka",
-            List.of("notifications", "--runs", "1", "--seconds", "8", "--warmup", "8", "--calibration", "3"),
+            "notifications --runs 1 --seconds 8 --warmup 8 --calibration 3",
             "/median/inKafkaPerSecond",
             new Peer("bare producer", "/median/bareProducerPerSecond"),
             new Peer("bare bridge from HTTP to Kafka", "/median/bareBridgePerSecond"),
             new Peer("bare HTTP server", "/median/bareServerPerSecond")),
     SINK(
             "NGSI sink: updates",
-            List.of("sink", "--runs", "1"),
+            "sink --runs 1",
             "/0/medianUpdatesPerSecond",
             new Peer("bare HTTP server", "/0/runs/0/bareServerEntitiesPerSecond")),
     INGEST(
             "ingest: records",
-            List.of(
-                    "ingest",
-                    "--turns",
-                    "1",
-                    "--records",
-                    "300000",
-                    "--delivery",
-                    "at-least-once",
-                    "--jobs",
-                    "COPY_TWICE,INGEST"),
+            "ingest --turns 1 --records 300000 --delivery at-least-once --jobs COPY_TWICE,INGEST",
             "/runs/1/recordsPerSecond",
             new Peer("job that copies", "/runs/0/recordsPerSecond")),
     COLLISION(
             "collision: positions",
-            List.of(
-                    "analytics",
-                    "--parts",
-                    "MEMORY",
-                    "--devices",
-                    "10000",
-                    "--cores",
-                    "2",
-                    "--warmup",
-                    "10",
-                    "--seconds",
-                    "10"),
+            "analytics --parts MEMORY --devices 10000 --cores 2 --warmup 10 --seconds 10",
             "/memory/0/updates~1s",
             new Peer("bare loop", "/memory/0/bare loop"),
             new Peer("Redis GEO", "/memory/0/Redis GEO")),
     REPLAY(
             "replay at max: events",
-            List.of("replay", "--max", "--events", "30000", "--turns", "1"),
+            "replay --max --events 30000 --turns 1",
             "/0/0/events~1s",
             new Peer("bare cursor, the same queries", "/0/1/events~1s"),
             new Peer("bare cursor, one query", "/0/2/events~1s"));
@@ -65,9 +45,9 @@ public enum Component {
     private final List<Peer> others;
 
     /** @param others peers beside it; one that is not installed has no figure */
-    Component(String title, List<String> words, String figure, Peer peer, Peer... others) {
+    Component(String title, String words, String figure, Peer peer, Peer... others) {
         this.title = title;
-        this.words = words;
+        this.words = List.of(words.split(" "));
         this.figure = figure;
         this.peer = peer;
         this.others = List.of(others);
@@ -77,16 +57,16 @@ public enum Component {
     private record Peer(String name, String figure) {}
 
     /** What is counted, a second. */
-    public String title() {
+    String title() {
         return title;
     }
 
-    public String peer() {
+    String peer() {
         return peer.name;
     }
 
     /** Medians of the further peers by name; NaN of one that no turn has, such as one that is not installed. */
-    public Map<String, Double> others(List<Rates> turns) {
+    Map<String, Double> others(List<Rates> turns) {
         Map<String, Double> medians = new LinkedHashMap<>();
         for (Peer other : others) {
             List<Rates> its = turns.stream()
@@ -103,7 +83,7 @@ public enum Component {
     }
 
     /** @param output what the bench wrote with {@code --output} */
-    public Rates rates(JsonNode output) {
+    Rates rates(JsonNode output) {
         Map<String, Double> further = new LinkedHashMap<>();
         others.stream()
                 .filter(other -> output.at(other.figure).isNumber())
@@ -126,12 +106,12 @@ public enum Component {
      * @param peers of the peer that shares are of
      * @param others by name, of the further peers
      */
-    public record Rates(double ours, double peers, Map<String, Double> others) {
-        public Rates {
+    record Rates(double ours, double peers, Map<String, Double> others) {
+        Rates {
             others = others == null ? Map.of() : others;
         }
 
-        public double share() {
+        double share() {
             return ours / peers;
         }
     }

@@ -9,7 +9,7 @@ import io.furrow.bench.component.Component.Rates;
 import io.furrow.bench.results.JsonLines;
 
 /** Turns of components, in a file. */
-public final class ComponentResults {
+final class ComponentResults {
     private final JsonLines<Turn> turns;
 
     /** A line of the file. */
@@ -24,27 +24,27 @@ public final class ComponentResults {
      *
      * @throws IOException if it holds something else
      */
-    public static ComponentResults in(Path file) throws IOException {
+    static ComponentResults in(Path file) throws IOException {
         return new ComponentResults(JsonLines.in(file, Turn.class, "components"));
     }
 
-    public boolean has(String commit, int turn, Component component) {
+    boolean has(String commit, int turn, Component component) {
         return turns.all().stream()
                 .anyMatch(each -> each.commit.equals(commit) && each.turn == turn && each.component == component);
     }
 
-    public void add(String commit, int turn, Component component, Rates rates) throws IOException {
+    void add(String commit, int turn, Component component, Rates rates) throws IOException {
         turns.add(new Turn(commit, turn, component, rates.ours(), rates.peers(), rates.others()));
     }
 
     /** The commit that was measured last. */
-    public String commit() {
+    String commit() {
         List<Turn> all = turns.all();
         return all.isEmpty() ? "none" : all.get(all.size() - 1).commit;
     }
 
     /** All turns of a component, of that commit. */
-    public List<Rates> of(Component component) {
+    List<Rates> of(Component component) {
         return turns.all().stream()
                 .filter(each -> each.commit.equals(commit()) && each.component == component)
                 .map(each -> new Rates(each.ours, each.peers, each.others))

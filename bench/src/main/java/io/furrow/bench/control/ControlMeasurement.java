@@ -1,5 +1,6 @@
 package io.furrow.bench.control;
 
+import java.time.Duration;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.Semaphore;
 import java.util.concurrent.TimeUnit;
@@ -9,8 +10,10 @@ import java.util.concurrent.locks.LockSupport;
 import org.HdrHistogram.ConcurrentHistogram;
 import org.HdrHistogram.Histogram;
 
+import io.furrow.bench.frame.Figures;
+
 /** Puts requests to the managers, numbered through over all loads, and waits for the answer to each. */
-public final class ControlMeasurement {
+final class ControlMeasurement {
     private static final long LAST_ANSWER_SECONDS = 60;
 
     private final ControlClient client;
@@ -18,10 +21,18 @@ public final class ControlMeasurement {
     private long next;
 
     /** @param run of letters and digits; makes ids and missions of this run its own */
-    public ControlMeasurement(ControlClient client, String run) {
+    ControlMeasurement(ControlClient client, String run) {
         this.client = client;
         this.run = run;
     }
+
+    /**
+     * Requests to the managers.
+     *
+     * @param rate requests per second that are due whether or not earlier ones were answered; 0 for the next as soon as one is
+     * @param outstanding how many may wait for their answer at a time
+     */
+    record Plan(int rate, int outstanding, Duration duration) {}
 
     /** What the loads of one measurement come to. */
     private static final class Tally {
@@ -42,7 +53,7 @@ public final class ControlMeasurement {
     }
 
     /** Sends a load and waits for its answers. */
-    public ControlReport run(ControlLoadPlan plan) throws InterruptedException {
+    Report run(Plan plan) throws InterruptedException {
         Tally tally = new Tally();
         Semaphore free = new Semaphore(plan.outstanding());
         long repeatsBefore = client.repeats();
@@ -57,7 +68,7 @@ public final class ControlMeasurement {
         }
         boolean all = free.tryAcquire(plan.outstanding(), LAST_ANSWER_SECONDS, TimeUnit.SECONDS);
         double seconds = ((all ? tally.lastAnswer : System.nanoTime()) - begin) / 1e9;
-        return new ControlReport(
+        return new Report(
                 sent,
                 tally.answered.sum(),
                 tally.unexpected.sum(),
@@ -82,6 +93,38 @@ public final class ControlMeasurement {
         long left = nanos - System.nanoTime();
         if (left > 0) {
             LockSupport.parkNanos(left);
+        }
+    }
+
+    /**
+     * What became of a load.
+     *
+     * @param answered of those that were sent; the others had no answer long after the last was sent
+     * @param unexpected answers of another status than a manager gives that runs each request once, in order
+     * @param repeats answers to requests that were answered already
+     * @param seconds from the first request to the last answer
+     * @param delays microseconds from when a request was due to its answer
+     */
+    record Report(long sent, long answered, long unexpected, long repeats, double seconds, Histogram delays) {
+        double perSecond() {
+            return answered / seconds;
+        }
+
+        boolean isSound() {
+            return answered == sent && unexpected == 0 && repeats == 0;
+        }
+
+        void addTo(Figures figures, String name) {
+            figures.add(
+                    "load", name,
+                    "sent", sent,
+                    "answered", answered,
+                    "/s", perSecond(),
+                    "p50 ms", delays.getValueAtPercentile(50) / 1000.0,
+                    "p99 ms", delays.getValueAtPercentile(99) / 1000.0,
+                    "max ms", delays.getMaxValue() / 1000.0,
+                    "repeats", repeats,
+                    "wrong", unexpected);
         }
     }
 }

@@ -15,12 +15,11 @@ import io.furrow.model.topic.Topics;
  * @param path in the REST API
  * @param expected status of the answer
  */
-public record ControlRequest(
-        String topic, String command, ObjectNode members, String method, String path, String expected) {
+record ControlRequest(String topic, String command, ObjectNode members, String method, String path, String expected) {
     /** Domains that have to be there, {@code bench-0} and so on. */
-    public static final int DOMAINS = 10;
+    static final int DOMAINS = 10;
 
-    public static final int OUTSTANDING = 2000;
+    static final int OUTSTANDING = 2000;
 
     /** So many missions are started, then stopped, then deleted: each step is asked for long after the one before. */
     private static final int MISSIONS = 2000;

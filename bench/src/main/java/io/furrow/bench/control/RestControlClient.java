@@ -11,12 +11,12 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** Asks over the REST API, where an answer cannot come twice. */
-public final class RestControlClient implements ControlClient {
+final class RestControlClient implements ControlClient {
     private final HttpClient http =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
     private final URI api;
 
-    public RestControlClient(URI api) {
+    RestControlClient(URI api) {
         this.api = api;
     }
 
@@ -36,15 +36,5 @@ public final class RestControlClient implements ControlClient {
         } catch (UnreadableException e) {
             return "no answer of a manager, but " + answer.statusCode();
         }
-    }
-
-    @Override
-    public long repeats() {
-        return 0;
-    }
-
-    @Override
-    public void close() {
-        // The client has nothing that its threads, which end by themselves, do not hold.
     }
 }

@@ -2,7 +2,6 @@ package io.furrow.bench.evaluation;
 
 import java.lang.management.ManagementFactory;
 import java.nio.charset.StandardCharsets;
-import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.Locale;
@@ -15,11 +14,9 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.internals.RecordHeaders;
 import org.apache.kafka.common.record.TimestampType;
 
-import io.furrow.bench.http.BareServer;
+import io.furrow.bench.http.BaselineServer;
 import io.furrow.bench.http.HttpLoad;
-import io.furrow.bench.http.HttpLoadPlan;
-import io.furrow.bench.http.HttpLoadResult;
-import io.furrow.bench.notifications.BareProducer;
+import io.furrow.bench.notifications.BaselineProducer;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.launcher.suite.RunDirectory;
 
@@ -30,7 +27,7 @@ import io.furrow.launcher.suite.RunDirectory;
  * @param server requests of 1 kB a second that a Jetty answers without looking at them
  * @param bridge requests of 1 kB a second that a Jetty answers when Kafka has them
  */
-public record Calibration(double producer, double server, double bridge) {
+record Calibration(double producer, double server, double bridge) {
     private static final Duration LASTING = Duration.ofSeconds(3);
     private static final int BYTES = 1_000;
     private static final int CONNECTIONS = 64;
@@ -38,10 +35,9 @@ public record Calibration(double producer, double server, double bridge) {
     private static final long MEGABYTE = 1 << 20;
 
     /** Takes some 20 seconds. */
-    public static Calibration measure() throws Exception {
+    static Calibration measure() throws Exception {
         try (RunDirectory directory = RunDirectory.open(null);
-                EmbeddedKafka kafka =
-                        EmbeddedKafka.start(Path.of(directory.path().toString(), "kafka"))) {
+                EmbeddedKafka kafka = EmbeddedKafka.start(directory.resolve("kafka"))) {
             Properties client = new Properties();
             client.setProperty("bootstrap.servers", kafka.bootstrapServers());
             return new Calibration(producing(client), serving(), bridging(client));
@@ -52,7 +48,7 @@ public record Calibration(double producer, double server, double bridge) {
         byte[] value = new byte[BYTES];
         new SplittableRandom(1).nextBytes(value);
         byte[] key = "device".getBytes(StandardCharsets.US_ASCII);
-        BareProducer producer = new BareProducer(client, "calibration");
+        BaselineProducer producer = new BaselineProducer(client, "calibration");
         List<ConsumerRecord<byte[], byte[]>> samples = List.of(new ConsumerRecord<>(
                 "calibration",
                 0,
@@ -70,27 +66,27 @@ public record Calibration(double producer, double server, double bridge) {
     }
 
     private static double serving() {
-        try (BareServer server = BareServer.start()) {
+        try (BaselineServer server = BaselineServer.start()) {
             return answered(server);
         }
     }
 
     private static double bridging(Properties client) {
-        try (BareServer server = BareServer.bridge(client, "calibration-bridge")) {
+        try (BaselineServer server = BaselineServer.bridge(client, "calibration-bridge")) {
             return answered(server);
         }
     }
 
     /** Per second, of a second run. */
-    private static double answered(BareServer server) {
-        HttpLoadPlan plan = new HttpLoadPlan(CONNECTIONS, false, 0, BYTES, ENTITIES, LASTING);
+    private static double answered(BaselineServer server) {
+        HttpLoad.Plan plan = new HttpLoad.Plan(CONNECTIONS, false, 0, BYTES, ENTITIES, LASTING);
         new HttpLoad(server.address(), plan, 0).run();
-        HttpLoadResult load = new HttpLoad(server.address(), plan, 0).run();
-        return load.answered() * 1e9 / load.nanos();
+        HttpLoad.Result load = new HttpLoad(server.address(), plan, 0).run();
+        return load.perSecond();
     }
 
     /** Of this JVM, MB, as it was started; what {@link Runtime#maxMemory} returns changes by the collector's arrangements. */
-    public static long maxHeap() {
+    static long maxHeap() {
         return Long.parseLong(ManagementFactory.getPlatformMXBean(HotSpotDiagnosticMXBean.class)
                         .getVMOption("MaxHeapSize")
                         .getValue())
@@ -98,7 +94,7 @@ public record Calibration(double producer, double server, double bridge) {
     }
 
     /** For the head of a report. */
-    public String sentence() {
+    String sentence() {
         return String.format(
                 Locale.ROOT,
                 "Machine: %d processors, %s %s, Java %s with a heap of %,d MB at most; in the same minutes a bare producer writes %,.0f records of 1 kB a second, a bare"

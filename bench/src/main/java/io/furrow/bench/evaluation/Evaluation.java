@@ -1,22 +1,21 @@
 package io.furrow.bench.evaluation;
 
-import java.io.IOException;
 import java.io.PrintWriter;
 import java.nio.charset.StandardCharsets;
-import java.nio.file.Files;
-import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
+import java.util.Properties;
 import java.util.concurrent.atomic.LongAdder;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 
-import io.furrow.bench.arrival.TopicReader;
 import io.furrow.bench.evaluation.Sweep.Point;
+import io.furrow.bench.frame.ProcessStatus;
+import io.furrow.bench.frame.TopicReader;
 import io.furrow.bench.load.LoadMeasurement;
 import io.furrow.bench.load.LoadReport;
 import io.furrow.bench.whole.ThreadTimes;
@@ -25,6 +24,7 @@ import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.topic.Topics;
+import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.load.LoadPlan;
 
 /**
@@ -154,12 +154,8 @@ public final class Evaluation {
         LoadReport report;
         // Only where there are copies: another reader of large messages would change what is measured.
         if (point.sweep() == Sweep.SUBSCRIPTIONS) {
-            try (TopicReader raw = new TopicReader(
-                    target.kafka(),
-                    Topics.RAW,
-                    Map.of(),
-                    records -> records.forEach(record -> count(record, load, notified)))) {
-                raw.start();
+            try (TopicReader raw = TopicReader.fromEnd(target.kafka(), TopicReader.COMMITTED, Topics.RAW)) {
+                raw.follow(records -> records.forEach(record -> count(record, load, notified)));
                 report = measurement.run(load);
             }
         } else {
@@ -174,16 +170,15 @@ public final class Evaluation {
                     .byRole()
                     .forEach((role, time) -> cores.put(role, time / nanos));
         }
-        return PointResult.of(plan.run, point, report, notified.sum(), cores, target.isOurs() ? residentBytes() : 0);
-    }
-
-    /** As Linux tells it. */
-    private static long residentBytes() throws IOException {
-        return Files.readAllLines(Path.of("/proc/self/status")).stream()
-                .filter(line -> line.startsWith("VmRSS:"))
-                .mapToLong(line -> Long.parseLong(line.replaceAll("\\D", "")) * 1024)
-                .findFirst()
-                .orElse(0);
+        return PointResult.of(
+                plan.run,
+                point,
+                report,
+                notified.sum(),
+                cores,
+                target.isOurs()
+                        ? 1024 * ProcessStatus.of(ProcessHandle.current().pid(), "VmRSS")
+                        : 0);
     }
 
     /** Provisioning is notified of too, without a payload. */
@@ -215,5 +210,18 @@ public final class Evaluation {
     private void progress(String line) {
         out.println("  " + line);
         out.flush();
+    }
+
+    /**
+     * A suite that is evaluated.
+     *
+     * @param devices where loads go in
+     * @param kafka settings of a client of the Kafka at which they come out
+     * @param isOurs whether it runs in this JVM, so that its processor time and memory can be told
+     */
+    public record Target(FleetSettings devices, Properties kafka, boolean isOurs) {
+        static Target of(Suite suite) {
+            return new Target(suite.devices(), suite.kafka().clientProperties(), true);
+        }
     }
 }

@@ -10,28 +10,11 @@ import java.util.List;
 import java.util.Locale;
 import java.util.Map;
 
+import io.furrow.bench.frame.Figures;
 import io.furrow.bench.load.Hop;
 
 /** Results as a page of its own, {@code report.html}, and as {@code evaluation.md} with pictures beside it. */
-public final class EvaluationReport {
-    private static final List<String> HEADS = List.of(
-            "load",
-            "notifications/s",
-            "sent",
-            "notified",
-            "delivered",
-            "duplicated",
-            "reordered",
-            "mean ms",
-            "p50",
-            "p99",
-            "max",
-            "from notification p50",
-            "p99",
-            "MB",
-            "busiest part");
-    private static final List<String> KNEE_HEADS = List.of(
-            "sweep", "held", "messages/s", "p99 ms", "not held", "why", "arrived there/s", "busiest part there");
+final class EvaluationReport {
     private static final double MEGABYTE = 1e6;
 
     private final EvaluationResults results;
@@ -39,14 +22,14 @@ public final class EvaluationReport {
     private final List<String> setting;
 
     /** @param setting sentences on machine, servers and guarantees, for the head of the report */
-    public EvaluationReport(EvaluationResults results, EvaluationResults.Run run, List<String> setting) {
+    EvaluationReport(EvaluationResults results, EvaluationResults.Run run, List<String> setting) {
         this.results = results;
         this.run = run;
         this.setting = setting;
     }
 
     /** Writes what there is so far. */
-    public void write(Path folder) throws IOException {
+    void write(Path folder) throws IOException {
         List<List<PointResult>> sweeps = new ArrayList<>();
         for (Sweep sweep : Sweep.values()) {
             List<PointResult> its = results.of(run, sweep);
@@ -56,7 +39,7 @@ public final class EvaluationReport {
         }
         Path images = Files.createDirectories(folder.resolve("images"));
         Map<String, Path> pictures = pictures(sweeps, images);
-        List<ReportTable> tables = tables(sweeps);
+        List<Figures> tables = tables(sweeps);
         Files.writeString(folder.resolve("evaluation.md"), markdown(tables, pictures, folder));
         Files.writeString(folder.resolve("report.html"), html(tables, pictures));
     }
@@ -64,108 +47,101 @@ public final class EvaluationReport {
     /** By their titles. */
     private static Map<String, Path> pictures(List<List<PointResult>> sweeps, Path images) throws IOException {
         Map<String, Path> pictures = new LinkedHashMap<>();
-        Path delivered = images.resolve("evaluation-delivered.png");
-        EvaluationPlots.delivered(sweeps, delivered);
-        pictures.put("Share of the messages that arrived", delivered);
-        Path delay = images.resolve("evaluation-delay.png");
-        EvaluationPlots.delay(sweeps, delay);
-        pictures.put("Delay from device to reader", delay);
+        EvaluationPlots.delivered(sweeps, add(pictures, "Share of the messages that arrived", images, "delivered"));
+        EvaluationPlots.delay(sweeps, add(pictures, "Delay from device to reader", images, "delay"));
         if (sweeps.stream()
                 .flatMap(List::stream)
                 .anyMatch(result -> !result.cores().isEmpty())) {
-            Path cores = images.resolve("evaluation-cores.png");
-            EvaluationPlots.cores(sweeps, cores);
-            pictures.put("Processor time of the parts that take most", cores);
+            EvaluationPlots.cores(sweeps, add(pictures, "Processor time of the parts that take most", images, "cores"));
         }
         for (List<PointResult> its : sweeps) {
             Sweep sweep = its.get(0).point().sweep();
             String name = sweep.name().toLowerCase(Locale.ROOT);
-            Path messages = images.resolve("evaluation-" + name + "-messages.png");
-            EvaluationPlots.messages(its, messages);
-            pictures.put("Messages over time, " + sweep.title(), messages);
-            Path hops = images.resolve("evaluation-" + name + "-hops.png");
-            EvaluationPlots.hops(its, hops);
-            pictures.put("Delay of each hop over time, " + sweep.title(), hops);
+            EvaluationPlots.messages(
+                    its, add(pictures, "Messages over time, " + sweep.title(), images, name + "-messages"));
+            EvaluationPlots.hops(
+                    its, add(pictures, "Delay of each hop over time, " + sweep.title(), images, name + "-hops"));
         }
         return pictures;
     }
 
+    private static Path add(Map<String, Path> pictures, String title, Path images, String name) {
+        Path file = images.resolve("evaluation-" + name + ".png");
+        pictures.put(title, file);
+        return file;
+    }
+
     /** How far each sweep holds, then all loads of each. */
-    private static List<ReportTable> tables(List<List<PointResult>> sweeps) {
-        List<ReportTable> tables = new ArrayList<>();
-        tables.add(new ReportTable(
-                "How far it holds",
-                KNEE_HEADS,
-                sweeps.stream().map(EvaluationReport::knee).toList()));
-        sweeps.forEach(its -> tables.add(new ReportTable(
-                "With " + its.get(0).point().sweep().title(),
-                HEADS,
-                its.stream().map(EvaluationReport::cells).toList())));
+    private static List<Figures> tables(List<List<PointResult>> sweeps) {
+        List<Figures> tables = new ArrayList<>();
+        Figures knees = new Figures("How far it holds");
+        sweeps.forEach(its -> addKnee(knees, its));
+        tables.add(knees);
+        for (List<PointResult> its : sweeps) {
+            Figures points = new Figures("With " + its.get(0).point().sweep().title());
+            its.forEach(result -> add(points, result));
+            tables.add(points);
+        }
         return tables;
     }
 
-    private String markdown(List<ReportTable> tables, Map<String, Path> pictures, Path folder) {
+    private String markdown(List<Figures> tables, Map<String, Path> pictures, Path folder) {
         StringBuilder text = new StringBuilder("# Evaluation\n\nGenerated by `./furrow bench evaluate`.\n\n");
         setting.forEach(sentence -> text.append("- ").append(sentence).append('\n'));
         text.append('\n').append(Thesis.SENTENCE).append('\n');
-        tables.forEach(table -> text.append(table.markdown()));
+        tables.forEach(table -> text.append("\n## " + table.title() + "\n\n").append(table.markdown()));
         pictures.forEach((title, file) ->
                 text.append("\n## %s%n%n![%s](%s)%n".formatted(title, title, folder.relativize(file))));
         return text.toString();
     }
 
     /** The largest load up to which all hold, and the first that does not. */
-    private static List<String> knee(List<PointResult> results) {
+    private static void addKnee(Figures figures, List<PointResult> results) {
         PointResult held = null;
-        for (PointResult result : results) {
-            if (!result.holds()) {
-                return List.of(
-                        result.point().sweep().title(),
-                        held == null ? "none" : held.point().title(),
-                        held == null ? "" : rate(held),
-                        held == null ? "" : Long.toString(held.endToEnd().p99()),
-                        result.point().title(),
-                        result.limit(),
-                        String.format(Locale.ROOT, "%.0f", result.arrivedPerSecond()),
-                        result.busiest());
+        PointResult beyond = null;
+        for (int i = 0; i < results.size() && beyond == null; i++) {
+            if (results.get(i).holds()) {
+                held = results.get(i);
+            } else {
+                beyond = results.get(i);
             }
-            held = result;
         }
-        return List.of(
-                held.point().sweep().title(),
-                held.point().title(),
-                rate(held),
-                Long.toString(held.endToEnd().p99()),
-                "not met",
-                "",
-                "",
-                "");
+        figures.add(
+                "sweep", results.get(0).point().sweep().title(),
+                "held", held == null ? "none" : held.point().title(),
+                "messages/s", held == null ? "" : rounded(held.point().rate()),
+                "p99 ms", held == null ? "" : held.endToEnd().p99(),
+                "not held", beyond == null ? "not met" : beyond.point().title(),
+                "why", beyond == null ? "" : beyond.limit(),
+                "arrived there/s", beyond == null ? "" : rounded(beyond.arrivedPerSecond()),
+                "busiest part there", beyond == null ? "" : beyond.busiest());
     }
 
-    private static String rate(PointResult result) {
-        return String.format(Locale.ROOT, "%.0f", result.point().rate());
+    private static String rounded(double number) {
+        return String.format(Locale.ROOT, "%.0f", number);
     }
 
-    private static List<String> cells(PointResult result) {
-        return List.of(
-                result.point().title() + (result.isWhole() ? "" : " ⚠"),
-                rate(result),
-                Long.toString(result.sent()),
-                Long.toString(result.notified()),
-                String.format(Locale.ROOT, "%.4f", result.deliveredRatio()),
-                Long.toString(result.duplicated()),
-                Long.toString(result.reordered()),
-                String.format(Locale.ROOT, "%.0f", result.endToEnd().mean()),
-                Long.toString(result.endToEnd().p50()),
-                Long.toString(result.endToEnd().p99()),
-                Long.toString(result.endToEnd().max()),
-                Long.toString(result.delays().get(Hop.SOURCE_TO_READER).p50()),
-                Long.toString(result.delays().get(Hop.SOURCE_TO_READER).p99()),
-                result.memoryBytes() == 0 ? "–" : String.format(Locale.ROOT, "%.0f", result.memoryBytes() / MEGABYTE),
-                result.busiest());
+    private static void add(Figures figures, PointResult result) {
+        PointResult.Delay fromNotification = result.delays().get(Hop.SOURCE_TO_READER);
+        figures.add(
+                "load", result.point().title() + (result.isWhole() ? "" : " ⚠"),
+                "notifications/s", rounded(result.point().rate()),
+                "sent", result.sent(),
+                "notified", result.notified(),
+                "delivered", String.format(Locale.ROOT, "%.4f", result.deliveredRatio()),
+                "duplicated", result.duplicated(),
+                "reordered", result.reordered(),
+                "mean ms", rounded(result.endToEnd().mean()),
+                "p50", result.endToEnd().p50(),
+                "p99", result.endToEnd().p99(),
+                "max", result.endToEnd().max(),
+                "from notification p50", fromNotification.p50(),
+                "from notification p99", fromNotification.p99(),
+                "MB", result.memoryBytes() == 0 ? "–" : rounded(result.memoryBytes() / MEGABYTE),
+                "busiest part", result.busiest());
     }
 
-    private String html(List<ReportTable> tables, Map<String, Path> pictures) throws IOException {
+    private String html(List<Figures> tables, Map<String, Path> pictures) throws IOException {
         StringBuilder page = new StringBuilder("""
                 <!doctype html><html lang="en"><meta charset="utf-8"><title>Furrow: evaluation</title>
                 <style>
@@ -178,9 +154,9 @@ public final class EvaluationReport {
                 </style><h1>Evaluation</h1><ul>
                 """);
         setting.forEach(sentence ->
-                page.append("<li>").append(ReportTable.escaped(sentence)).append("</li>\n"));
-        page.append("</ul>\n<p>").append(ReportTable.escaped(Thesis.SENTENCE)).append("</p>\n");
-        tables.forEach(table -> page.append(table.html()));
+                page.append("<li>").append(Figures.escaped(sentence)).append("</li>\n"));
+        page.append("</ul>\n<p>").append(Figures.escaped(Thesis.SENTENCE)).append("</p>\n");
+        tables.forEach(table -> page.append("<h2>" + table.title() + "</h2>\n").append(table.html()));
         for (Map.Entry<String, Path> picture : pictures.entrySet()) {
             String data = Base64.getEncoder().encodeToString(Files.readAllBytes(picture.getValue()));
             page.append("<h2>%s</h2><img alt=\"%s\" src=\"data:image/png;base64,%s\">%n"

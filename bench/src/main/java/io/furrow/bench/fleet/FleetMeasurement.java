@@ -1,30 +1,24 @@
 package io.furrow.bench.fleet;
 
 import java.io.IOException;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 import java.util.Set;
-import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import org.apache.kafka.clients.admin.Admin;
-import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
-import org.apache.kafka.common.serialization.StringSerializer;
-import org.eclipse.paho.client.mqttv3.MqttException;
 
+import io.furrow.bench.frame.Engines;
+import io.furrow.bench.frame.Figures;
+import io.furrow.bench.frame.TopicFiller;
+import io.furrow.kafka.CommittedReader;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
@@ -33,94 +27,95 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /** Wants devices on {@code service.devices}, lets a host in a JVM of its own run them, and counts what they report. */
-public final class FleetMeasurement {
+final class FleetMeasurement {
     private static final Duration TIMEOUT = Duration.ofMinutes(3);
     private static final Duration POLL = Duration.ofMillis(100);
+    /** Of the measures that are due, which the edges of the time cut. */
+    private static final double COMPLETE = 0.99;
 
-    private final FleetPlan plan;
-    private final FleetPlan.Ends ends;
-    private final Properties client = new Properties();
+    private final FleetBench plan;
+    private final Engines engines;
+    private final URI mqtt;
 
-    public FleetMeasurement(FleetPlan plan, FleetPlan.Ends ends) {
+    FleetMeasurement(FleetBench plan, Engines engines, URI mqtt) {
         this.plan = plan;
-        this.ends = ends;
-        client.setProperty("bootstrap.servers", ends.kafka());
+        this.engines = engines;
+        this.mqtt = mqtt;
     }
 
-    /** @throws IOException if the devices do not come up */
-    public FleetReport run() throws IOException, InterruptedException, MqttException {
-        makeTopics();
-        try (HostProcess host = HostProcess.start(plan, ends);
-                MeasureListener listener = new MeasureListener(ends)) {
+    /**
+     * Adds a row. Delays count from when a measure was due to its arrival at a subscriber, which holds the broker's work too; the memory
+     * is that of the whole process, at most.
+     *
+     * @return whether all devices reported, and not less than was due but for the edges of the time
+     * @throws IOException if the devices do not come up
+     */
+    boolean run(Figures figures) throws Exception {
+        Map<String, String> compacted = Map.of("cleanup.policy", "compact");
+        Engines.makeTopics(engines.client(), 1, compacted, Topics.DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS);
+        try (HostProcess host = HostProcess.start(plan.heap, engines.bootstrapServers(), mqtt, engines.folder("."));
+                MeasureListener listener = new MeasureListener(mqtt)) {
             long begun = System.nanoTime();
-            want();
+            publish();
             awaitRunning(begun);
-            Duration untilAllRun = Duration.ofNanos(System.nanoTime() - begun);
-            TimeUnit.NANOSECONDS.sleep(plan.warmup().toNanos());
+            double untilAllRun = (System.nanoTime() - begun) / 1e9;
+            TimeUnit.SECONDS.sleep(plan.warmup);
             Duration cpu = host.cpu();
             long from = System.nanoTime();
             listener.begin();
-            TimeUnit.NANOSECONDS.sleep(plan.measured().toNanos());
+            TimeUnit.SECONDS.sleep(plan.seconds);
             listener.end();
             double seconds = (System.nanoTime() - from) / 1e9;
             double used = host.cpu().minus(cpu).toNanos() / 1e9;
-            return new FleetReport(
-                    plan,
+            long due = (long) (plan.devices * seconds * 1000 / plan.period);
+            int silent = plan.devices - listener.devices();
+            figures.add(
+                    "all run after s",
                     untilAllRun,
-                    (long) (plan.devices() * seconds * 1000 / plan.period().toMillis()),
-                    listener.arrived(),
-                    plan.devices() - listener.devices(),
+                    "measures/s",
+                    (double) listener.arrived() / plan.seconds,
+                    "due/s",
+                    (double) due / plan.seconds,
+                    "silent devices",
+                    silent,
+                    "due to subscriber p50 ms",
                     listener.delay(50),
+                    "p99 ms",
                     listener.delay(99),
-                    used / seconds,
+                    "% of a core",
+                    100 * used / seconds,
+                    "MB of process",
                     host.peakMb());
+            return silent == 0 && listener.arrived() >= due * COMPLETE;
         }
     }
 
-    private void makeTopics() throws IOException, InterruptedException {
-        try (Admin admin = Admin.create(client)) {
-            admin.createTopics(List.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS).stream()
-                            .map(topic ->
-                                    new NewTopic(topic, 1, (short) 1).configs(Map.of("cleanup.policy", "compact")))
-                            .toList())
-                    .all()
-                    .get();
-        } catch (ExecutionException e) {
-            throw new IOException("the topics service.* cannot be made at " + ends.kafka(), e);
-        }
-    }
-
-    private void want() {
-        try (KafkaProducer<String, byte[]> producer =
-                new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
-            for (int i = 0; i < plan.devices(); i++) {
+    private void publish() {
+        try (TopicFiller filler = new TopicFiller(engines.client(), Map.of())) {
+            for (int i = 0; i < plan.devices; i++) {
                 DesiredDevice device = device(i);
-                producer.send(
-                        new ProducerRecord<>(Topics.DEVICES, device.version().key(), device.toBytes()));
+                byte[] key = device.version().key().getBytes(StandardCharsets.UTF_8);
+                filler.send(new ProducerRecord<>(Topics.DEVICES, key, device.toBytes()));
             }
         }
     }
 
     private DesiredDevice device(int number) {
-        String mission = plan.mission(number % plan.missions());
-        String id = "urn:ngsi-ld:Thermometer:" + mission + "-" + (number / plan.missions() + 1);
+        String mission = FleetBench.mission(number % plan.missions);
+        String id = "urn:ngsi-ld:Thermometer:" + mission + "-" + (number / plan.missions + 1);
         DeviceVersion version = new DeviceVersion(
                 id, "bench", "/", "bench", mission, System.currentTimeMillis(), null, number + 1L, null);
         ObjectNode settings = NgsiJson.mapper().createObjectNode();
         settings.putArray("path").addArray().add(-3.5 + number % 100 / 10_000d).add(40.3 + number / 100 / 10_000d);
-        return DesiredDevice.simulated(version, "Thermometer", id, true, plan.period(), settings);
+        return DesiredDevice.simulated(version, "Thermometer", id, true, Duration.ofMillis(plan.period), settings);
     }
 
-    private void awaitRunning(long begun) throws IOException {
+    private void awaitRunning(long begun) throws IOException, UnreadableException {
         Set<String> running = new HashSet<>();
         List<String> failures = new ArrayList<>();
-        TopicPartition partition = new TopicPartition(Topics.DEVICES_STATUS, 0);
-        try (KafkaConsumer<String, byte[]> consumer =
-                new KafkaConsumer<>(client, new StringDeserializer(), new ByteArrayDeserializer())) {
-            consumer.assign(List.of(partition));
-            consumer.seekToBeginning(List.of(partition));
-            while (running.size() < plan.devices()) {
-                for (ConsumerRecord<String, byte[]> each : consumer.poll(POLL)) {
+        try (CommittedReader<String> reader = CommittedReader.open(engines.client(), Topics.DEVICES_STATUS)) {
+            while (running.size() < plan.devices) {
+                for (ConsumerRecord<String, byte[]> each : reader.poll(POLL)) {
                     DeviceStatus status = DeviceStatus.read(each.value());
                     if (status.state() == DeviceStatus.State.RUNNING) {
                         running.add(each.key());
@@ -132,14 +127,12 @@ public final class FleetMeasurement {
                     throw new IOException("%d of %d devices run after %d s%s; see %s"
                             .formatted(
                                     running.size(),
-                                    plan.devices(),
+                                    plan.devices,
                                     (System.nanoTime() - begun) / 1_000_000_000,
                                     failures.isEmpty() ? "" : ", one says: " + failures.get(0),
-                                    ends.folder().resolve("host.log")));
+                                    engines.folder("host.log")));
                 }
             }
-        } catch (UnreadableException e) {
-            throw new IOException("a status record cannot be read", e);
         }
     }
 }

@@ -1,38 +1,44 @@
 package io.furrow.bench.fleet;
 
 import java.io.IOException;
+import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 
+import io.furrow.bench.frame.ProcessStatus;
 import io.furrow.simulators.host.DeviceHostCommand;
 
 /** A host of devices in a JVM of its own, so that its memory and processor time are its own. */
 final class HostProcess implements AutoCloseable {
+    /** Of the farm that is made up. */
+    static final String SECRET = "bench bench bench bench";
+
     private final Process process;
 
     private HostProcess(Process process) {
         this.process = process;
     }
 
-    static HostProcess start(FleetPlan plan, FleetPlan.Ends ends) throws IOException {
-        Path secret = Files.writeString(ends.folder().resolve("secret"), FleetPlan.SECRET);
+    /** @param folder of its files */
+    static HostProcess start(int heapMb, String kafka, URI mqtt, Path folder) throws IOException {
+        Path secret = Files.writeString(folder.resolve("secret"), SECRET);
         return new HostProcess(new ProcessBuilder(
                         Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                        "-Xmx" + plan.heapMb() + "m",
+                        "-Xmx" + heapMb + "m",
                         "-XX:+UseParallelGC",
-                        "-Dfurrow.log=" + ends.folder().resolve("fleet.log"),
+                        "-Dfurrow.log=" + folder.resolve("fleet.log"),
                         "-cp",
                         System.getProperty("java.class.path"),
                         DeviceHostCommand.class.getName(),
                         "--kafka",
-                        ends.kafka(),
+                        kafka,
                         "--mqtt",
-                        ends.mqtt().toString(),
+                        mqtt.toString(),
                         "--farm-secret",
                         secret.toString())
                 .redirectErrorStream(true)
-                .redirectOutput(ends.folder().resolve("host.log").toFile())
+                .redirectOutput(folder.resolve("host.log").toFile())
                 .start());
     }
 
@@ -43,17 +49,9 @@ final class HostProcess implements AutoCloseable {
                 .orElseThrow(() -> new IOException("the host of devices has ended; see host.log"));
     }
 
-    /** The most memory that it has had, in MB; 0 where the system does not say. */
+    /** The most memory that it has had, in MB. */
     long peakMb() throws IOException {
-        Path status = Path.of("/proc", Long.toString(process.pid()), "status");
-        if (!Files.exists(status)) {
-            return 0;
-        }
-        return Files.readAllLines(status).stream()
-                .filter(line -> line.startsWith("VmHWM:"))
-                .mapToLong(line -> Long.parseLong(line.replaceAll("\\D", "")) / 1024)
-                .findFirst()
-                .orElse(0);
+        return ProcessStatus.of(process.pid(), "VmHWM") / 1024;
     }
 
     @Override

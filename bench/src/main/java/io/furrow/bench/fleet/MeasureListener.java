@@ -1,5 +1,6 @@
 package io.furrow.bench.fleet;
 
+import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
@@ -15,6 +16,9 @@ import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
 
 /** A subscriber to all measures that counts them by device. */
 final class MeasureListener implements MqttCallback, AutoCloseable {
+    /** Of the MQTT broker, which hears all, and its password. */
+    static final String USER = "bench-listener";
+
     private static final String TIME = "\"time\":";
     private static final long MAX_MS = 60_000;
 
@@ -25,12 +29,12 @@ final class MeasureListener implements MqttCallback, AutoCloseable {
     private volatile boolean counting;
     private long arrived;
 
-    MeasureListener(FleetPlan.Ends ends) throws MqttException {
-        client = new MqttAsyncClient(ends.mqtt().toString(), FleetPlan.LISTENER, new MemoryPersistence());
+    MeasureListener(URI mqtt) throws MqttException {
+        client = new MqttAsyncClient(mqtt.toString(), USER, new MemoryPersistence());
         client.setCallback(this);
         MqttConnectOptions options = new MqttConnectOptions();
-        options.setUserName(FleetPlan.LISTENER);
-        options.setPassword(FleetPlan.LISTENER.toCharArray());
+        options.setUserName(USER);
+        options.setPassword(USER.toCharArray());
         client.connect(options).waitForCompletion();
         client.subscribe("/+/+/attrs", 0).waitForCompletion();
     }

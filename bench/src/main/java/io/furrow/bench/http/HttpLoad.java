@@ -5,6 +5,7 @@ import java.io.UncheckedIOException;
 import java.net.InetSocketAddress;
 import java.nio.channels.SelectionKey;
 import java.nio.channels.Selector;
+import java.time.Duration;
 import java.util.ArrayDeque;
 import java.util.ArrayList;
 import java.util.BitSet;
@@ -25,7 +26,7 @@ public final class HttpLoad {
     private static final long SECOND = TimeUnit.SECONDS.toNanos(1);
 
     private final InetSocketAddress target;
-    private final HttpLoadPlan plan;
+    private final Plan plan;
     private final long firstNumber;
     private final Histogram latency = new Histogram(MAX_MICROS, DIGITS);
     private final BitSet acknowledged = new BitSet();
@@ -39,7 +40,7 @@ public final class HttpLoad {
     private volatile long answered;
 
     /** @param firstNumber of the notifications; each has the next */
-    public HttpLoad(InetSocketAddress target, HttpLoadPlan plan, long firstNumber) {
+    public HttpLoad(InetSocketAddress target, Plan plan, long firstNumber) {
         this.target = target;
         this.plan = plan;
         this.firstNumber = firstNumber;
@@ -56,7 +57,7 @@ public final class HttpLoad {
     }
 
     /** Sends what is due in the time of the plan and waits for the answers; what could not be sent then is broken. Once. */
-    public HttpLoadResult run() {
+    public Result run() {
         try (Selector selector = Selector.open()) {
             List<Exchange> all = new ArrayList<>();
             for (int i = 0; i < plan.connections(); i++) {
@@ -81,7 +82,7 @@ public final class HttpLoad {
             broken += openExchanges(all) + (isOwing() ? planned() - sent : 0);
             all.forEach(Exchange::close);
             long nanos = Math.max(1, lastAnswerNanos - startNanos);
-            return new HttpLoadResult(firstNumber, acknowledged, refused, broken, latency, nanos);
+            return new Result(firstNumber, acknowledged, refused, broken, latency, nanos);
         } catch (IOException e) {
             throw new UncheckedIOException("the load on " + target + " broke off", e);
         }
@@ -158,5 +159,47 @@ public final class HttpLoad {
         }
         broken++;
         failed.add(exchange);
+    }
+
+    /**
+     * A load of notifications.
+     *
+     * @param connections how many requests can be open at a time
+     * @param newConnections whether each request comes over a connection of its own, as Orion does unless configured otherwise
+     * @param rate requests per second that are due whether or not earlier ones were answered; 0 for as many as are answered
+     * @param payloadBytes of a body
+     * @param entities how many ids there are
+     */
+    public record Plan(
+            int connections, boolean newConnections, int rate, int payloadBytes, int entities, Duration duration) {
+        /** The same for another time. */
+        public Plan lasting(Duration other) {
+            return new Plan(connections, newConnections, rate, payloadBytes, entities, other);
+        }
+    }
+
+    /**
+     * What became of a load.
+     *
+     * @param acknowledged the numbers, counted from {@code firstNumber}, of the notifications that were answered 2xx
+     * @param refused requests that were answered otherwise
+     * @param broken requests whose connection failed before the answer
+     * @param latency microseconds from when a request was due to its answer, of those answered 2xx
+     * @param nanos from the first request to the last answer
+     */
+    public record Result(
+            long firstNumber, BitSet acknowledged, long refused, long broken, Histogram latency, long nanos) {
+        /** Notifications that were answered 2xx. */
+        public long answered() {
+            return latency.getTotalCount();
+        }
+
+        public double perSecond() {
+            return answered() * 1e9 / nanos;
+        }
+
+        public double millis(double percentile) {
+            return latency.getValueAtPercentile(percentile) / 1000.0;
+        }
     }
 }

@@ -175,18 +175,11 @@ public final class NotificationRequest {
                     "a body of " + length + " bytes is asked for, the least is " + MIN_BYTES);
         }
         StringBuilder body = new StringBuilder("{\"subscriptionId\":\"6b00efa61933b059d608cbc4\",\"data\":[{\"id\":")
-                .append("\"" + ID_PREFIX)
-                .append(NO_ID)
-                .append("\",\"type\":\"SoilProbe\",\"TimeInstant\":")
-                .append("{\"type\":\"DateTime\",\"value\":\"")
-                .append(NO_TIME)
-                .append("\",\"metadata\":{}},\"location\":")
+                .append("\"" + ID_PREFIX + NO_ID + "\",\"type\":\"SoilProbe\",\"TimeInstant\":")
+                .append("{\"type\":\"DateTime\",\"value\":\"" + NO_TIME + "\",\"metadata\":{}},\"location\":")
                 .append("{\"type\":\"geo:json\",\"value\":{\"type\":\"Point\",")
-                .append(BEFORE_PLACE + NO_PLACE + BETWEEN_PLACES + NO_PLACE)
-                .append("]},\"metadata\":{}},")
-                .append(BEFORE_NUMBER)
-                .append(NO_NUMBER)
-                .append(",\"metadata\":{}},");
+                .append(BEFORE_PLACE + NO_PLACE + BETWEEN_PLACES + NO_PLACE + "]},\"metadata\":{}},")
+                .append(BEFORE_NUMBER + NO_NUMBER + ",\"metadata\":{}},");
         String end = "\"note\":{\"type\":\"Text\",\"value\":\"\",\"metadata\":{}}}]}";
         for (int i = 0; i < MAX_MEASURES; i++) {
             String measure = measure(i);

@@ -31,7 +31,7 @@ import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.ngsi.Entity;
 
 /** How many images a second the stage of ingest that moves them stores, beside a bare loop that decodes and writes them. */
-public final class ImageMeasurement {
+final class ImageMeasurement {
     private static final int DIFFERENT = 16;
     private static final int CAMERAS = 50;
     private static final long TIME = 1_700_000_000_000L;
@@ -41,7 +41,7 @@ public final class ImageMeasurement {
     private final List<byte[]> events = new ArrayList<>();
 
     /** @param bytes of an image, roughly */
-    public ImageMeasurement(int images, int bytes) throws IOException {
+    ImageMeasurement(int images, int bytes) throws IOException {
         this.images = images;
         for (int i = 0; i < DIFFERENT; i++) {
             pictures.add(jpegOf(bytes, i));
@@ -55,12 +55,12 @@ public final class ImageMeasurement {
     }
 
     /** Bytes of an image. */
-    public int bytes() {
+    int bytes() {
         return pictures.get(0).length;
     }
 
     /** Images a second of the bare loop: base64 to bytes, bytes to a file. */
-    public double bareLoop(Path folder) throws IOException {
+    double bareLoop(Path folder) throws IOException {
         List<byte[]> texts = pictures.stream().map(Base64.getEncoder()::encode).toList();
         for (int camera = 0; camera < CAMERAS; camera++) {
             Files.createDirectories(folder.resolve("camera-" + camera));
@@ -74,7 +74,7 @@ public final class ImageMeasurement {
     }
 
     /** Images a second of the job's stage: found, decoded, checked, hashed, stored, replaced, in the order of each camera. */
-    public double stage(ImageOptions options, int parallelism) throws Exception {
+    double stage(ImageOptions options, int parallelism) throws Exception {
         Configuration settings = new Configuration();
         settings.set(PipelineOptions.OBJECT_REUSE, true);
         settings.set(PipelineOptions.GENERIC_TYPES, false);

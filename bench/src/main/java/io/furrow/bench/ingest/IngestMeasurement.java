@@ -3,9 +3,12 @@ package io.furrow.bench.ingest;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Locale;
-import java.util.Properties;
+import java.util.Map;
+import java.util.Set;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
@@ -13,76 +16,51 @@ import java.util.stream.IntStream;
 
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.kafka.clients.admin.Admin;
-import org.apache.kafka.clients.admin.NewTopic;
 
+import io.furrow.bench.frame.Engines;
+import io.furrow.bench.frame.TopicReader;
 import io.furrow.flink.job.Delivery;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.ingest.IngestJob;
 import io.furrow.ingest.IngestOptions;
-import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/**
- * Runs the job ingest and jobs that only copy bytes on the same topic, in turns, and reports the throughput of each.
- */
-public final class IngestMeasurement {
+/** Runs the job ingest and jobs that only copy bytes on the same topic, in turns, and reports the throughput of each. */
+final class IngestMeasurement {
     private static final int PARTITIONS = 4;
-    private static final short REPLICAS = 1;
     private static final long POLL_INTERVAL_MS = 20;
+    private static final Duration POLL = Duration.ofMillis(100);
     private static final Duration TIMEOUT = Duration.ofMinutes(5);
 
-    private final IngestPlan plan;
-    private final Properties kafka;
-    private final Path checkpoints;
+    private final IngestReport.Plan plan;
+    private final Engines engines;
     private final String mongo;
-    private final Jobs flink;
     private final Consumer<String> progress;
 
-    /** A Flink cluster. */
-    public interface Jobs {
-        Running start(String name, StreamExecutionEnvironment job) throws Exception;
-    }
-
-    /** A job on it. */
-    public interface Running {
-        /** Returns when it has ended. */
-        void cancel() throws Exception;
-    }
-
     /**
-     * Where it is measured.
-     *
-     * @param mongo URI of the server in which the job ingest keeps missions; null for none
+     * @param mongo URI of the server in which the job ingest stores missions; null for none
+     * @param progress is reported after each job's turn
      */
-    public record Cluster(Properties kafka, Jobs flink, Path checkpoints, String mongo) {
-        public Cluster(Properties kafka, Jobs flink, Path checkpoints) {
-            this(kafka, flink, checkpoints, null);
-        }
-    }
-
-    /** @param progress is reported after each job's turn */
-    public IngestMeasurement(IngestPlan plan, Cluster cluster, Consumer<String> progress) {
+    IngestMeasurement(IngestReport.Plan plan, Engines engines, String mongo, Consumer<String> progress) {
         this.plan = plan;
-        this.kafka = cluster.kafka();
-        this.flink = cluster.flink();
-        this.checkpoints = cluster.checkpoints();
-        this.mongo = cluster.mongo();
+        this.engines = engines;
+        this.mongo = mongo;
         this.progress = progress;
     }
 
     /** One turn of all jobs does not count, because the JVM is cold. */
-    public List<IngestRun> run(List<Peer> peers, List<Delivery> deliveries) throws Exception {
+    List<IngestReport.Run> run(List<ComparedJob> jobs, List<Delivery> deliveries, int turns) throws Exception {
         fill();
-        List<IngestRun> counted = new ArrayList<>();
-        for (int turn = 0; turn <= plan.turns(); turn++) {
+        List<IngestReport.Run> counted = new ArrayList<>();
+        for (int turn = 0; turn <= turns; turn++) {
             for (Delivery delivery : deliveries) {
-                for (Peer peer : peers) {
-                    IngestRun run = run(peer, delivery, turn);
+                for (ComparedJob job : jobs) {
+                    IngestReport.Run run = run(job, delivery, turn);
                     progress.accept("%s  %-13s  %-34s %,9.0f records/s %7.1f µs"
                             .formatted(
                                     turn == 0 ? "warm-up" : "turn " + turn + " ",
                                     words(delivery),
-                                    peer.title(),
+                                    job.title(),
                                     run.recordsPerSecond(),
                                     run.processorMicros()));
                     if (turn > 0) {
@@ -94,71 +72,100 @@ public final class IngestMeasurement {
         return counted;
     }
 
-    private void fill() throws InterruptedException, ExecutionException, UnreadableException {
+    private void fill() throws Exception {
         progress.accept("%,d records of %,d bytes to %s".formatted(plan.records(), plan.bytes(), Topics.RAW));
-        try (Admin admin = Admin.create(kafka)) {
-            admin.createTopics(List.of(new NewTopic(Topics.RAW, plan.partitions(), REPLICAS)))
-                    .all()
-                    .get();
-        }
+        Engines.makeTopics(engines.client(), plan.partitions(), Map.of(), Topics.RAW);
         new ReportedEntities(plan)
-                .writeTo(Topics.RAW, kafka, written -> progress.accept("%,d written".formatted(written)));
+                .writeTo(Topics.RAW, engines.client(), written -> progress.accept("%,d written".formatted(written)));
     }
 
-    private IngestRun run(Peer peer, Delivery delivery, int turn) throws Exception {
+    private IngestReport.Run run(ComparedJob compared, Delivery delivery, int turn) throws Exception {
         List<String> topics = new ArrayList<>(List.of(Topics.realtime(ReportedEntities.DOMAIN)));
         topics.addAll(missionTopics());
-        long expected = (long) plan.records() * peer.writes();
-        String name = "%s-%s-%d".formatted(peer, delivery, turn).toLowerCase(Locale.ROOT);
-        try (WrittenTopics written =
-                new WrittenTopics(kafka, topics, PARTITIONS, List.of(Topics.LATEST, Topics.CATALOG))) {
-            Throughput throughput = new Throughput(expected);
-            Running job = flink.start(name, job(name, peer, delivery));
+        long expected = (long) plan.records() * compared.writes();
+        String name = "%s-%s-%d".formatted(compared, delivery, turn).toLowerCase(Locale.ROOT);
+        Engines.makeTopics(engines.client(), PARTITIONS, Map.of(), topics.toArray(String[]::new));
+        try (TopicReader written = written(topics)) {
+            Engines.Job job = engines.submit(name, job(name, compared, delivery));
             try {
-                long end = System.nanoTime() + TIMEOUT.toNanos();
-                while (!throughput.areAll()) {
-                    if (System.nanoTime() > end) {
-                        throw new IllegalStateException("%s: %d of %d records after %d s"
-                                .formatted(name, written.readable(), expected, TIMEOUT.toSeconds()));
-                    }
-                    TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
-                    throughput.add(written.readable());
-                }
-                long missing = expected - written.counted(expected, TIMEOUT);
-                long stateBytes = turn == 0 || peer != Peer.INGEST
+                Throughput throughput = throughput(name, written, expected);
+                long missing = expected - counted(written, expected);
+                long stateBytes = turn == 0 || compared != ComparedJob.INGEST
                         ? 0
-                        : Checkpoints.bytesOfNext(checkpoints.resolve(name), TIMEOUT);
+                        : Checkpoints.bytesOfNext(checkpoints(name), TIMEOUT);
                 Throughput.Pace pace = throughput.pace();
-                return new IngestRun(
-                        peer,
-                        delivery,
-                        turn,
-                        pace.perSecond() / peer.writes(),
-                        pace.processorMicrosEach() * peer.writes(),
-                        stateBytes,
-                        missing);
+                double perSecond = pace.perSecond() / compared.writes();
+                double micros = pace.processorMicrosEach() * compared.writes();
+                return new IngestReport.Run(compared, delivery, turn, perSecond, micros, stateBytes, missing);
             } finally {
                 job.cancel();
-                written.delete();
+                delete(topics);
             }
         }
     }
 
+    private TopicReader written(List<String> topics) {
+        Map<String, String> settings = new HashMap<>(TopicReader.COMMITTED);
+        settings.put("max.poll.records", "5000");
+        return TopicReader.fromBeginning(engines.client(), settings, topics.toArray(String[]::new));
+    }
+
+    /**
+     * Looks at the ends of the topics until all records are there: reading them would take processor time from the job. With
+     * exactly-once there are some more by the marks that end transactions: a few per partition and checkpoint.
+     */
+    private Throughput throughput(String name, TopicReader written, long expected) throws InterruptedException {
+        Throughput throughput = new Throughput(expected);
+        long end = System.nanoTime() + TIMEOUT.toNanos();
+        while (!throughput.areAll()) {
+            if (System.nanoTime() > end) {
+                throw new IllegalStateException("%s: %d of %d records after %d s"
+                        .formatted(name, written.end(), expected, TIMEOUT.toSeconds()));
+            }
+            TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
+            throughput.add(written.end());
+        }
+        return throughput;
+    }
+
+    /** Reads them all, to know that they are there. */
+    private static long counted(TopicReader written, long expected) {
+        long records = 0;
+        long end = System.nanoTime() + TIMEOUT.toNanos();
+        while ((records < expected || !written.isAtEnd()) && System.nanoTime() < end) {
+            records += written.poll(POLL).count();
+        }
+        return records;
+    }
+
+    /** Also those that the job may have made beside them. */
+    private void delete(List<String> topics) throws InterruptedException, ExecutionException {
+        try (Admin admin = Admin.create(engines.client())) {
+            Set<String> there = new HashSet<>(topics);
+            there.addAll(List.of(Topics.LATEST, Topics.CATALOG));
+            there.retainAll(admin.listTopics().names().get());
+            admin.deleteTopics(there).all().get();
+        }
+    }
+
+    private Path checkpoints(String name) {
+        return engines.folder("checkpoints").resolve(name);
+    }
+
     /** Under a name of its own each reads from the beginning and has its own transactions. */
-    private StreamExecutionEnvironment job(String name, Peer peer, Delivery delivery) {
-        List<String> args = new ArrayList<>(peer.options());
-        args.addAll(List.of("--bootstrap-servers", kafka.getProperty("bootstrap.servers")));
+    private StreamExecutionEnvironment job(String name, ComparedJob compared, Delivery delivery) {
+        List<String> args = new ArrayList<>(compared.options());
+        args.addAll(List.of("--bootstrap-servers", engines.bootstrapServers()));
         args.addAll(List.of("--delivery", words(delivery)));
         args.addAll(List.of("--parallelism", Integer.toString(plan.parallelism())));
-        args.addAll(List.of("--checkpoint-interval", plan.checkpointInterval().toMillis() + "ms"));
-        args.addAll(
-                List.of("--checkpoint-dir", checkpoints.resolve(name).toUri().toString()));
-        if (peer == Peer.INGEST && mongo != null) {
+        args.addAll(List.of("--checkpoint-interval", plan.checkpointIntervalMillis() + "ms"));
+        args.addAll(List.of("--checkpoint-dir", checkpoints(name).toUri().toString()));
+        if (compared == ComparedJob.INGEST && mongo != null) {
             args.addAll(List.of("--mongo", mongo));
         }
         IngestOptions options = new IngestOptions();
         JobCommandLine.of(options).setCommandName(name).parseArgs(args.toArray(String[]::new));
-        return switch (peer) {
+        return switch (compared) {
             case COPY_ONCE -> CopyJob.assemble(options, Topics.realtime(ReportedEntities.DOMAIN), List.of());
             case COPY_TWICE -> CopyJob.assemble(options, Topics.realtime(ReportedEntities.DOMAIN), missionTopics());
             case ROUTES, INGEST -> IngestJob.assemble(options);

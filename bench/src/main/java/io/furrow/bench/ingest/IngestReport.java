@@ -1,125 +1,125 @@
 package io.furrow.bench.ingest;
 
-import java.io.PrintWriter;
 import java.util.List;
-import java.util.Locale;
 import java.util.function.ToDoubleFunction;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.ObjectMapper;
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.bench.frame.Figures;
 import io.furrow.flink.job.Delivery;
 
 /** The runs of a measurement, their medians, and the medians of their ratios to the runs of the same turn that only copy. */
-public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
-    private static final String ROW = "%-13s  %-34s %10s %14s %13s %10s %14s %15s %8s%n";
+record IngestReport(Plan plan, List<Run> runs) {
+    private static final ObjectMapper JSON = new ObjectMapper();
+
+    /**
+     * What is measured.
+     *
+     * @param records of the input topic, all of which every turn reads
+     * @param partitions of the input topic
+     * @param bytes of a record's value, about
+     * @param devices that report, each once a second of event time
+     * @param missions that the devices belong to
+     * @param parallelism of every job
+     * @param checkpointIntervalMillis of every job
+     */
+    record Plan(
+            int records,
+            int partitions,
+            int bytes,
+            int devices,
+            int missions,
+            int parallelism,
+            long checkpointIntervalMillis) {}
+
+    /**
+     * What one job did in one turn.
+     *
+     * @param turn from 1 on; the runs of one turn are compared
+     * @param recordsPerSecond read, by when what becomes of them could be read
+     * @param processorMicros that each of them took of this JVM, brokers included
+     * @param stateBytes of a checkpoint when all was read; 0 of a job without state
+     * @param missing records that are not on the topics of domain and missions; negative where some are there more than once
+     */
+    record Run(
+            ComparedJob job,
+            Delivery delivery,
+            int turn,
+            double recordsPerSecond,
+            double processorMicros,
+            long stateBytes,
+            long missing) {}
+
+    private List<Run> of(Delivery delivery, ComparedJob job) {
+        return runs.stream()
+                .filter(run -> run.delivery() == delivery && run.job() == job)
+                .toList();
+    }
 
     /** Records per second. */
-    public double median(Delivery delivery, Peer peer) {
-        return median(delivery, peer, IngestRun::recordsPerSecond);
+    double median(Delivery delivery, ComparedJob job) {
+        return Figures.median(of(delivery, job), Run::recordsPerSecond);
     }
 
     /** Records per second to those of another job in the same turn; NaN if that had none. */
-    public double ratio(Delivery delivery, Peer peer, Peer other) {
-        return ratio(delivery, peer, other, IngestRun::recordsPerSecond);
+    double ratio(Delivery delivery, ComparedJob job, ComparedJob other) {
+        return ratio(delivery, job, other, Run::recordsPerSecond);
     }
 
-    /** The same of records per second of processor time, which other work on the machine disturbs less. */
-    public double processorRatio(Delivery delivery, Peer peer, Peer other) {
-        return ratio(delivery, peer, other, run -> 1 / run.processorMicros());
-    }
-
-    private double ratio(Delivery delivery, Peer peer, Peer other, ToDoubleFunction<IngestRun> figure) {
-        return median(
-                delivery,
-                peer,
-                run -> runs.stream()
-                        .filter(one -> one.turn() == run.turn() && one.delivery() == delivery && one.peer() == other)
+    private double ratio(Delivery delivery, ComparedJob job, ComparedJob other, ToDoubleFunction<Run> figure) {
+        return Figures.median(
+                of(delivery, job),
+                run -> of(delivery, other).stream()
+                        .filter(one -> one.turn() == run.turn())
                         .mapToDouble(one -> figure.applyAsDouble(run) / figure.applyAsDouble(one))
                         .findFirst()
                         .orElse(Double.NaN));
     }
 
-    /** Of an even number the upper one. */
-    private double median(Delivery delivery, Peer peer, ToDoubleFunction<IngestRun> figure) {
-        double[] sorted = runs.stream()
-                .filter(run -> run.delivery() == delivery && run.peer() == peer)
-                .mapToDouble(figure)
-                .sorted()
-                .toArray();
-        return sorted.length == 0 ? Double.NaN : sorted[sorted.length / 2];
-    }
-
     /** Whether every record was there as often as it should be, in every run. */
-    public boolean isComplete() {
+    boolean isComplete() {
         return runs.stream().allMatch(run -> run.missing() == 0);
     }
 
-    public void print(PrintWriter out) {
-        out.printf(
-                Locale.ROOT,
-                "%n%,d records of %,d bytes on %d partitions about %,d devices on %d missions, parallelism %d, a checkpoint every %d ms%n",
-                plan.records(),
-                plan.bytes(),
-                plan.partitions(),
-                plan.devices(),
-                plan.missions(),
-                plan.parallelism(),
-                plan.checkpointInterval().toMillis());
-        out.printf(
-                ROW,
-                "delivery",
-                "job",
-                "records/s",
-                "of two topics",
-                "of one topic",
-                "µs each",
-                "of two topics",
-                "state, B/device",
-                "missing");
-        runs.stream()
-                .map(IngestRun::delivery)
-                .distinct()
-                .forEach(delivery -> runs.stream()
-                        .map(IngestRun::peer)
-                        .distinct()
-                        .forEach(peer -> out.printf(
-                                ROW,
-                                IngestMeasurement.words(delivery),
-                                peer.title(),
-                                "%,.0f".formatted(median(delivery, peer)),
-                                "%.2f".formatted(ratio(delivery, peer, Peer.COPY_TWICE)),
-                                "%.2f".formatted(ratio(delivery, peer, Peer.COPY_ONCE)),
-                                "%.1f".formatted(median(delivery, peer, IngestRun::processorMicros)),
-                                "%.2f".formatted(processorRatio(delivery, peer, Peer.COPY_TWICE)),
-                                "%,.0f".formatted(median(delivery, peer, IngestRun::stateBytes) / plan.devices()),
-                                runs.stream()
-                                        .filter(run -> run.delivery() == delivery && run.peer() == peer)
-                                        .mapToLong(IngestRun::missing)
-                                        .sum())));
-        out.flush();
+    Figures figures() {
+        Figures figures = new Figures(
+                "%n%,d records of %,d bytes on %d partitions about %,d devices on %d missions, parallelism %d, a checkpoint every %d ms"
+                        .formatted(
+                                plan.records,
+                                plan.bytes,
+                                plan.partitions,
+                                plan.devices,
+                                plan.missions,
+                                plan.parallelism,
+                                plan.checkpointIntervalMillis));
+        for (Delivery delivery : runs.stream().map(Run::delivery).distinct().toList()) {
+            for (ComparedJob job : runs.stream().map(Run::job).distinct().toList()) {
+                List<Run> its = of(delivery, job);
+                figures.add(
+                        "delivery", IngestMeasurement.words(delivery),
+                        "job", job.title(),
+                        "records/s", median(delivery, job),
+                        "of two topics", ratio(delivery, job, ComparedJob.COPY_TWICE),
+                        "of one topic", ratio(delivery, job, ComparedJob.COPY_ONCE),
+                        "µs each", Figures.median(its, Run::processorMicros),
+                        "µs of two topics",
+                                ratio(delivery, job, ComparedJob.COPY_TWICE, run -> 1 / run.processorMicros()),
+                        "state, B/device", Figures.median(its, Run::stateBytes) / plan.devices,
+                        "missing", its.stream().mapToLong(Run::missing).sum());
+            }
+        }
+        return figures;
     }
 
     /** Every figure of every run. */
-    public ObjectNode json() {
-        ObjectNode json = JsonNodeFactory.instance.objectNode();
-        json.put("records", plan.records())
-                .put("partitions", plan.partitions())
-                .put("bytes", plan.bytes())
-                .put("devices", plan.devices())
-                .put("missions", plan.missions())
-                .put("parallelism", plan.parallelism())
-                .put("checkpointIntervalMillis", plan.checkpointInterval().toMillis());
-        for (IngestRun run : runs) {
-            json.withArray("runs")
-                    .addObject()
-                    .put("job", run.peer().title())
-                    .put("delivery", IngestMeasurement.words(run.delivery()))
-                    .put("turn", run.turn())
-                    .put("recordsPerSecond", run.recordsPerSecond())
-                    .put("processorMicros", run.processorMicros())
-                    .put("stateBytes", run.stateBytes())
-                    .put("missing", run.missing());
+    ObjectNode json() {
+        ObjectNode json = JSON.valueToTree(plan);
+        ArrayNode all = json.putArray("runs");
+        for (Run run : runs) {
+            ObjectNode one = JSON.valueToTree(run);
+            all.add(one.put("job", run.job.title()).put("delivery", IngestMeasurement.words(run.delivery)));
         }
         return json;
     }

@@ -3,13 +3,13 @@ package io.furrow.bench.ingest;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
+import java.util.Map;
 import java.util.Properties;
-import java.util.concurrent.atomic.AtomicReference;
+import java.util.function.IntConsumer;
 
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
 
+import io.furrow.bench.frame.TopicFiller;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
@@ -26,10 +26,10 @@ final class ReportedEntities {
     private static final Duration DELAY = Duration.ofMillis(7);
     private static final int RECORDS_PER_LINE = 100_000;
 
-    private final IngestPlan plan;
+    private final IngestReport.Plan plan;
     private final Instant first;
 
-    ReportedEntities(IngestPlan plan) {
+    ReportedEntities(IngestReport.Plan plan) {
         this.plan = plan;
         this.first = Instant.now().minusSeconds(plan.records() / plan.devices() + 1L);
     }
@@ -39,22 +39,14 @@ final class ReportedEntities {
     }
 
     /** @param progress is called with the number written, now and then */
-    void writeTo(String topic, Properties kafka, java.util.function.IntConsumer progress) throws UnreadableException {
-        AtomicReference<Exception> failed = new AtomicReference<>();
-        Properties properties = new Properties();
-        properties.putAll(kafka);
-        properties.setProperty("batch.size", "131072");
-        properties.setProperty("max.in.flight.requests.per.connection", "1"); // the topic was made just now
-        try (var producer = new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
+    void writeTo(String topic, Properties kafka, IntConsumer progress) throws UnreadableException {
+        try (TopicFiller filler = new TopicFiller(kafka, Map.of("batch.size", "131072"))) {
             for (int number = 0; number < plan.records(); number++) {
-                producer.send(record(topic, number), (done, failure) -> failed.compareAndSet(null, failure));
+                filler.send(record(topic, number));
                 if (number % RECORDS_PER_LINE == RECORDS_PER_LINE - 1) {
                     progress.accept(number + 1);
                 }
             }
-        }
-        if (failed.get() != null) {
-            throw new IllegalStateException("topic " + topic + " could not be filled", failed.get());
         }
     }
 

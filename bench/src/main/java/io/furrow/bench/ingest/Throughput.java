@@ -15,39 +15,39 @@ final class Throughput {
             (OperatingSystemMXBean) ManagementFactory.getOperatingSystemMXBean();
 
     private final long expected;
-    private final List<Look> looks = new ArrayList<>();
+    private final List<Sample> samples = new ArrayList<>();
 
     /** @param expected how many there will be */
     Throughput(long expected) {
         this.expected = expected;
     }
 
-    private record Look(long nanos, long processorNanos, long records) {}
+    private record Sample(long nanos, long processorNanos, long records) {}
 
     void add(long records) {
         add(System.nanoTime(), SYSTEM.getProcessCpuTime(), records);
     }
 
     void add(long nanos, long processorNanos, long records) {
-        looks.add(new Look(nanos, processorNanos, records));
+        samples.add(new Sample(nanos, processorNanos, records));
     }
 
     boolean areAll() {
-        return !looks.isEmpty() && looks.get(looks.size() - 1).records() >= expected;
+        return !samples.isEmpty() && samples.get(samples.size() - 1).records() >= expected;
     }
 
-    /** What passed between two looks. */
+    /** What passed between two samples. */
     record Pace(double perSecond, double processorMicrosEach) {}
 
     /**
-     * Between the looks at which a tenth and nine tenths were there: without the start of the job, and without the wait for
+     * Between the samples at which a tenth and nine tenths were there: without the start of the job, and without the wait for
      * the checkpoint after the last record, which with exactly-once would count for the slower job.
      *
-     * @throws IllegalStateException if both were there at the same look
+     * @throws IllegalStateException if both were there at the same sample
      */
     Pace pace() {
-        Look from = firstWith(FROM);
-        Look to = firstWith(TO);
+        Sample from = firstWith(FROM);
+        Sample to = firstWith(TO);
         if (from == to) {
             throw new IllegalStateException("all records came at once; measure more of them (--records)");
         }
@@ -57,9 +57,9 @@ final class Throughput {
                 (to.processorNanos() - from.processorNanos()) / 1e3 / records);
     }
 
-    private Look firstWith(double share) {
-        return looks.stream()
-                .filter(look -> look.records() >= share * expected)
+    private Sample firstWith(double share) {
+        return samples.stream()
+                .filter(sample -> sample.records() >= share * expected)
                 .findFirst()
                 .orElseThrow();
     }

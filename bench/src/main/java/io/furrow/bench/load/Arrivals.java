@@ -104,11 +104,11 @@ final class Arrivals {
         delays.get(hop).recordValue(Math.min(MAX_MS, Math.max(0, millis)));
     }
 
-    private static long stamp(Headers headers, String name) {
+    static long stamp(Headers headers, String name) {
         return Long.parseLong(text(headers, name));
     }
 
-    private static String text(Headers headers, String name) {
+    static String text(Headers headers, String name) {
         Header header = headers.lastHeader(name);
         if (header == null) {
             throw new IllegalStateException("a record without the header " + name);

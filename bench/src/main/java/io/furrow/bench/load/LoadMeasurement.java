@@ -3,7 +3,6 @@ package io.furrow.bench.load;
 import java.io.IOException;
 import java.time.Duration;
 import java.util.EnumMap;
-import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -14,13 +13,10 @@ import java.util.function.Consumer;
 
 import org.HdrHistogram.Histogram;
 import org.apache.kafka.clients.admin.Admin;
-import org.apache.kafka.clients.admin.ListOffsetsResult.ListOffsetsResultInfo;
 import org.apache.kafka.clients.admin.NewTopic;
-import org.apache.kafka.clients.admin.OffsetSpec;
-import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.TopicExistsException;
 
-import io.furrow.bench.arrival.TopicReader;
+import io.furrow.bench.frame.TopicReader;
 import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.load.LoadFleet;
@@ -31,7 +27,8 @@ import io.furrow.simulators.load.LoadPlan;
  * the suite says otherwise; sender, suite and reader share the machine and its clock.
  */
 public final class LoadMeasurement {
-    static final Map<String, String> FETCHING = Map.of("max.partition.fetch.bytes", Integer.toString(8 * 1024 * 1024));
+    static final Map<String, String> FETCHING =
+            Map.of("isolation.level", "read_committed", "max.partition.fetch.bytes", Integer.toString(8 * 1024 * 1024));
     /** After the last message is sent, this long without an arrival means that the rest is lost. */
     private static final Duration QUIET = Duration.ofSeconds(60);
 
@@ -66,8 +63,8 @@ public final class LoadMeasurement {
             throws IOException, InterruptedException, ExecutionException {
         String topic = prepare(plan);
         Arrivals arrivals = new Arrivals(System.currentTimeMillis() + skipped.toMillis());
-        try (TopicReader reader = new TopicReader(kafka, topic, FETCHING, arrivals::add)) {
-            reader.start();
+        try (TopicReader reader = TopicReader.fromEnd(kafka, FETCHING, topic)) {
+            reader.follow(arrivals::add);
             long sent = send(plan, arrivals);
             awaitArrivals(sent, arrivals);
             return new LoadReport(
@@ -93,11 +90,11 @@ public final class LoadMeasurement {
 
     private long send(LoadPlan plan, Arrivals arrivals) throws IOException, InterruptedException {
         try (LoadFleet fleet = LoadFleet.start(devices, plan)) {
-            long looks = 0;
+            long polls = 0;
             while (fleet.sent() < plan.messages()
-                    && looks * POLL_INTERVAL_MS < plan.duration().toMillis() * 2) {
+                    && polls * POLL_INTERVAL_MS < plan.duration().toMillis() * 2) {
                 TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
-                if (looks++ % POLLS_PER_SECOND == 0) {
+                if (polls++ % POLLS_PER_SECOND == 0) {
                     progress.accept(
                             "%d of %d sent, %d arrived".formatted(fleet.sent(), plan.messages(), arrivals.distinct()));
                 }
@@ -134,20 +131,14 @@ public final class LoadMeasurement {
     }
 
     /** The context broker reports each new device; only what comes after that is the load. */
-    private void awaitQuiet(String topic) throws InterruptedException, ExecutionException {
-        try (Admin admin = Admin.create(kafka)) {
-            Map<TopicPartition, OffsetSpec> ends = new HashMap<>();
-            for (int partition = 0; partition < PARTITIONS; partition++) {
-                ends.put(new TopicPartition(topic, partition), OffsetSpec.latest());
-            }
+    private void awaitQuiet(String topic) throws InterruptedException {
+        try (TopicReader reader = TopicReader.fromEnd(kafka, Map.of(), topic)) {
             long before = -1;
             long now = -2;
             while (before != now) {
                 before = now;
                 TimeUnit.MILLISECONDS.sleep(SETTLED.toMillis());
-                now = admin.listOffsets(ends).all().get().values().stream()
-                        .mapToLong(ListOffsetsResultInfo::offset)
-                        .sum();
+                now = reader.end();
             }
         }
     }

@@ -7,6 +7,7 @@ import java.util.Map;
 
 import org.HdrHistogram.Histogram;
 
+import io.furrow.bench.frame.Figures;
 import io.furrow.simulators.load.LoadPlan;
 
 /**
@@ -60,15 +61,14 @@ public record LoadReport(
                 repeats,
                 reordered,
                 reorderedAfterSource);
-        out.printf("%-18s %8s %8s %8s %8s%n", "delay in ms", "p50", "p95", "p99", "max");
-        for (Hop hop : Hop.values()) {
-            out.printf("%-18s", hop.title());
-            for (double percent : PERCENTILES) {
-                out.printf(" %8d", delays.get(hop).getValueAtPercentile(percent));
-            }
-            out.println();
-        }
-        out.flush();
+        Figures figures = new Figures("");
+        delays.forEach((hop, millis) -> figures.add(
+                "delay in ms", hop.title(),
+                "p50", millis.getValueAtPercentile(50),
+                "p95", millis.getValueAtPercentile(95),
+                "p99", millis.getValueAtPercentile(99),
+                "max", millis.getMaxValue()));
+        figures.print(out);
     }
 
     /** A header line, then a line per hop. */

@@ -1,24 +1,19 @@
 package io.furrow.bench.mission;
 
 import java.net.URI;
+import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.HashSet;
-import java.util.List;
 import java.util.Properties;
 import java.util.Set;
-import java.util.concurrent.locks.LockSupport;
-import java.util.stream.Stream;
+import java.util.function.BooleanSupplier;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
-import org.apache.kafka.common.PartitionInfo;
-import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
 
+import io.furrow.bench.frame.TopicReader;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlPlaneException;
 import io.furrow.model.ngsi.NgsiJson;
@@ -28,12 +23,11 @@ import io.furrow.model.topic.Topics;
 /** Starts a mission of thermometers through the REST API, and watches Kafka until each of them has reported. */
 public final class MissionStart implements AutoCloseable {
     private static final Duration POLL_INTERVAL = Duration.ofMillis(20);
-    private static final int POLLS = 500;
-    private static final String DOMAIN = "domain";
-    private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
+    private static final String AREA =
+            "{\"type\":\"Polygon\",\"coordinates\":[[[-3.6,40.4],[-3.59,40.4],[-3.59,40.41],[-3.6,40.41],[-3.6,40.4]]]}";
 
     private final ControlApi api;
-    private final KafkaConsumer<String, byte[]> consumer;
+    private final TopicReader reader;
     private final String domain;
 
     /**
@@ -58,27 +52,9 @@ public final class MissionStart implements AutoCloseable {
     public MissionStart(URI control, Properties client, String domain) {
         this.api = new ControlApi(control, null);
         this.domain = domain;
-        Properties settings = new Properties();
-        settings.putAll(client);
-        settings.setProperty("isolation.level", "read_committed");
-        this.consumer = new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer());
-        List<TopicPartition> all = List.of(Topics.RAW, Topics.realtime(domain), Topics.MISSIONS_STATUS).stream()
-                .flatMap(this::partitions)
-                .toList();
-        consumer.assign(all);
-        consumer.seekToEnd(all);
-        all.forEach(consumer::position);
-        api.send("POST", "/api/domains", NODES.objectNode().put(DOMAIN, domain));
-    }
-
-    /** Of a topic that was made just now a broker may know nothing yet. */
-    private Stream<TopicPartition> partitions(String topic) {
-        List<PartitionInfo> known = consumer.partitionsFor(topic);
-        for (int looks = 0; known.isEmpty() && looks < POLLS; looks++) {
-            LockSupport.parkNanos(POLL_INTERVAL.toNanos());
-            known = consumer.partitionsFor(topic);
-        }
-        return known.stream().map(info -> new TopicPartition(topic, info.partition()));
+        this.reader = TopicReader.fromEnd(
+                client, TopicReader.COMMITTED, Topics.RAW, Topics.realtime(domain), Topics.MISSIONS_STATUS);
+        api.send("POST", "/api/domains", JsonNodeFactory.instance.objectNode().put("domain", domain));
     }
 
     /** A mission of this many devices, each with a measure every this often. */
@@ -91,24 +67,10 @@ public final class MissionStart implements AutoCloseable {
      * @throws ControlPlaneException if it is refused, or nothing comes for that long
      */
     public Delays run(Plan plan, Duration timeout) {
-        String mission = plan.mission();
-        int devices = plan.devices();
-        Seen seen = new Seen(mission, devices);
-        api.send("POST", "/api/missions" + ControlApi.part(mission) + "/start", json(plan));
+        Seen seen = new Seen(plan.mission(), plan.devices());
+        api.send("POST", "/api/missions" + ControlApi.part(plan.mission()) + "/start", json(plan));
         seen.answered = seen.now();
-        Duration last = seen.now();
-        while (!seen.isComplete()) {
-            for (ConsumerRecord<String, byte[]> record : consumer.poll(POLL_INTERVAL)) {
-                if (seen.take(record)) {
-                    last = seen.now();
-                }
-            }
-            if (seen.now().minus(last).compareTo(timeout) > 0) {
-                throw new ControlPlaneException(
-                        "nothing more of mission %s for %d s: %d of %d devices have reported, it is %s"
-                                .formatted(mission, timeout.toSeconds(), seen.reported.size(), devices, seen.state));
-            }
-        }
+        seen.await(seen::isComplete, timeout);
         return new Delays(seen.answered, seen.firstRaw, seen.allRaw, seen.firstRouted, seen.running);
     }
 
@@ -119,43 +81,33 @@ public final class MissionStart implements AutoCloseable {
      */
     public Duration stop(String mission, Duration timeout) {
         Seen seen = new Seen(mission, 0);
-        api.send("POST", "/api/missions" + ControlApi.part(mission) + "/stop", NODES.objectNode());
-        Duration last = seen.now();
-        while (!seen.state.equals("stopped")) {
-            for (ConsumerRecord<String, byte[]> record : consumer.poll(POLL_INTERVAL)) {
-                if (seen.take(record)) {
-                    last = seen.now();
-                }
-            }
-            if (seen.now().minus(last).compareTo(timeout) > 0) {
-                throw new ControlPlaneException("mission %s is %s, and has not stopped within %d s of its last sign"
-                        .formatted(mission, seen.state, timeout.toSeconds()));
-            }
-        }
+        api.send("POST", "/api/missions" + ControlApi.part(mission) + "/stop", JsonNodeFactory.instance.objectNode());
+        seen.await(() -> seen.state.equals("stopped"), timeout);
         return seen.now();
     }
 
     private ObjectNode json(Plan plan) {
-        ObjectNode json = NODES.objectNode().put(DOMAIN, domain);
+        ObjectNode json = JsonNodeFactory.instance.objectNode().put("domain", domain);
         ObjectNode group = json.putArray("devices").addObject();
         group.put("type", "Thermometer")
                 .put("simulated", true)
                 .put("count", plan.devices())
                 .put("period", plan.period().toString());
-        var ring = group.putObject("area")
-                .put("type", "Polygon")
-                .putArray("coordinates")
-                .addArray();
-        double[][] corners = {{-3.6, 40.4}, {-3.59, 40.4}, {-3.59, 40.41}, {-3.6, 40.41}, {-3.6, 40.4}};
-        for (double[] corner : corners) {
-            ring.addArray().add(corner[0]).add(corner[1]);
-        }
+        group.set("area", read(AREA.getBytes(StandardCharsets.UTF_8)));
         return json;
+    }
+
+    private static JsonNode read(byte[] value) {
+        try {
+            return NgsiJson.read(value);
+        } catch (UnreadableException e) {
+            throw new IllegalStateException("Furrow wrote what is no JSON", e);
+        }
     }
 
     @Override
     public void close() {
-        consumer.close();
+        reader.close();
     }
 
     /** What has come of one mission. */
@@ -186,44 +138,50 @@ public final class MissionStart implements AutoCloseable {
             return allRaw != null && firstRouted != null && running != null;
         }
 
-        /** @return whether it was something new of the mission */
-        boolean take(ConsumerRecord<String, byte[]> record) {
-            if (record.topic().equals(Topics.MISSIONS_STATUS)) {
-                return mission.equals(record.key()) && record.value() != null && isStatus(record.value());
+        void await(BooleanSupplier done, Duration timeout) {
+            Duration last = now();
+            while (!done.getAsBoolean()) {
+                for (ConsumerRecord<byte[], byte[]> record : reader.poll(POLL_INTERVAL)) {
+                    if (take(record.topic(), TopicReader.text(record.key()), record.value())) {
+                        last = now();
+                    }
+                }
+                if (now().minus(last).compareTo(timeout) > 0) {
+                    throw new ControlPlaneException(
+                            "nothing more of mission %s for %d s: %d of %d devices have reported, it is %s"
+                                    .formatted(mission, timeout.toSeconds(), reported.size(), devices, state));
+                }
             }
-            if (!record.key().startsWith(prefix) || !hasReported(record.value())) {
+        }
+
+        /** @return whether it was something new of the mission */
+        private boolean take(String topic, String key, byte[] value) {
+            if (value == null) {
                 return false;
             }
-            if (!record.topic().equals(Topics.RAW)) {
+            if (topic.equals(Topics.MISSIONS_STATUS)) {
+                if (!mission.equals(key)) {
+                    return false;
+                }
+                state = read(value).path("state").asText();
+                running = running == null && state.equals("running") ? now() : running;
+                return true;
+            }
+            // A device that is only provisioned has no temperature yet.
+            if (!key.startsWith(prefix)
+                    || !read(value).path("Temperature").path("value").isNumber()) {
+                return false;
+            }
+            if (!topic.equals(Topics.RAW)) {
                 firstRouted = firstRouted == null ? now() : firstRouted;
                 return false;
             }
             firstRaw = firstRaw == null ? now() : firstRaw;
-            boolean fresh = reported.add(record.key());
+            boolean fresh = reported.add(key);
             if (fresh && reported.size() == devices) {
                 allRaw = now();
             }
             return fresh;
-        }
-
-        private boolean isStatus(byte[] value) {
-            state = read(value).path("state").asText();
-            running = running == null && state.equals("running") ? now() : running;
-            return true;
-        }
-
-        /** A device that is only provisioned has no temperature yet. */
-        private boolean hasReported(byte[] value) {
-            return value != null
-                    && read(value).path("Temperature").path("value").isNumber();
-        }
-
-        private static JsonNode read(byte[] value) {
-            try {
-                return NgsiJson.read(value);
-            } catch (UnreadableException e) {
-                throw new IllegalStateException("Furrow wrote what is no JSON", e);
-            }
         }
     }
 }

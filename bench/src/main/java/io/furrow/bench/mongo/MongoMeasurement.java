@@ -5,7 +5,6 @@ import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
-import java.util.function.Consumer;
 
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
@@ -15,6 +14,7 @@ import com.mongodb.client.model.Filters;
 import com.mongodb.client.model.ReplaceOneModel;
 import com.mongodb.client.model.ReplaceOptions;
 import com.mongodb.client.model.WriteModel;
+import jakarta.ws.rs.core.Context;
 import org.apache.flink.api.connector.sink2.SinkWriter;
 import org.bson.RawBsonDocument;
 
@@ -31,7 +31,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * and the sink writer, with a checkpoint's flush now and then), and in a bare loop around the driver (bulks of the same upserts,
  * made beforehand).
  */
-public final class MongoMeasurement {
+final class MongoMeasurement {
     private static final String DATABASE = "persistence";
     private static final String MISSION = "bench";
     private static final int BULK = 1_000;
@@ -45,7 +45,7 @@ public final class MongoMeasurement {
     /**
      * @param bytes of an event's JSON, about
      */
-    public MongoMeasurement(String uri, int documents, int bytes) {
+    MongoMeasurement(String uri, int documents, int bytes) {
         this.uri = uri;
         this.documents = documents;
         this.events = new ArrayList<>(documents);
@@ -55,23 +55,8 @@ public final class MongoMeasurement {
         }
     }
 
-    /** Documents per second of one turn of each way. */
-    public record Turn(double bare, double writer) {}
-
-    /** Each turn into an empty collection; the first is not counted, because the JVM is cold. */
-    public List<Turn> run(int turns, Consumer<Turn> told) throws Exception {
-        List<Turn> counted = new ArrayList<>();
-        for (int turn = 0; turn <= turns; turn++) {
-            Turn measured = new Turn(bare(), writer());
-            if (turn > 0) {
-                counted.add(measured);
-                told.accept(measured);
-            }
-        }
-        return counted;
-    }
-
-    private double bare() throws UnreadableException {
+    /** Documents per second of a turn of the bare loop, into an empty collection. */
+    double bare() throws UnreadableException {
         List<MissionDocument> ready = new ArrayList<>(documents);
         for (MissionEvent event : events) {
             ready.add(ComposeDocuments.compose(event));
@@ -95,7 +80,8 @@ public final class MongoMeasurement {
         }
     }
 
-    private double writer() throws Exception {
+    /** The same as the job does it. */
+    double writer() throws Exception {
         try (MongoClient client = MongoClients.create(uri)) {
             client.getDatabase(DATABASE).drop();
             MongoCollection<RawBsonDocument> collection = client.getDatabase(DATABASE)

@@ -1,8 +1,11 @@
 package io.furrow.bench.notifications;
 
+import java.time.Duration;
 import java.util.ArrayList;
 import java.util.BitSet;
 import java.util.List;
+import java.util.concurrent.locks.LockSupport;
+import java.util.function.LongConsumer;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.ConsumerRecords;
@@ -12,6 +15,8 @@ import io.furrow.bench.http.NotificationRequest;
 /** Which of the numbered notifications are in the topic, how many of them again, and a sample of the records. */
 final class ArrivalCheck {
     private static final int SAMPLES = 2000;
+    private static final Duration QUIET = Duration.ofSeconds(20);
+    private static final Duration POLL_INTERVAL = Duration.ofMillis(100);
 
     private final long firstNumber;
     private final BitSet arrived = new BitSet();
@@ -67,6 +72,20 @@ final class ArrivalCheck {
         BitSet missing = (BitSet) acknowledged.clone();
         missing.andNot(arrived);
         return missing.cardinality();
+    }
+
+    /** Waits until all of these have arrived, or none has for a while. @param progress of the number that has arrived */
+    void await(BitSet acknowledged, LongConsumer progress) {
+        long seen = -1;
+        long moved = System.nanoTime();
+        while (missing(acknowledged) > 0 && System.nanoTime() - moved < QUIET.toNanos()) {
+            if (distinct() != seen) {
+                seen = distinct();
+                moved = System.nanoTime();
+                progress.accept(seen);
+            }
+            LockSupport.parkNanos(POLL_INTERVAL.toNanos());
+        }
     }
 
     synchronized List<ConsumerRecord<byte[], byte[]>> samples() {

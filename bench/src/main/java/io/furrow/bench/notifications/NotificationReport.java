@@ -1,131 +1,95 @@
 package io.furrow.bench.notifications;
 
 import java.io.PrintWriter;
+import java.util.ArrayList;
 import java.util.List;
-import java.util.Locale;
+import java.util.Map;
 import java.util.Set;
 import java.util.TreeSet;
 import java.util.function.ToDoubleFunction;
+import java.util.function.ToLongFunction;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.bench.http.HttpLoadPlan;
+import io.furrow.bench.frame.Figures;
+import io.furrow.bench.http.HttpLoad;
 
 /**
  * The figures of several runs and the median of each.
  *
  * @param journal where the journal was, and on what kind of file system
  */
-public record NotificationReport(HttpLoadPlan plan, String journal, List<NotificationRun> runs) {
-    private static final String LINE =
-            "%-7s %9.0f %9.0f %8.1f %8.1f %8.1f %8s %8s %8s %9.0f %9.0f %9.0f %7.2f %7.2f %7.2f%n";
-    private static final String HEAD = "%-7s %9s %9s %8s %8s %8s %8s %8s %8s %9s %9s %9s %7s %7s %7s%n";
+record NotificationReport(HttpLoad.Plan plan, String journal, List<Run> runs) {
+    private static final List<Column> COLUMNS = List.of(
+            new Column("answered/s", "answeredPerSecond", run -> run.load().perSecond()),
+            new Column("in Kafka/s", "inKafkaPerSecond", Run::inKafkaPerSecond),
+            new Column("p50 ms", "p50Millis", run -> run.load().millis(50)),
+            new Column("p99 ms", "p99Millis", run -> run.load().millis(99)),
+            new Column("max ms", "maxMillis", run -> run.load().millis(100)),
+            new Column(
+                    "bare server/s",
+                    "bareServerPerSecond",
+                    run -> run.bareServer().perSecond()),
+            new Column(
+                    "its p99 ms", "bareServerP99Millis", run -> run.bareServer().millis(99)),
+            new Column(
+                    "bare bridge/s",
+                    "bareBridgePerSecond",
+                    run -> run.bareBridge().perSecond()),
+            new Column("bare prod./s", "bareProducerPerSecond", Run::producerPerSecond),
+            new Column("share: server", "shareOfBareServer", Run::ofBareServer),
+            new Column("bridge", "shareOfBareBridge", Run::ofBareBridge),
+            new Column("prod.", "shareOfBareProducer", Run::ofProducer));
+
+    /** A figure under the head of its column and as a member of JSON. */
+    private record Column(String head, String member, ToDoubleFunction<Run> figure) {}
 
     /** The median of one figure; of an even number of runs the upper one. */
-    public double median(ToDoubleFunction<NotificationRun> figure) {
-        double[] sorted = runs.stream().mapToDouble(figure).sorted().toArray();
-        return sorted[sorted.length / 2];
+    double median(ToDoubleFunction<Run> figure) {
+        return Figures.median(runs, figure);
     }
 
     /** Acknowledged notifications that are not in Kafka, of all runs. */
-    public long missing() {
-        return runs.stream().mapToLong(NotificationRun::missing).sum();
+    long missing() {
+        return total(Run::missing);
     }
 
-    public void print(PrintWriter out) {
-        out.println(title());
-        out.println("journal in " + journal);
-        out.printf(
-                HEAD,
-                "",
-                "answered",
-                "in Kafka",
-                "p50",
-                "p99",
-                "max",
-                "missing",
-                "repeats",
-                "failed",
-                "bare",
-                "bare",
-                "bare",
-                "share",
-                "share",
-                "share");
-        out.printf(
-                HEAD,
-                "run",
-                "per s",
-                "per s",
-                "ms",
-                "ms",
-                "ms",
-                "",
-                "",
-                "",
-                "server/s",
-                "bridge/s",
-                "prod./s",
-                "server",
-                "bridge",
-                "prod.");
+    private long total(ToLongFunction<Run> count) {
+        return runs.stream().mapToLong(count).sum();
+    }
+
+    void print(PrintWriter out) {
+        Figures figures = new Figures(title() + System.lineSeparator() + "journal in " + journal);
         for (int i = 0; i < runs.size(); i++) {
-            NotificationRun run = runs.get(i);
-            line(
-                    out,
+            Run run = runs.get(i);
+            row(
+                    figures,
                     Integer.toString(i + 1),
                     figure -> figure.applyAsDouble(run),
-                    run.missing(),
-                    run.repeats(),
-                    run.load().refused() + run.load().broken());
+                    counts -> counts.applyAsLong(run));
         }
-        line(
-                out,
-                "median",
-                this::median,
-                missing(),
-                total(NotificationRun::repeats),
-                total(run -> run.load().refused() + run.load().broken()));
-        out.println("bare server: p99 %.1f ms; it gets the same load"
-                .formatted(median(run -> run.bareServer().millis(99))));
-        out.println();
-        out.println("processor time in microseconds per notification, median");
-        for (String part : parts()) {
-            out.printf(Locale.ROOT, "  %-24s %7.1f%n", part, median(run -> run.cpuMicros(part)));
-        }
-        out.printf(Locale.ROOT, "  %-24s %7.1f%n", "all", median(NotificationRun::cpuMicros));
-        out.flush();
+        row(figures, "median", this::median, this::total);
+        figures.print(out);
+        Figures parts = new Figures("processor time in microseconds per notification, median");
+        parts().forEach(part -> parts.add("part", part, "us", median(run -> run.cpuMicros(part))));
+        parts.add("part", "all", "us", median(Run::cpuMicros)).print(out);
     }
 
-    /** How to get one figure out of a run, or its median out of all. */
-    private interface Figures {
-        double get(ToDoubleFunction<NotificationRun> figure);
+    /** Gets one figure out of a run, or its median out of all. */
+    private interface Of {
+        double get(ToDoubleFunction<Run> figure);
     }
 
-    private static void line(PrintWriter out, String name, Figures of, long missing, long repeats, long failed) {
-        out.printf(
-                Locale.ROOT,
-                LINE,
-                name,
-                of.get(run -> run.load().perSecond()),
-                of.get(NotificationRun::inKafkaPerSecond),
-                of.get(run -> run.load().millis(50)),
-                of.get(run -> run.load().millis(99)),
-                of.get(run -> run.load().millis(100)),
-                missing,
-                repeats,
-                failed,
-                of.get(run -> run.bareServer().perSecond()),
-                of.get(run -> run.bareBridge().perSecond()),
-                of.get(NotificationRun::producerPerSecond),
-                of.get(NotificationRun::ofBareServer),
-                of.get(NotificationRun::ofBareBridge),
-                of.get(NotificationRun::ofProducer));
-    }
-
-    private long total(java.util.function.ToLongFunction<NotificationRun> count) {
-        return runs.stream().mapToLong(count).sum();
+    private static void row(Figures figures, String name, Of of, ToLongFunction<ToLongFunction<Run>> count) {
+        List<Object> row = new ArrayList<>(List.of("run", name));
+        COLUMNS.forEach(column -> row.addAll(List.of(column.head, of.get(column.figure))));
+        row.addAll(List.of("missing", count.applyAsLong(Run::missing)));
+        row.addAll(List.of("repeats", count.applyAsLong(Run::repeats)));
+        row.addAll(List.of(
+                "failed",
+                count.applyAsLong(run -> run.load().refused() + run.load().broken())));
+        figures.add(row.toArray());
     }
 
     private Set<String> parts() {
@@ -145,7 +109,7 @@ public record NotificationReport(HttpLoadPlan plan, String journal, List<Notific
     }
 
     /** Every figure of every run. */
-    public ObjectNode json() {
+    ObjectNode json() {
         ObjectNode json = JsonNodeFactory.instance.objectNode();
         json.put("title", title()).put("journal", journal);
         json.put("connections", plan.connections()).put("newConnections", plan.newConnections());
@@ -160,21 +124,58 @@ public record NotificationReport(HttpLoadPlan plan, String journal, List<Notific
         return json;
     }
 
-    private ObjectNode figures(ObjectNode json, Figures of) {
-        json.put("answeredPerSecond", of.get(run -> run.load().perSecond()));
-        json.put("inKafkaPerSecond", of.get(NotificationRun::inKafkaPerSecond));
-        json.put("p50Millis", of.get(run -> run.load().millis(50)));
-        json.put("p99Millis", of.get(run -> run.load().millis(99)));
-        json.put("maxMillis", of.get(run -> run.load().millis(100)));
-        json.put("bareServerPerSecond", of.get(run -> run.bareServer().perSecond()));
-        json.put("bareServerP99Millis", of.get(run -> run.bareServer().millis(99)));
-        json.put("bareBridgePerSecond", of.get(run -> run.bareBridge().perSecond()));
-        json.put("bareProducerPerSecond", of.get(NotificationRun::producerPerSecond));
-        json.put("shareOfBareServer", of.get(NotificationRun::ofBareServer));
-        json.put("shareOfBareBridge", of.get(NotificationRun::ofBareBridge));
-        json.put("shareOfBareProducer", of.get(NotificationRun::ofProducer));
+    private ObjectNode figures(ObjectNode json, Of of) {
+        COLUMNS.forEach(column -> json.put(column.member, of.get(column.figure)));
         ObjectNode cpu = json.putObject("cpuMicrosPerNotification");
         parts().forEach(part -> cpu.put(part, of.get(run -> run.cpuMicros(part))));
         return json;
+    }
+
+    /**
+     * One run of the source, and what was measured beside it.
+     *
+     * @param load what the senders saw
+     * @param inKafkaPerSecond acknowledged notifications by the time until a reader of the topic had the last of them
+     * @param missing acknowledged notifications that are not in the topic
+     * @param repeats records of a notification that was in the topic already
+     * @param cpuNanos processor time by part
+     * @param bareServer the same load on a server that only answers
+     * @param bareBridge the same load on a server that answers when Kafka has it
+     * @param producerPerSecond records like these by a bare producer
+     */
+    record Run(
+            HttpLoad.Result load,
+            double inKafkaPerSecond,
+            long missing,
+            long repeats,
+            Map<String, Long> cpuNanos,
+            HttpLoad.Result bareServer,
+            HttpLoad.Result bareBridge,
+            double producerPerSecond) {
+        /** Notifications per second that were acknowledged and in Kafka. */
+        double perSecond() {
+            return Math.min(load.perSecond(), inKafkaPerSecond);
+        }
+
+        double ofBareServer() {
+            return perSecond() / bareServer.perSecond();
+        }
+
+        double ofBareBridge() {
+            return perSecond() / bareBridge.perSecond();
+        }
+
+        double ofProducer() {
+            return perSecond() / producerPerSecond;
+        }
+
+        /** Microseconds of processor time of a part per notification. */
+        double cpuMicros(String part) {
+            return load.answered() == 0 ? 0 : cpuNanos.getOrDefault(part, 0L) / 1000.0 / load.answered();
+        }
+
+        double cpuMicros() {
+            return cpuNanos.keySet().stream().mapToDouble(this::cpuMicros).sum();
+        }
     }
 }

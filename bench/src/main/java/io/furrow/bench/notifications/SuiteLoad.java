@@ -2,10 +2,9 @@ package io.furrow.bench.notifications;
 
 import java.net.InetSocketAddress;
 import java.nio.charset.StandardCharsets;
-import java.time.Duration;
 import java.util.List;
-import java.util.Map;
 import java.util.Optional;
+import java.util.Properties;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.locks.LockSupport;
@@ -19,10 +18,8 @@ import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.ConsumerRecords;
 
-import io.furrow.bench.arrival.TopicReader;
+import io.furrow.bench.frame.TopicReader;
 import io.furrow.bench.http.HttpLoad;
-import io.furrow.bench.http.HttpLoadPlan;
-import io.furrow.bench.http.HttpLoadResult;
 import io.furrow.bench.http.NotificationRequest;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.launcher.suite.Suite;
@@ -33,15 +30,13 @@ import io.furrow.model.topic.Topics;
  * The way from the notification to the mission's topic, with all that a suite does beside it: notifications come to its listener at
  * a fixed rate, of entities of one mission, and are read at the topic of that mission.
  */
-public final class SuiteLoad {
+final class SuiteLoad {
     private static final String DOMAIN = "bench";
     private static final String MISSION = "notified";
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
     private static final long NUMBERS_PER_RUN = 1_000_000_000L;
     private static final long MAX_MILLIS = 600_000;
     private static final int DIGITS = 3;
-    private static final Duration QUIET = Duration.ofSeconds(20);
-    private static final Duration POLL_INTERVAL = Duration.ofMillis(100);
     private static final double HELD_MILLIS = 1_000;
     private static final double P99 = 99;
 
@@ -49,7 +44,7 @@ public final class SuiteLoad {
     private long firstNumber = NUMBERS_PER_RUN;
 
     /** @param entities of the mission, which is started */
-    public SuiteLoad(Suite suite, int entities) throws InterruptedException, ExecutionException {
+    SuiteLoad(Suite suite, int entities) throws InterruptedException, ExecutionException {
         this.suite = suite;
         suite.kafka()
                 .admin()
@@ -75,39 +70,31 @@ public final class SuiteLoad {
      * @param repeats records there of one that was there already
      * @param delay milliseconds from the receipt by the source to the reader
      */
-    public record Run(HttpLoadResult load, long missing, long repeats, Histogram delay) {
+    record Run(HttpLoad.Result load, long missing, long repeats, Histogram delay) {
         /** Whether all was taken and came once, and 99 of 100 within a second. */
-        public boolean isHeld() {
+        boolean isHeld() {
             return load.refused() + load.broken() + missing + repeats == 0 && millis(P99) <= HELD_MILLIS;
         }
 
-        public double millis(double percentile) {
+        double millis(double percentile) {
             return delay.getValueAtPercentile(percentile);
         }
     }
 
-    public Run run(HttpLoadPlan plan) {
+    Run run(HttpLoad.Plan plan) {
         firstNumber += NUMBERS_PER_RUN;
         ArrivalCheck check = new ArrivalCheck(firstNumber);
         Histogram delay = new SynchronizedHistogram(MAX_MILLIS, DIGITS);
-        try (TopicReader reader = new TopicReader(
-                suite.kafka().clientProperties(), Topics.realtime(DOMAIN, MISSION), Map.of(), records -> {
-                    check.add(records);
-                    add(records, delay);
-                })) {
-            reader.start();
+        Properties kafka = suite.kafka().clientProperties();
+        try (TopicReader reader = TopicReader.fromEnd(kafka, TopicReader.COMMITTED, Topics.realtime(DOMAIN, MISSION))) {
+            reader.follow(records -> {
+                check.add(records);
+                add(records, delay);
+            });
             InetSocketAddress listener = new InetSocketAddress(
                     suite.listener().getHost(), suite.listener().getPort());
-            HttpLoadResult load = new HttpLoad(listener, plan, firstNumber).run();
-            long seen = -1;
-            long moved = System.nanoTime();
-            while (check.missing(load.acknowledged()) > 0 && System.nanoTime() - moved < QUIET.toNanos()) {
-                if (check.distinct() != seen) {
-                    seen = check.distinct();
-                    moved = System.nanoTime();
-                }
-                LockSupport.parkNanos(POLL_INTERVAL.toNanos());
-            }
+            HttpLoad.Result load = new HttpLoad(listener, plan, firstNumber).run();
+            check.await(load.acknowledged(), arrived -> {});
             LockSupport.parkNanos(TimeUnit.SECONDS.toNanos(1)); // repeats that are still on their way
             return new Run(load, check.missing(load.acknowledged()), check.repeats(), delay);
         }

@@ -4,6 +4,8 @@ import java.util.Arrays;
 import java.util.List;
 import java.util.function.ToLongFunction;
 
+import io.furrow.bench.frame.Figures;
+
 /**
  * By how much events were behind their schedule.
  *
@@ -63,7 +65,6 @@ record Lateness(long p50, long p99, long max, long drift, long least) {
     }
 
     private static long median(List<Lateness> all, ToLongFunction<Lateness> figure) {
-        long[] sorted = all.stream().mapToLong(figure).sorted().toArray();
-        return sorted[sorted.length / 2];
+        return (long) Figures.median(all, figure::applyAsLong);
     }
 }

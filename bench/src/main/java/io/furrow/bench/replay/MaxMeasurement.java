@@ -7,14 +7,10 @@ import java.util.Locale;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
 import java.util.function.Function;
-import java.util.function.ToDoubleFunction;
 import java.util.stream.Stream;
 
-import com.mongodb.client.MongoClient;
-import com.mongodb.client.MongoClients;
-import org.apache.kafka.clients.producer.KafkaProducer;
-
-import io.furrow.bench.analytics.Figures;
+import io.furrow.bench.frame.Figures;
+import io.furrow.bench.frame.TopicFiller;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayPlan;
@@ -25,14 +21,13 @@ import io.furrow.model.topic.Topics;
  * each document decoded, made a record and sent by a producer with the job's settings; in turns. The loop does so
  * twice: with queries of as many documents as the job's, and with one query.
  */
-public final class MaxMeasurement {
+final class MaxMeasurement {
     private static final int PER_SECOND = 1_000;
     private static final int WARM_UP_EVENTS = 50_000;
     private static final double NANOS = 1e9;
     private static final double MILLIS = 1_000;
 
     private final ReplayCluster cluster;
-    private final ReplayBenchPlan plan;
     private final StoredMission mission;
     private final Consumer<String> progress;
 
@@ -46,23 +41,22 @@ public final class MaxMeasurement {
 
     private record Turn(Run replay, Run parts, Run whole) {}
 
-    public MaxMeasurement(ReplayCluster cluster, ReplayBenchPlan plan, int events, Consumer<String> progress) {
+    MaxMeasurement(ReplayCluster cluster, int events, Consumer<String> progress) {
         this.cluster = cluster;
-        this.plan = plan;
         this.mission = new StoredMission("max", events, PER_SECOND, 1);
         this.progress = progress;
     }
 
     /** @return whether every event was written */
-    public boolean run(Consumer<Figures> out) throws Exception {
+    boolean run(int count, Consumer<Figures> out) throws Exception {
         progress.accept("%,d events into MongoDB".formatted(mission.events()));
-        store();
+        mission.store(cluster.mongo());
         List<Turn> turns = new ArrayList<>();
-        for (int turn = 0; turn <= plan.turns(); turn++) {
+        for (int turn = 0; turn <= count; turn++) {
             int events = turn == 0 ? Math.min(WARM_UP_EVENTS, mission.events()) : mission.events();
             Turn measured = new Turn(
                     replay(3 * turn, events),
-                    bare(3 * turn + 1, events, BareCursor.FIRST_QUERY),
+                    bare(3 * turn + 1, events, BaselineCursor.FIRST_QUERY),
                     bare(3 * turn + 2, events, mission.events()));
             progress.accept(String.format(
                     Locale.ROOT,
@@ -82,19 +76,13 @@ public final class MaxMeasurement {
     }
 
     /** Plays it once. @return heap in use after collections while it was played, less than before, MiB at most */
-    public long heldWhilePlayed() throws Exception {
-        store();
-        try (HeldHeap heap = HeldHeap.start(progress)) {
+    long heldWhilePlayed() throws Exception {
+        mission.store(cluster.mongo());
+        try (HeapGrowth heap = HeapGrowth.start(progress)) {
             Run run = replay(0, mission.events());
             progress.accept(String.format(
                     Locale.ROOT, "%,d events in %.1f s, %d missing", mission.events(), run.seconds(), run.missing()));
             return heap.most();
-        }
-    }
-
-    private void store() {
-        try (MongoClient client = MongoClients.create(cluster.mongo())) {
-            mission.store(client);
         }
     }
 
@@ -104,8 +92,7 @@ public final class MaxMeasurement {
                 new ReplayPlan(null, null, to, false, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
         DesiredReplay desired = desired(number, part);
         long asked = System.currentTimeMillis();
-        cluster.want(List.of(desired));
-        cluster.awaitEnd(List.of(desired));
+        cluster.play(List.of(desired));
         return run(desired.topic(), asked, to == null ? events : -1);
     }
 
@@ -118,8 +105,8 @@ public final class MaxMeasurement {
         DesiredReplay replay = desired(number, ReplayPlan.PLAIN);
         cluster.make(List.of(replay.topic()));
         long begun = System.currentTimeMillis();
-        try (KafkaProducer<byte[], byte[]> producer = cluster.producer()) {
-            new BareCursor(cluster.mongo(), replay, events, perQuery).write(producer);
+        try (TopicFiller producer = cluster.producer()) {
+            new BaselineCursor(cluster.mongo(), replay, events, perQuery).write(producer);
         }
         return run(replay.topic(), begun, events);
     }
@@ -142,10 +129,7 @@ public final class MaxMeasurement {
     private Figures figures(List<Turn> turns) {
         Figures figures =
                 new Figures("One mission of %,d events at speed max, medians of %d turns; a checkpoint every %d ms"
-                        .formatted(
-                                mission.events(),
-                                turns.size(),
-                                plan.checkpointInterval().toMillis()));
+                        .formatted(mission.events(), turns.size(), cluster.checkpointMillis()));
         add(figures, "replay", turns, Turn::replay);
         add(figures, "bare, in parts", turns, Turn::parts);
         add(figures, "bare loop", turns, Turn::whole);
@@ -153,27 +137,21 @@ public final class MaxMeasurement {
     }
 
     private static void add(Figures figures, String who, List<Turn> turns, Function<Turn, Run> which) {
+        List<Run> runs = turns.stream().map(which).toList();
         figures.add(
-                "by",
-                who,
-                "events/s",
-                median(turns, turn -> which.apply(turn).perSecond()),
+                "by", who,
+                "events/s", Figures.median(runs, Run::perSecond),
                 "of in parts",
-                median(
-                        turns,
-                        turn -> which.apply(turn).perSecond() / turn.parts().perSecond()),
+                        Figures.median(
+                                turns,
+                                turn -> which.apply(turn).perSecond()
+                                        / turn.parts().perSecond()),
                 "of bare",
-                median(
-                        turns,
-                        turn -> which.apply(turn).perSecond() / turn.whole().perSecond()),
-                "seconds",
-                median(turns, turn -> which.apply(turn).seconds()),
-                "missing",
-                (int) turns.stream().map(which).mapToLong(Run::missing).sum());
-    }
-
-    /** Of an even number the upper one. */
-    private static double median(List<Turn> turns, ToDoubleFunction<Turn> figure) {
-        return turns.stream().mapToDouble(figure).sorted().toArray()[turns.size() / 2];
+                        Figures.median(
+                                turns,
+                                turn -> which.apply(turn).perSecond()
+                                        / turn.whole().perSecond()),
+                "seconds", Figures.median(runs, Run::seconds),
+                "missing", runs.stream().mapToLong(Run::missing).sum());
     }
 }

@@ -1,11 +1,9 @@
 package io.furrow.bench.replay;
 
 import java.nio.charset.StandardCharsets;
-import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collection;
-import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -19,15 +17,15 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
+import io.furrow.bench.frame.Engines;
+import io.furrow.bench.frame.TopicFiller;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.kafka.CommittedReader;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.ngsi.UnreadableException;
@@ -39,40 +37,34 @@ import io.furrow.replay.ReplayOptions;
  * Kafka, MongoDB and the job {@code replay} between them. The broker must stamp the records of topics that it has no other setting for
  * by itself ({@code log.message.timestamp.type=LogAppendTime}).
  */
-public final class ReplayCluster implements AutoCloseable {
+final class ReplayCluster implements AutoCloseable {
     private static final Duration POLL = Duration.ofMillis(100);
     private static final Duration STALL = Duration.ofMinutes(2);
 
     private final Properties kafka;
     private final String mongo;
+    private final long checkpointMillis;
     private final ReplayOptions options = new ReplayOptions();
-    private final KafkaProducer<byte[], byte[]> producer;
+    private final TopicFiller producer;
 
-    /** @param kafka settings of any client */
-    public ReplayCluster(Properties kafka, String mongo, Path checkpoints, ReplayBenchPlan plan)
+    ReplayCluster(Engines engines, String mongo, long checkpointMillis, int parallelism)
             throws ExecutionException, InterruptedException {
-        this.kafka = kafka;
+        this.kafka = engines.client();
         this.mongo = mongo;
-        List<String> args = new ArrayList<>(List.of("--bootstrap-servers", kafka.getProperty("bootstrap.servers")));
+        this.checkpointMillis = checkpointMillis;
+        List<String> args = new ArrayList<>(List.of("--bootstrap-servers", engines.bootstrapServers()));
+        args.addAll(List.of("--mongo", mongo));
         args.addAll(List.of(
-                "--mongo", mongo, "--checkpoint-dir", checkpoints.toUri().toString()));
-        args.addAll(List.of("--checkpoint-interval", plan.checkpointInterval().toMillis() + "ms"));
-        args.addAll(List.of("--parallelism", Integer.toString(plan.parallelism())));
+                "--checkpoint-dir", engines.folder("checkpoints").toUri().toString()));
+        args.addAll(List.of("--checkpoint-interval", checkpointMillis + "ms"));
+        args.addAll(List.of("--parallelism", Integer.toString(parallelism)));
         JobCommandLine.of(options).parseArgs(args.toArray(String[]::new));
         producer = producer();
-        try (Admin admin = Admin.create(kafka)) {
-            admin.createTopics(List.of(compacted(Topics.REPLAYS), compacted(Topics.REPLAYS_STATUS)))
-                    .all()
-                    .get();
-        }
-    }
-
-    private static NewTopic compacted(String topic) {
-        return new NewTopic(topic, Optional.of(1), Optional.empty()).configs(Map.of("cleanup.policy", "compact"));
+        Engines.makeTopics(kafka, 1, Map.of("cleanup.policy", "compact"), Topics.REPLAYS, Topics.REPLAYS_STATUS);
     }
 
     /** The job, to be run as long as it is measured. */
-    public StreamExecutionEnvironment job() {
+    StreamExecutionEnvironment job() {
         return ReplayJob.assemble(options);
     }
 
@@ -80,11 +72,15 @@ public final class ReplayCluster implements AutoCloseable {
         return mongo;
     }
 
+    long checkpointMillis() {
+        return checkpointMillis;
+    }
+
     /** With the settings of the job's. */
-    KafkaProducer<byte[], byte[]> producer() {
+    TopicFiller producer() {
         Properties settings = KafkaConnectors.producerProperties(options);
         settings.putAll(kafka);
-        return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
+        return new TopicFiller(new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer()));
     }
 
     void make(Collection<String> topics) throws ExecutionException, InterruptedException {
@@ -104,52 +100,44 @@ public final class ReplayCluster implements AutoCloseable {
         }
     }
 
-    void want(Collection<DesiredReplay> replays) {
-        replays.forEach(replay -> producer.send(new ProducerRecord<>(
-                Topics.REPLAYS, replay.replay().getBytes(StandardCharsets.UTF_8), replay.toBytes())));
-        producer.flush();
-    }
-
-    private void forget(Collection<DesiredReplay> replays) {
-        replays.forEach(replay -> producer.send(
-                new ProducerRecord<>(Topics.REPLAYS, replay.replay().getBytes(StandardCharsets.UTF_8), null)));
-        producer.flush();
-    }
-
     /**
-     * Returns when all have ended and no restart takes that back; the job forgets them then.
+     * Lets the job play replays, and returns when all have ended and no restart takes that back; the job forgets them then.
      *
      * @throws IllegalStateException if one fails, or nothing is heard for two minutes
      */
-    void awaitEnd(Collection<DesiredReplay> replays) throws UnreadableException {
+    void play(Collection<DesiredReplay> replays) throws UnreadableException {
+        replays.forEach(replay -> put(replay, replay.toBytes()));
+        producer.flush();
         Set<String> open = new TreeSet<>();
         replays.forEach(replay -> open.add(replay.replay()));
         long until = System.nanoTime() + STALL.toNanos();
-        try (KafkaConsumer<byte[], byte[]> consumer = consumer()) {
-            List<TopicPartition> partitions = partitions(consumer, Topics.REPLAYS_STATUS);
-            consumer.assign(partitions);
-            consumer.seekToBeginning(partitions);
+        try (CommittedReader<String> reader = CommittedReader.open(kafka, Topics.REPLAYS_STATUS)) {
             while (!open.isEmpty()) {
-                for (ConsumerRecord<byte[], byte[]> record : consumer.poll(POLL)) {
+                for (ConsumerRecord<String, byte[]> record : reader.poll(POLL)) {
                     until = System.nanoTime() + STALL.toNanos();
-                    note(record, open);
+                    update(record, open);
                 }
                 if (System.nanoTime() > until) {
                     throw new IllegalStateException("nothing is heard of " + open);
                 }
             }
         }
-        forget(replays);
+        replays.forEach(replay -> put(replay, null));
+        producer.flush();
     }
 
-    private static void note(ConsumerRecord<byte[], byte[]> record, Set<String> open) throws UnreadableException {
-        String name = new String(record.key(), StandardCharsets.UTF_8);
+    private void put(DesiredReplay replay, byte[] value) {
+        byte[] key = replay.replay().getBytes(StandardCharsets.UTF_8);
+        producer.send(new ProducerRecord<>(Topics.REPLAYS, key, value));
+    }
+
+    private static void update(ConsumerRecord<String, byte[]> record, Set<String> open) throws UnreadableException {
         ReplayStatus status = ReplayStatus.read(record.value());
-        if (open.contains(name) && status.state() == ReplayStatus.State.FAILED) {
-            throw new IllegalStateException(name + " failed: " + status.reason());
+        if (open.contains(record.key()) && status.state() == ReplayStatus.State.FAILED) {
+            throw new IllegalStateException(record.key() + " failed: " + status.reason());
         }
         if (status.state() == ReplayStatus.State.ENDED && status.settled()) {
-            open.remove(name);
+            open.remove(record.key());
         }
     }
 
@@ -159,38 +147,17 @@ public final class ReplayCluster implements AutoCloseable {
      * @param out is called with the topic of each
      */
     void read(Collection<String> topics, BiConsumer<String, PlayedRecord> out) {
-        try (KafkaConsumer<byte[], byte[]> consumer = consumer()) {
-            List<TopicPartition> partitions = topics.stream()
-                    .flatMap(topic -> partitions(consumer, topic).stream())
-                    .toList();
-            consumer.assign(partitions);
-            consumer.seekToBeginning(partitions);
-            Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
-            while (ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
-                for (ConsumerRecord<byte[], byte[]> record : consumer.poll(POLL)) {
-                    if (PlayedRecord.isEvent(record)) {
-                        out.accept(record.topic(), PlayedRecord.of(record));
-                    }
+        try (CommittedReader<byte[]> reader = CommittedReader.openBytes(kafka, topics.toArray(String[]::new))) {
+            reader.readToEnd(record -> {
+                if (PlayedRecord.isEvent(record)) {
+                    out.accept(record.topic(), PlayedRecord.of(record));
                 }
-            }
+            });
         }
-    }
-
-    private KafkaConsumer<byte[], byte[]> consumer() {
-        Map<String, Object> settings = new HashMap<>();
-        kafka.forEach((name, value) -> settings.put((String) name, value));
-        settings.put("isolation.level", "read_committed");
-        return new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer());
-    }
-
-    private static List<TopicPartition> partitions(KafkaConsumer<?, ?> consumer, String topic) {
-        return consumer.partitionsFor(topic).stream()
-                .map(info -> new TopicPartition(topic, info.partition()))
-                .toList();
     }
 
     @Override
     public void close() {
-        producer.close(Duration.ofSeconds(1));
+        producer.close();
     }
 }

@@ -7,10 +7,7 @@ import java.util.Set;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
 
-import com.mongodb.client.MongoClient;
-import com.mongodb.client.MongoClients;
-
-import io.furrow.bench.analytics.Figures;
+import io.furrow.bench.frame.Figures;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.PageLimits;
@@ -22,7 +19,7 @@ import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.MongoRecordings;
 
 /** Reads what a seek needs from a stored mission: the states before a point and the first page after it; beside it, the states by a scan. */
-public final class SeekMeasurement {
+final class SeekMeasurement {
     private static final int PER_SECOND = 100;
     private static final int[] PERCENT = {10, 50, 90};
 
@@ -32,7 +29,7 @@ public final class SeekMeasurement {
     private final Consumer<String> progress;
 
     /** @param turns that count, after one that does not */
-    public SeekMeasurement(String mongo, int events, int turns, Consumer<String> progress) {
+    SeekMeasurement(String mongo, int events, int turns, Consumer<String> progress) {
         this.mongo = mongo;
         this.mission = new StoredMission("seek", events, PER_SECOND, 1);
         this.turns = turns;
@@ -40,11 +37,9 @@ public final class SeekMeasurement {
     }
 
     /** @return whether both know the same states */
-    public boolean run(Consumer<Figures> out) throws RecordingException {
+    boolean run(Consumer<Figures> out) throws RecordingException {
         progress.accept("%,d events into MongoDB".formatted(mission.events()));
-        try (MongoClient client = MongoClients.create(mongo)) {
-            mission.store(client);
-        }
+        mission.store(mongo);
         Figures figures = new Figures(
                 "seek in a mission of %,d events, ms, medians of %d turns".formatted(mission.events(), turns));
         boolean same = true;
@@ -78,17 +73,14 @@ public final class SeekMeasurement {
                 scans[turn] = millis(end - sought);
             }
         }
-        figures.add("to %", percent, "seek", median(seeks), "scan", median(scans));
+        figures.add(
+                "to %",
+                percent, "seek", Figures.median(Arrays.stream(seeks)), "scan", Figures.median(Arrays.stream(scans)));
         return same;
     }
 
     private static double millis(long nanos) {
         return nanos / (double) TimeUnit.MILLISECONDS.toNanos(1);
-    }
-
-    private static double median(double[] all) {
-        Arrays.sort(all);
-        return all[all.length / 2];
     }
 
     /** A recording whose states are found by reading it from its beginning. */

@@ -10,6 +10,7 @@ import java.util.function.Consumer;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.mongodb.client.MongoClient;
+import com.mongodb.client.MongoClients;
 import com.mongodb.client.MongoCollection;
 import org.bson.RawBsonDocument;
 
@@ -51,19 +52,22 @@ record StoredMission(String name, int events, int perSecond, long seed) {
         return all;
     }
 
-    void store(MongoClient client) {
-        MissionCollections missions = new MissionCollections(client, Retention.of(null, Map.of()), Clock.systemUTC());
-        MongoCollection<RawBsonDocument> collection = missions.prepared(MissionCollections.nameOf(name));
-        List<RawBsonDocument> bulk = new ArrayList<>(BULK);
-        forEach(event -> {
-            bulk.add(document(event));
-            if (bulk.size() == BULK) {
+    void store(String mongo) {
+        try (MongoClient client = MongoClients.create(mongo)) {
+            MissionCollections missions =
+                    new MissionCollections(client, Retention.of(null, Map.of()), Clock.systemUTC());
+            MongoCollection<RawBsonDocument> collection = missions.prepared(MissionCollections.nameOf(name));
+            List<RawBsonDocument> bulk = new ArrayList<>(BULK);
+            forEach(event -> {
+                bulk.add(document(event));
+                if (bulk.size() == BULK) {
+                    collection.insertMany(bulk);
+                    bulk.clear();
+                }
+            });
+            if (!bulk.isEmpty()) {
                 collection.insertMany(bulk);
-                bulk.clear();
             }
-        });
-        if (!bulk.isEmpty()) {
-            collection.insertMany(bulk);
         }
     }
 

@@ -8,11 +8,8 @@ import java.util.Map;
 import java.util.function.Consumer;
 import java.util.stream.IntStream;
 
-import com.mongodb.client.MongoClient;
-import com.mongodb.client.MongoClients;
-import org.apache.kafka.clients.producer.KafkaProducer;
-
-import io.furrow.bench.analytics.Figures;
+import io.furrow.bench.frame.Figures;
+import io.furrow.bench.frame.TopicFiller;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.topic.Topics;
@@ -22,14 +19,17 @@ import io.furrow.model.topic.Topics;
  * replay alone begins at a moment that is said beforehand; several begin as soon as the job can, and the loop follows
  * the beginnings that the job made.
  */
-public final class TimingMeasurement {
+final class TimingMeasurement {
+    /** Of a turn before anything counts. */
+    private static final int WARM_UP_SECONDS = 10;
+
     private static final int MAX_MISSIONS = 20;
     private static final int START_SECONDS = 5;
     private static final long AHEAD_MILLIS = 3_000;
     private static final int MILLIS = 1_000;
 
     private final ReplayCluster cluster;
-    private final ReplayBenchPlan plan;
+    private final int seconds;
     private final int replays;
     private final int perSecond;
     private final List<StoredMission> missions;
@@ -38,24 +38,23 @@ public final class TimingMeasurement {
     private record Turn(Timing replay, Timing bare, long[] untilFirst) {}
 
     /** @param perSecond events of each replay */
-    public TimingMeasurement(
-            ReplayCluster cluster, ReplayBenchPlan plan, int replays, int perSecond, Consumer<String> progress) {
+    TimingMeasurement(ReplayCluster cluster, int replays, int perSecond, int seconds, Consumer<String> progress) {
         this.cluster = cluster;
-        this.plan = plan;
+        this.seconds = seconds;
         this.replays = replays;
         this.perSecond = perSecond;
         this.progress = progress;
         this.missions = IntStream.range(0, Math.min(replays, MAX_MISSIONS))
                 .mapToObj(number -> new StoredMission(
-                        "timing-%d-%d".formatted(replays, number), perSecond * plan.seconds(), perSecond, number))
+                        "timing-%d-%d".formatted(replays, number), perSecond * seconds, perSecond, number))
                 .toList();
     }
 
     /** @return whether every event was written */
-    public boolean run(Consumer<Figures> out) throws Exception {
-        store();
+    boolean run(int count, Consumer<Figures> out) throws Exception {
+        missions.forEach(mission -> mission.store(cluster.mongo()));
         List<Turn> turns = new ArrayList<>();
-        for (int turn = 0; turn <= plan.turns(); turn++) {
+        for (int turn = 0; turn <= count; turn++) {
             Turn measured = turn(turn);
             progress.accept("%s  replay: %s, bare loop: %s"
                     .formatted(
@@ -72,29 +71,21 @@ public final class TimingMeasurement {
     }
 
     /** Plays them once. @return heap in use after collections while they were played, less than before, MiB at most */
-    public long heldWhilePlayed() throws Exception {
-        store();
-        try (HeldHeap heap = HeldHeap.start(progress)) {
+    long heldWhilePlayed() throws Exception {
+        missions.forEach(mission -> mission.store(cluster.mongo()));
+        try (HeapGrowth heap = HeapGrowth.start(progress)) {
             List<DesiredReplay> desired = desired(0, Long.MAX_VALUE, null);
-            cluster.want(desired);
-            cluster.awaitEnd(desired);
+            cluster.play(desired);
             return heap.most();
         }
     }
 
-    private void store() {
-        try (MongoClient client = MongoClients.create(cluster.mongo())) {
-            missions.forEach(mission -> mission.store(client));
-        }
-    }
-
     private Turn turn(int number) throws Exception {
-        long until = number == 0 ? StoredMission.BEGIN + ReplayBenchPlan.WARM_UP_SECONDS * MILLIS : Long.MAX_VALUE;
+        long until = number == 0 ? StoredMission.BEGIN + WARM_UP_SECONDS * MILLIS : Long.MAX_VALUE;
         Long startAt = replays > 1 ? null : Long.valueOf(System.currentTimeMillis() + AHEAD_MILLIS);
         List<DesiredReplay> desired = desired(2 * number, until, startAt);
         long asked = System.currentTimeMillis();
-        cluster.want(desired);
-        cluster.awaitEnd(desired);
+        cluster.play(desired);
         Timing.Collected played = collected();
         List<ScheduledReplay> schedule = new ArrayList<>();
         long[] untilFirst = new long[replays];
@@ -124,13 +115,13 @@ public final class TimingMeasurement {
                 .orElseThrow()
                 .anchor();
         List<ScheduledReplay> again;
-        try (KafkaProducer<byte[], byte[]> producer = cluster.producer()) {
-            topics.forEach(producer::partitionsFor); // what a job that runs knows already
+        try (TopicFiller producer = cluster.producer()) {
+            producer.learn(topics); // what a job that runs knows already
             long later = System.currentTimeMillis() + AHEAD_MILLIS - first;
             again = IntStream.range(0, replays)
                     .mapToObj(i -> schedule.get(i).onto(others.get(i), later))
                     .toList();
-            new BareSchedule(again, until).write(producer);
+            new BaselineSchedule(again, until).write(producer);
         }
         Timing.Collected written = collected();
         Map<String, List<PlayedRecord>> onTopics = ScheduledReplay.events(cluster, others);
@@ -160,12 +151,7 @@ public final class TimingMeasurement {
     private Figures figures(List<Turn> turns) {
         Figures figures = new Figures(
                 "%d at once, %d events/s each for %d s at speed 1, ms behind schedule, medians of %d turns; a checkpoint every %d ms"
-                        .formatted(
-                                replays,
-                                perSecond,
-                                plan.seconds(),
-                                turns.size(),
-                                plan.checkpointInterval().toMillis()));
+                        .formatted(replays, perSecond, seconds, turns.size(), cluster.checkpointMillis()));
         add(figures, "replay", turns.stream().map(Turn::replay).toList());
         add(figures, "bare loop", turns.stream().map(Turn::bare).toList());
         if (replays > 1) {
@@ -190,21 +176,13 @@ public final class TimingMeasurement {
     private static void row(Figures figures, String who, String what, List<Lateness> turns, long missing) {
         Lateness median = Lateness.median(turns);
         figures.add(
-                "by",
-                who,
-                "when",
-                what,
-                "p50",
-                (int) median.p50(),
-                "p99",
-                (int) median.p99(),
-                "max",
-                (int) median.max(),
-                "drift",
-                (int) median.drift(),
-                "least",
-                (int) median.least(),
-                "missing",
-                (int) missing);
+                "by", who,
+                "when", what,
+                "p50", median.p50(),
+                "p99", median.p99(),
+                "max", median.max(),
+                "drift", median.drift(),
+                "least", median.least(),
+                "missing", missing);
     }
 }

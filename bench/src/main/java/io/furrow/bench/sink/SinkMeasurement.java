@@ -5,31 +5,27 @@ import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.BitSet;
-import java.util.List;
+import java.util.Map;
 import java.util.Properties;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
-import java.util.concurrent.atomic.AtomicReference;
 import java.util.function.Consumer;
 import java.util.function.Supplier;
 
 import org.apache.kafka.clients.admin.Admin;
-import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.OffsetAndMetadata;
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
 
-import io.furrow.bench.http.BareServer;
+import io.furrow.bench.frame.Engines;
+import io.furrow.bench.frame.TopicFiller;
+import io.furrow.bench.http.BaselineServer;
 import io.furrow.bench.http.HttpLoad;
-import io.furrow.bench.http.HttpLoadPlan;
 import io.furrow.bench.http.NotificationRequest;
 import io.furrow.model.event.HeaderNames;
 
 /** Fills a topic, lets the sink write it into a context broker, and reports the time. */
-public final class SinkMeasurement {
+final class SinkMeasurement {
     private static final int PARTITIONS = 4;
-    private static final short REPLICAS = 1;
     private static final int ENTITIES_PER_REQUEST = 100;
     private static final Duration TIMEOUT = Duration.ofMinutes(3);
     private static final long POLL_INTERVAL_MS = 100;
@@ -39,56 +35,46 @@ public final class SinkMeasurement {
     private final Consumer<String> progress;
 
     /** Starts the sink for a topic and a context broker, under a name of its own, and returns when it runs. */
-    public interface SinkStart {
+    interface SinkStart {
         void start(String name, String topic, URI contextBroker);
     }
 
     /** @param progress is reported once a second how far it is */
-    public SinkMeasurement(Properties kafka, Consumer<String> progress) {
+    SinkMeasurement(Properties kafka, Consumer<String> progress) {
         this.kafka = kafka;
         this.progress = progress;
     }
 
     /** Into a receiver that only answers. */
-    public SinkRun run(String name, SinkPlan plan, SinkStart sink) throws InterruptedException, ExecutionException {
+    SinkReport.Run run(String name, SinkReport.Plan plan, SinkStart sink)
+            throws InterruptedException, ExecutionException {
         fill(name, plan);
-        try (AnsweringBroker broker = AnsweringBroker.start()) {
+        try (StubBroker broker = StubBroker.start()) {
             sink.start(name, name, broker.uri());
             awaitCommitted(name, plan.records(), () -> broker.entities() + " entities written");
             long missing = missing(plan, broker.numbers());
-            return new SinkRun(
-                    plan, broker.nanos(), broker.entities(), broker.requests(), missing, bareEntitiesPerSecond(plan));
+            return new SinkReport.Run(
+                    broker.nanos(), broker.entities(), broker.requests(), missing, bareEntitiesPerSecond(plan));
         }
     }
 
     /** Into a context broker that does not count: the time has the sink's start in it. */
-    public SinkRun runInto(URI contextBroker, String name, SinkPlan plan, SinkStart sink)
+    SinkReport.Run runInto(URI contextBroker, String name, SinkReport.Plan plan, SinkStart sink)
             throws InterruptedException, ExecutionException {
         fill(name, plan);
         long start = System.nanoTime();
         sink.start(name, name, contextBroker);
         awaitCommitted(name, plan.records(), () -> "into " + contextBroker);
-        return new SinkRun(plan, System.nanoTime() - start, 0, 0, 0, Double.NaN);
+        return new SinkReport.Run(System.nanoTime() - start, 0, 0, 0, Double.NaN);
     }
 
-    private void fill(String topic, SinkPlan plan) throws InterruptedException, ExecutionException {
+    private void fill(String topic, SinkReport.Plan plan) throws InterruptedException, ExecutionException {
         progress.accept(topic + ": filling the topic");
-        try (Admin admin = Admin.create(kafka)) {
-            admin.createTopics(List.of(new NewTopic(topic, PARTITIONS, REPLICAS)))
-                    .all()
-                    .get();
-        }
+        Engines.makeTopics(kafka, PARTITIONS, Map.of(), topic);
         NotificationRequest entities = NotificationRequest.to(
                 InetSocketAddress.createUnresolved("127.0.0.1", 0), plan.payloadBytes(), plan.entities());
         long firstMillis = System.currentTimeMillis() - plan.records();
-        Properties properties = new Properties();
-        properties.putAll(kafka);
-        // With more, the first batch to a partition that is just being made can be overtaken and is then refused for
-        // ever.
-        properties.setProperty("max.in.flight.requests.per.connection", "1");
-        AtomicReference<Exception> failed = new AtomicReference<>();
-        try (KafkaProducer<byte[], byte[]> producer =
-                new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
+        try (TopicFiller filler = new TopicFiller(kafka, Map.of())) {
             for (int number = 0; number < plan.records(); number++) {
                 long millis = firstMillis + number;
                 byte[] key = Integer.toString(number % plan.entities()).getBytes(StandardCharsets.US_ASCII);
@@ -96,11 +82,8 @@ public final class SinkMeasurement {
                         new ProducerRecord<>(topic, null, millis, key, entities.entityWith(number, millis));
                 record.headers().add(HeaderNames.SERVICE, "farm".getBytes(StandardCharsets.US_ASCII));
                 record.headers().add(HeaderNames.SERVICE_PATH, "/".getBytes(StandardCharsets.US_ASCII));
-                producer.send(record, (metadata, failure) -> failed.compareAndSet(null, failure));
+                filler.send(record);
             }
-        }
-        if (failed.get() != null) {
-            throw new IllegalStateException("topic " + topic + " could not be filled", failed.get());
         }
     }
 
@@ -108,13 +91,13 @@ public final class SinkMeasurement {
             throws InterruptedException, ExecutionException {
         long end = System.nanoTime() + TIMEOUT.toNanos();
         try (Admin admin = Admin.create(kafka)) {
-            for (int looks = 0; committed(admin, sink) < records; looks++) {
+            for (int polls = 0; committed(admin, sink) < records; polls++) {
                 if (System.nanoTime() > end) {
                     throw new IllegalStateException("the sink has not committed %d records within %d s"
                             .formatted(records, TIMEOUT.toSeconds()));
                 }
-                if (looks % POLLS_PER_SECOND == 0) {
-                    progress.accept("%s: %d s, %s".formatted(sink, looks / POLLS_PER_SECOND, state.get()));
+                if (polls % POLLS_PER_SECOND == 0) {
+                    progress.accept("%s: %d s, %s".formatted(sink, polls / POLLS_PER_SECOND, state.get()));
                 }
                 TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
             }
@@ -128,17 +111,17 @@ public final class SinkMeasurement {
     }
 
     /** The newest record of each entity must have come; older ones may have been merged into it. */
-    static long missing(SinkPlan plan, BitSet arrived) {
+    static long missing(SinkReport.Plan plan, BitSet arrived) {
         BitSet newest = new BitSet();
         newest.set(plan.records() - plan.entities(), plan.records());
         newest.andNot(arrived);
         return newest.cardinality();
     }
 
-    private static double bareEntitiesPerSecond(SinkPlan plan) {
-        try (BareServer server = BareServer.start()) {
-            HttpLoadPlan load =
-                    new HttpLoadPlan(4, false, 0, ENTITIES_PER_REQUEST * plan.payloadBytes(), 1, Duration.ofSeconds(3));
+    private static double bareEntitiesPerSecond(SinkReport.Plan plan) {
+        try (BaselineServer server = BaselineServer.start()) {
+            HttpLoad.Plan load = new HttpLoad.Plan(
+                    4, false, 0, ENTITIES_PER_REQUEST * plan.payloadBytes(), 1, Duration.ofSeconds(3));
             return new HttpLoad(server.address(), load, 0).run().perSecond() * ENTITIES_PER_REQUEST;
         }
     }

@@ -1,68 +1,78 @@
 package io.furrow.bench.sink;
 
-import java.io.PrintWriter;
 import java.util.List;
-import java.util.Locale;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.bench.frame.Figures;
+
 /** The runs of one kind and their median. */
-public record SinkReport(String title, List<SinkRun> runs) {
-    private static final String HEAD = "%-7s %10s %10s %10s %8s %12s%n";
+record SinkReport(String title, Plan plan, List<Run> runs) {
+    /**
+     * What the sink has to write.
+     *
+     * @param records in the topic before the sink starts
+     * @param entities that they are about; as many as records if each is about its own
+     * @param payloadBytes of a notification with such an entity
+     */
+    record Plan(int records, int entities, int payloadBytes) {}
+
+    /**
+     * The records of a topic written by the sink.
+     *
+     * @param nanos from the first request to the last, or from the sink's start to its last commit if {@code entities} is 0
+     * @param entities in the requests; 0 where the receiver does not count
+     * @param requests updates and questions
+     * @param missing entities whose newest record did not come
+     * @param bareEntitiesPerSecond entities in bodies of a hundred that a server takes which only answers
+     */
+    record Run(long nanos, long entities, long requests, long missing, double bareEntitiesPerSecond) {}
+
+    /** Records per second: each is an update of an entity, whether or not it was merged with others. */
+    private double updatesPerSecond(Run run) {
+        return plan.records * 1e9 / run.nanos;
+    }
 
     /** Updates per second; of an even number of runs the upper median. */
-    public double median() {
-        double[] sorted =
-                runs.stream().mapToDouble(SinkRun::updatesPerSecond).sorted().toArray();
-        return sorted[sorted.length / 2];
+    double median() {
+        return Figures.median(runs, this::updatesPerSecond);
     }
 
     /** Entities whose newest state did not come, of all runs. */
-    public long missing() {
-        return runs.stream().mapToLong(SinkRun::missing).sum();
+    long missing() {
+        return runs.stream().mapToLong(Run::missing).sum();
     }
 
-    public void print(PrintWriter out) {
-        SinkPlan plan = runs.get(0).plan();
-        out.printf(
-                Locale.ROOT,
-                "%s: %d records of %d bytes about %d entities%n",
-                title,
-                plan.records(),
-                plan.payloadBytes(),
-                plan.entities());
-        out.printf(HEAD, "run", "updates/s", "entities", "requests", "missing", "bare server");
-        for (int i = 0; i < runs.size(); i++) {
-            SinkRun run = runs.get(i);
-            out.printf(
-                    Locale.ROOT,
-                    "%-7d %10.0f %10d %10d %8d %12.0f%n",
-                    i + 1,
-                    run.updatesPerSecond(),
-                    run.entities(),
-                    run.requests(),
-                    run.missing(),
-                    run.bareEntitiesPerSecond());
+    Figures figures() {
+        Figures figures = new Figures("%s: %d records of %d bytes about %d entities"
+                .formatted(title, plan.records, plan.payloadBytes, plan.entities));
+        for (Run run : runs) {
+            figures.add(
+                    "run", Integer.toString(runs.indexOf(run) + 1),
+                    "updates/s", updatesPerSecond(run),
+                    "entities", run.entities,
+                    "requests", run.requests,
+                    "missing", run.missing,
+                    "bare server", run.bareEntitiesPerSecond);
         }
-        out.printf(Locale.ROOT, "%-7s %10.0f%n%n", "median", median());
-        out.flush();
+        return figures.add("run", "median", "updates/s", median());
     }
 
     /** Every figure of every run. */
-    public ObjectNode json() {
+    ObjectNode json() {
         ObjectNode json = JsonNodeFactory.instance.objectNode();
         json.put("title", title).put("medianUpdatesPerSecond", median());
-        for (SinkRun run : runs) {
+        for (Run run : runs) {
             json.withArray("runs")
                     .addObject()
-                    .put("records", run.plan().records())
-                    .put("entitiesInTopic", run.plan().entities())
-                    .put("updatesPerSecond", run.updatesPerSecond())
-                    .put("entitiesWritten", run.entities())
-                    .put("requests", run.requests())
-                    .put("missing", run.missing())
-                    .put("bareServerEntitiesPerSecond", run.bareEntitiesPerSecond());
+                    .put("records", plan.records)
+                    .put("entitiesInTopic", plan.entities)
+                    .put("updatesPerSecond", updatesPerSecond(run))
+                    .put("entitiesWritten", run.entities)
+                    .put("requests", run.requests)
+                    .put("missing", run.missing)
+                    .put("bareServerEntitiesPerSecond", run.bareEntitiesPerSecond);
         }
         return json;
     }

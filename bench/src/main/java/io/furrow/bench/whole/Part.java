@@ -4,7 +4,7 @@ import java.util.List;
 import java.util.Locale;
 
 /** What is measured of a whole suite; devices are zero where none of the load's report. */
-public enum Part {
+enum Part {
     /** {@code ./furrow up} with nothing to do. */
     IDLE(0),
     /** {@code ./furrow demo}. */

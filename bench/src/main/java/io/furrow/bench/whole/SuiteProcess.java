@@ -2,13 +2,13 @@ package io.furrow.bench.whole;
 
 import java.io.BufferedReader;
 import java.io.IOException;
-import java.nio.file.Files;
-import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Predicate;
+
+import io.furrow.bench.frame.ProcessStatus;
 
 /** {@code ./furrow} as a process of its own, seen from outside: what it prints, and what the system says of it (Linux). */
 final class SuiteProcess implements AutoCloseable {
@@ -74,20 +74,11 @@ final class SuiteProcess implements AutoCloseable {
     }
 
     long threads() throws IOException {
-        return status("Threads:");
+        return ProcessStatus.of(process.pid(), "Threads");
     }
 
     long residentMb() throws IOException {
-        return status("VmRSS:") / 1024;
-    }
-
-    private long status(String name) throws IOException {
-        Path status = Path.of("/proc", Long.toString(process.pid()), "status");
-        return Files.readAllLines(status).stream()
-                .filter(line -> line.startsWith(name))
-                .mapToLong(line -> Long.parseLong(line.replaceAll("\\D", "")))
-                .findFirst()
-                .orElseThrow(() -> new IOException(status + " has no line " + name));
+        return ProcessStatus.of(process.pid(), "VmRSS") / 1024;
     }
 
     @Override

@@ -5,8 +5,8 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.HashMap;
 import java.util.LinkedHashMap;
-import java.util.List;
 import java.util.Map;
+import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
 
@@ -26,60 +26,32 @@ public record ThreadTimes(Map<String, Spent> threads) {
     static final String OTHERS = "everything else";
 
     /** What threads do, by how their names begin; the first that fits counts. */
-    private static final Map<String, List<String>> ROLES = roles();
+    private static final Map<String, Pattern> ROLES = new LinkedHashMap<>();
 
-    private static Map<String, List<String>> roles() {
-        Map<String, List<String>> roles = new LinkedHashMap<>();
-        roles.put(COMPILERS, List.of("C1 Compiler", "C2 Compiler", "Sweeper"));
-        roles.put("garbage collection, VM", List.of("GC Thread", "VM ", "G1 "));
-        roles.put(
+    static {
+        role(COMPILERS, "C1 Compiler|C2 Compiler|Sweeper");
+        role("garbage collection, VM", "GC Thread|VM |G1 ");
+        role(
                 DEVICES,
-                List.of(
-                        "load",
-                        "MQTT ",
-                        "nioEventLoop",
-                        "Session Exec",
-                        "com.hivemq",
-                        "furrow-iot-agen",
-                        "furrow-notifier",
-                        "context-broker",
-                        "iot-agent",
-                        "simulated-farm",
-                        "device-host"));
-        roles.put("NGSI source: HTTP, journal", List.of("ngsi-source", "journal", "task-thread-ngs"));
-        roles.put("Kafka broker", List.of("data-plane", "group-coord", "kafka-1-", "Txn", "AddPart", "Expiration"));
-        roles.put("Kafka producers", List.of("kafka-producer"));
-        roles.put("Flink: readers of Kafka", List.of("Source Data Fet"));
-        roles.put("Flink: flush threads", List.of("OutputFlusher"));
-        roles.put(
+                "load|MQTT |nioEventLoop|Session Exec|com.hivemq|furrow-iot-agen|furrow-notifier|context-broker|iot-agent"
+                        + "|simulated-farm|device-host");
+        role("NGSI source: HTTP, journal", "ngsi-source|journal|task-thread-ngs");
+        role("Kafka broker", "data-plane|group-coord|kafka-1-|Txn|AddPart|Expiration");
+        role("Kafka producers", "kafka-producer");
+        role("Flink: readers of Kafka", "Source Data Fet");
+        role("Flink: flush threads", "OutputFlusher");
+        role(
                 "Flink: checkpoints, control",
-                List.of(
-                        "AsyncOper",
-                        "jobmanager",
-                        "flink-",
-                        "Flink-",
-                        "Checkpoint",
-                        "SourceCoord",
-                        "Time Trigger",
-                        "System Time"));
-        roles.put(
+                "AsyncOper|jobmanager|flink-|Flink-|Checkpoint|SourceCoord|Time Trigger|System Time");
+        role(
                 "Flink: operators",
-                List.of(
-                        "Source:",
-                        "Assign",
-                        "Read ",
-                        "Track",
-                        "Match",
-                        "Merge",
-                        "Ensure",
-                        "Dedup",
-                        "Cast",
-                        "Average",
-                        "Watch the",
-                        "missions to"));
-        roles.put("farm watch and managers", List.of("furrow-farm-wat", "furrow-control"));
-        roles.put("MongoDB stand-in", List.of("mongo-server"));
-        return roles;
+                "Source:|Assign|Read |Track|Match|Merge|Ensure|Dedup|Cast|Average|Watch the|missions to");
+        role("farm watch and managers", "furrow-farm-wat|furrow-control");
+        role("MongoDB stand-in", "mongo-server");
+    }
+
+    private static void role(String role, String beginnings) {
+        ROLES.put(role, Pattern.compile(beginnings));
     }
 
     /** @throws IOException if the process has ended */
@@ -108,7 +80,7 @@ public record ThreadTimes(Map<String, Spent> threads) {
 
     static String role(String thread) {
         return ROLES.entrySet().stream()
-                .filter(role -> role.getValue().stream().anyMatch(thread::startsWith))
+                .filter(role -> role.getValue().matcher(thread).lookingAt())
                 .map(Map.Entry::getKey)
                 .findFirst()
                 .orElse(OTHERS);

@@ -13,13 +13,13 @@ import java.util.concurrent.TimeUnit;
 import io.furrow.bench.whole.Part.Figure;
 
 /** Measures one checkout at a time; the machine is to be quiet otherwise, and the suite's usual ports free. */
-public final class WholeMeasurement {
+final class WholeMeasurement {
     /**
      * What was measured.
      *
      * @param roles processor time by what threads do, cores; with the switches between threads a second
      */
-    public record Result(Map<Figure, Double> figures, Map<String, Double> roles, double switchesPerSecond) {
+    record Result(Map<Figure, Double> figures, Map<String, Double> roles, double switchesPerSecond) {
         private static Result of(Map<Figure, Double> figures, ThreadTimes spent, double nanos) {
             Map<String, Double> cores = new LinkedHashMap<>();
             spent.byRole().forEach((role, time) -> cores.put(role, time / nanos));
@@ -33,13 +33,13 @@ public final class WholeMeasurement {
     private final Duration warmup;
     private final Duration measured;
 
-    public WholeMeasurement(Duration warmup, Duration measured) {
+    WholeMeasurement(Duration warmup, Duration measured) {
         this.warmup = warmup;
         this.measured = measured;
     }
 
     /** @throws IOException if the suite did not start, or ended early */
-    public Result run(Checkout checkout, Part part) throws IOException, InterruptedException {
+    Result run(Checkout checkout, Part part) throws IOException, InterruptedException {
         return switch (part) {
             case IDLE -> running(checkout, "up");
             case DEMO -> running(checkout, "demo");

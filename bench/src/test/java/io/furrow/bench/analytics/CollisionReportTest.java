@@ -5,12 +5,11 @@ import java.util.List;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.bench.analytics.load.CollisionPlan;
-
 import static org.assertj.core.api.Assertions.assertThat;
 
 class CollisionReportTest {
-    private static final CollisionPlan PLAN = new CollisionPlan(10, 1, Duration.ofSeconds(1), Duration.ofSeconds(1));
+    private static final CollisionReport.Plan PLAN =
+            new CollisionReport.Plan(10, 1, Duration.ofSeconds(1), Duration.ofSeconds(1));
     private static final RedisGeo.Result SAME = new RedisGeo.Result(500, 40, 40);
 
     @Test
@@ -39,7 +38,7 @@ class CollisionReportTest {
                 .asText();
     }
 
-    private static CollisionRun run(RedisGeo.Result redis, int compared, int different) {
-        return new CollisionRun(PLAN, 1_000, 1, 1, 1, 2_000, redis, compared, different);
+    private static CollisionReport.Run run(RedisGeo.Result redis, int compared, int different) {
+        return new CollisionReport.Run(PLAN, 1_000, 1, 1, 1, 2_000, redis, compared, different);
     }
 }

@@ -13,7 +13,7 @@ import org.junit.jupiter.api.Test;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ControlMeasurementTest {
-    private static final ControlLoadPlan PLAN = new ControlLoadPlan(0, 10, Duration.ofMillis(200));
+    private static final ControlMeasurement.Plan PLAN = new ControlMeasurement.Plan(0, 10, Duration.ofMillis(200));
 
     private final List<String> ids = new ArrayList<>();
     private final AtomicLong repeats = new AtomicLong();
@@ -21,7 +21,8 @@ class ControlMeasurementTest {
 
     @Test
     void countsRequestsThatAreAnsweredAsTheyShould() throws Exception {
-        ControlReport report = new ControlMeasurement(client("changed", "created", "deleted"), "run").run(PLAN);
+        ControlMeasurement.Report report =
+                new ControlMeasurement(client("changed", "created", "deleted"), "run").run(PLAN);
 
         assertThat(report.sent()).isPositive().isEqualTo(report.answered()).isEqualTo(ids.size());
         assertThat(report.isSound()).isTrue();
@@ -31,7 +32,7 @@ class ControlMeasurementTest {
 
     @Test
     void tellsOfAnswersThatAreWrong() throws Exception {
-        ControlReport report = new ControlMeasurement(client("error"), "run").run(PLAN);
+        ControlMeasurement.Report report = new ControlMeasurement(client("error"), "run").run(PLAN);
 
         assertThat(report.answered()).isEqualTo(report.sent());
         assertThat(report.unexpected()).isEqualTo(report.sent());

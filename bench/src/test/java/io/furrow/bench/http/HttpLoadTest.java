@@ -24,9 +24,9 @@ class HttpLoadTest {
     @ParameterizedTest
     @ValueSource(booleans = {true, false})
     void countsEachAnsweredNotificationUnderItsNumber(boolean newConnections) {
-        try (BareServer server = BareServer.start()) {
+        try (BaselineServer server = BaselineServer.start()) {
             HttpLoad load = new HttpLoad(server.address(), plan(8, newConnections, 0, 500), 5_000);
-            HttpLoadResult result = load.run();
+            HttpLoad.Result result = load.run();
 
             assertThat(result.answered()).isGreaterThan(100).isEqualTo(load.sent());
             assertThat(result.acknowledged().cardinality()).isEqualTo((int) load.sent());
@@ -38,8 +38,8 @@ class HttpLoadTest {
 
     @Test
     void sendsWhatIsDueAndNoMore() {
-        try (BareServer server = BareServer.start()) {
-            HttpLoadResult result = new HttpLoad(server.address(), plan(8, false, 200, 1000), 0).run();
+        try (BaselineServer server = BaselineServer.start()) {
+            HttpLoad.Result result = new HttpLoad(server.address(), plan(8, false, 200, 1000), 0).run();
 
             assertThat(result.answered()).isEqualTo(200);
         }
@@ -50,7 +50,7 @@ class HttpLoadTest {
         try (ServerSocket listening = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
             CompletableFuture.runAsync(() -> serve(listening, 200, Duration.ofMillis(800)));
 
-            HttpLoadResult result = new HttpLoad(address(listening), plan(1, false, 100, 1000), 0).run();
+            HttpLoad.Result result = new HttpLoad(address(listening), plan(1, false, 100, 1000), 0).run();
 
             assertThat(result.answered()).isEqualTo(100);
             // 80 were due while the one connection waited, the k-th of them for 800 - 10 k ms: half of all for over 300
@@ -64,7 +64,7 @@ class HttpLoadTest {
         try (ServerSocket listening = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
             CompletableFuture.runAsync(() -> serve(listening, 503, Duration.ZERO));
 
-            HttpLoadResult result = new HttpLoad(address(listening), plan(1, false, 100, 200), 0).run();
+            HttpLoad.Result result = new HttpLoad(address(listening), plan(1, false, 100, 200), 0).run();
 
             assertThat(result.refused()).isEqualTo(20);
             assertThat(result.answered()).isZero();
@@ -80,14 +80,14 @@ class HttpLoadTest {
         }
         HttpLoad load = new HttpLoad(nobody, plan(2, false, 100, 200), 0);
 
-        HttpLoadResult result = load.run();
+        HttpLoad.Result result = load.run();
 
         assertThat(result.broken()).isEqualTo(20);
         assertThat(result.answered()).isZero();
     }
 
-    private static HttpLoadPlan plan(int connections, boolean newConnections, int rate, long millis) {
-        return new HttpLoadPlan(connections, newConnections, rate, BODY, 10, Duration.ofMillis(millis));
+    private static HttpLoad.Plan plan(int connections, boolean newConnections, int rate, long millis) {
+        return new HttpLoad.Plan(connections, newConnections, rate, BODY, 10, Duration.ofMillis(millis));
     }
 
     private static InetSocketAddress address(ServerSocket listening) {

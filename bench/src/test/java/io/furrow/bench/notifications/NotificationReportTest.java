@@ -10,21 +10,20 @@ import java.util.Map;
 import org.HdrHistogram.Histogram;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.bench.http.HttpLoadPlan;
-import io.furrow.bench.http.HttpLoadResult;
+import io.furrow.bench.http.HttpLoad;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
 class NotificationReportTest {
-    private static final HttpLoadPlan PLAN = new HttpLoadPlan(64, false, 0, 1000, 10, Duration.ofSeconds(1));
+    private static final HttpLoad.Plan PLAN = new HttpLoad.Plan(64, false, 0, 1000, 10, Duration.ofSeconds(1));
 
     private final NotificationReport report =
             new NotificationReport(PLAN, "/data, on ext4", List.of(run(3000, 2), run(1000, 0), run(2000, 0)));
 
     @Test
     void showsTheMedianOfEachFigure() {
-        assertThat(report.median(NotificationRun::perSecond)).isEqualTo(2000, within(1e-6));
+        assertThat(report.median(NotificationReport.Run::perSecond)).isEqualTo(2000, within(1e-6));
         assertThat(report.json().path("median").path("answeredPerSecond").asDouble())
                 .isEqualTo(2000, within(1e-6));
         assertThat(report.json().path("runs")).hasSize(3);
@@ -37,7 +36,7 @@ class NotificationReportTest {
 
     @Test
     void setsARateInRelationToWhatWasMeasuredBesideIt() {
-        NotificationRun run = run(1000, 0);
+        NotificationReport.Run run = run(1000, 0);
 
         assertThat(run.ofBareServer()).isEqualTo(0.1, within(1e-6));
         assertThat(run.ofBareBridge()).isEqualTo(0.25, within(1e-6));
@@ -47,9 +46,9 @@ class NotificationReportTest {
 
     @Test
     void countsNoMoreThanWhatIsInKafkaToo() {
-        HttpLoadResult load = load(1000);
+        HttpLoad.Result load = load(1000);
 
-        assertThat(new NotificationRun(load, 400, 0, 0, Map.of(), load, load, 1).perSecond())
+        assertThat(new NotificationReport.Run(load, 400, 0, 0, Map.of(), load, load, 1).perSecond())
                 .isEqualTo(400);
     }
 
@@ -69,14 +68,14 @@ class NotificationReportTest {
     }
 
     /** One second of this many notifications, and 50 ms of a listener's processor time. */
-    private static NotificationRun run(int count, long missing) {
-        return new NotificationRun(
+    private static NotificationReport.Run run(int count, long missing) {
+        return new NotificationReport.Run(
                 load(count), count, missing, 0, Map.of("listener", 50_000_000L), load(10_000), load(4_000), 50_000);
     }
 
-    private static HttpLoadResult load(int count) {
+    private static HttpLoad.Result load(int count) {
         Histogram latency = new Histogram(1_000_000, 3);
         latency.recordValueWithCount(5000, count);
-        return new HttpLoadResult(0, new BitSet(), 0, 0, latency, 1_000_000_000L);
+        return new HttpLoad.Result(0, new BitSet(), 0, 0, latency, 1_000_000_000L);
     }
 }

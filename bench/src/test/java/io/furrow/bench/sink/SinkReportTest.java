@@ -11,7 +11,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
 class SinkReportTest {
-    private static final SinkPlan PLAN = new SinkPlan(1000, 10, 500);
+    private static final SinkReport.Plan PLAN = new SinkReport.Plan(1000, 10, 500);
 
     @Test
     void asksForTheNewestRecordOfEachEntityOnly() {
@@ -25,10 +25,10 @@ class SinkReportTest {
 
     @Test
     void countsEachRecordAsAnUpdateThoughItWasMerged() {
-        SinkReport report = new SinkReport("Repeated", List.of(run(1, 0), run(2, 1), run(4, 0)));
+        SinkReport report = new SinkReport("Repeated", PLAN, List.of(run(1, 0), run(2, 1), run(4, 0)));
         StringWriter out = new StringWriter();
 
-        report.print(new PrintWriter(out));
+        report.figures().print(new PrintWriter(out));
 
         assertThat(report.median()).isEqualTo(500, within(1e-6));
         assertThat(report.missing()).isEqualTo(1);
@@ -39,7 +39,7 @@ class SinkReportTest {
                 .containsPattern("(?m)^median +500");
     }
 
-    private static SinkRun run(long seconds, long missing) {
-        return new SinkRun(PLAN, seconds * 1_000_000_000L, 40, 7, missing, 9000);
+    private static SinkReport.Run run(long seconds, long missing) {
+        return new SinkReport.Run(seconds * 1_000_000_000L, 40, 7, missing, 9000);
     }
 }

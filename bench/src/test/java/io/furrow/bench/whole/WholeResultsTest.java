@@ -30,7 +30,7 @@ class WholeResultsTest {
         }
         StringWriter table = new StringWriter();
 
-        results.print(new PrintWriter(table), HERE, OTHER);
+        results.figures(HERE, OTHER).print(new PrintWriter(table));
 
         assertThat(table.toString().replaceAll(" +", " ")).contains("idle cores 3.00 3.00 1.00");
     }

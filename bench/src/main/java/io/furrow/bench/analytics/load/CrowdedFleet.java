@@ -50,7 +50,7 @@ public final class CrowdedFleet {
     }
 
     /** As a receiver of the report reads it. */
-    public static PositionFix told(PositionFix fix) {
+    public static PositionFix rounded(PositionFix fix) {
         return Fleet.fix(fix.identity(), fix.id(), rounded(fix.latitude()), rounded(fix.longitude()), fix.time());
     }
 

@@ -4,30 +4,25 @@ import java.util.List;
 import java.util.Map;
 import java.util.Properties;
 import java.util.concurrent.ExecutionException;
-import java.util.concurrent.atomic.AtomicReference;
 import java.util.concurrent.locks.LockSupport;
 import java.util.function.Consumer;
 
 import org.apache.kafka.clients.admin.Admin;
-import org.apache.kafka.clients.admin.NewTopic;
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.analytics.position.PositionFix;
+import io.furrow.bench.frame.Engines;
+import io.furrow.bench.frame.TopicFiller;
 
 /** A topic into which a fleet reports, and the topic of what is found in it. */
 public final class FleetTopic implements AutoCloseable {
     public static final int PARTITIONS = 4;
-    private static final short REPLICAS = 1;
     private static final String FOUND = ".found";
     private static final String OVERFLOWS = ".overflows";
 
     private final String name;
-    private final int partitions;
     private final Properties kafka;
-    private final KafkaProducer<byte[], byte[]> producer;
-    private final AtomicReference<Exception> failed = new AtomicReference<>();
+    private final TopicFiller producer;
     private volatile boolean stopped;
     private volatile long sent;
     private volatile long begin;
@@ -38,45 +33,24 @@ public final class FleetTopic implements AutoCloseable {
         void tick(long tick, Consumer<PositionFix> out);
     }
 
-    private FleetTopic(String name, int partitions, Properties kafka) {
+    private FleetTopic(String name, Properties kafka) {
         this.name = name;
-        this.partitions = partitions;
         this.kafka = kafka;
-        Properties properties = new Properties();
-        properties.putAll(kafka);
-        properties.setProperty("batch.size", "131072");
-        properties.setProperty("linger.ms", "5");
-        properties.setProperty("max.in.flight.requests.per.connection", "1"); // the topic was made just now
-        producer = new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer());
-    }
-
-    public static FleetTopic create(String name, Properties kafka) throws InterruptedException, ExecutionException {
-        return create(name, PARTITIONS, kafka);
+        producer = new TopicFiller(kafka, Map.of("batch.size", "131072", "linger.ms", "5"));
     }
 
     /** @param partitions of the topic into which the fleet reports */
     public static FleetTopic create(String name, int partitions, Properties kafka)
             throws InterruptedException, ExecutionException {
-        try (Admin admin = Admin.create(kafka)) {
-            // What the fleet reports is of a time long past.
-            Map<String, String> kept = Map.of("retention.ms", "-1");
-            admin.createTopics(List.of(
-                            new NewTopic(name, partitions, REPLICAS).configs(kept),
-                            new NewTopic(name + FOUND, PARTITIONS, REPLICAS).configs(kept),
-                            new NewTopic(name + OVERFLOWS, PARTITIONS, REPLICAS).configs(kept)))
-                    .all()
-                    .get();
-        }
-        return new FleetTopic(name, partitions, kafka);
+        // What the fleet reports is of a time long past.
+        Map<String, String> retained = Map.of("retention.ms", "-1");
+        Engines.makeTopics(kafka, partitions, retained, name);
+        Engines.makeTopics(kafka, PARTITIONS, retained, name + FOUND, name + OVERFLOWS);
+        return new FleetTopic(name, kafka);
     }
 
     public String name() {
         return name;
-    }
-
-    /** Into which the fleet reports. */
-    public int partitions() {
-        return partitions;
     }
 
     public String results() {
@@ -102,7 +76,6 @@ public final class FleetTopic implements AutoCloseable {
             fleet.tick(tick, fix -> send(fix, fix.time()));
         }
         producer.flush();
-        check();
     }
 
     /**
@@ -118,7 +91,6 @@ public final class FleetTopic implements AutoCloseable {
             });
         }
         producer.flush();
-        check();
     }
 
     /** Each device once a second at the time of sending, until {@link #stop}. */
@@ -154,23 +126,16 @@ public final class FleetTopic implements AutoCloseable {
 
     @SuppressWarnings("NonAtomicOperationOnVolatileField") // one thread sends
     private void send(ProducerRecord<byte[], byte[]> record) {
-        producer.send(record, (done, failure) -> failed.compareAndSet(null, failure));
+        producer.send(record);
         sent++;
-    }
-
-    private void check() {
-        if (failed.get() != null) {
-            throw new IllegalStateException("topic " + name + " could not be written", failed.get());
-        }
     }
 
     @Override
     public void close() {
         stop();
-        producer.close();
         try (Admin admin = Admin.create(kafka)) { // waits for what it was asked
+            producer.close();
             admin.deleteTopics(List.of(name, results(), overflows()));
         }
-        check();
     }
 }

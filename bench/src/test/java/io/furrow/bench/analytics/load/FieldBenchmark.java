@@ -32,13 +32,13 @@ public class FieldBenchmark {
     @Param({"1", "1000"})
     private int fields;
 
-    private MadeUpFields madeUp;
+    private SyntheticFields madeUp;
     private KnownFields known;
     private long next;
 
     @Setup
     public void read() throws IOException {
-        madeUp = new MadeUpFields(fields, CORNERS);
+        madeUp = new SyntheticFields(fields, CORNERS);
         known = KnownFields.read(madeUp);
     }
 

@@ -1,0 +1,68 @@
+package io.furrow.bench.evaluation;
+
+import java.io.IOException;
+import java.io.Reader;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
+
+import io.furrow.launcher.option.FiwareOptions;
+import io.furrow.launcher.process.RestClient;
+import io.furrow.simulators.device.FleetSettings;
+
+/** A suite that runs already, as {@code ./furrow up} or as separate servers. */
+final class DeploymentOptions {
+    @Option(
+            names = "--against",
+            paramLabel = "HOST:PORT",
+            description =
+                    "Kafka of a suite that runs already; devices and topics of the domain evaluation stay there. Default: suites in this process.")
+    private String kafka;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            description = "Further properties of Kafka clients, such as of TLS and SASL; with --against.")
+    private Path properties;
+
+    @Mixin
+    private FiwareOptions fiware;
+
+    /** @return null where no suite is named */
+    Evaluation.Target target() throws IOException {
+        if (kafka == null) {
+            return null;
+        }
+        Properties client = new Properties();
+        if (properties != null) {
+            try (Reader reader = Files.newBufferedReader(properties)) {
+                client.load(reader);
+            }
+        }
+        client.setProperty("bootstrap.servers", kafka);
+        return new Evaluation.Target(fiware.settings(), client, false);
+    }
+
+    /** What its servers say that they are. */
+    List<String> setting(FleetSettings servers) {
+        URI orion = servers.contextBroker();
+        URI iotAgent = servers.iotAgent();
+        return List.of(
+                "A suite that ran already, Kafka at %s, with its own guarantees and checkpoints; sender and reader are a process of their own."
+                        .formatted(kafka),
+                "Context broker at %s: %s.".formatted(orion, about(orion.resolve("/version"))),
+                "IoT Agent at %s: %s.".formatted(iotAgent, about(iotAgent.resolve("/iot/about"))));
+    }
+
+    private static String about(URI uri) {
+        RestClient.Answer answer = new RestClient().get(uri, Map.of());
+        String version = answer.body().findPath("version").asText();
+        return !answer.isSuccess() || version.isEmpty() ? "it does not say its version" : "version " + version;
+    }
+}

@@ -1,0 +1,20 @@
+package io.furrow.bench.frame;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+
+/** What Linux says of a process. */
+public final class ProcessStatus {
+    private ProcessStatus() {}
+
+    /** A number of {@code /proc/PID/status}, of memory in kB. @throws IOException if the process has ended */
+    public static long of(long pid, String name) throws IOException {
+        Path status = Path.of("/proc", Long.toString(pid), "status");
+        return Files.readAllLines(status).stream()
+                .filter(line -> line.startsWith(name + ":"))
+                .mapToLong(line -> Long.parseLong(line.replaceAll("\\D", "")))
+                .findFirst()
+                .orElseThrow(() -> new IOException(status + " has no line " + name));
+    }
+}

@@ -1,0 +1,2 @@
+/** What benchmarks have in common: a command, the engines that it starts, a reader of topics, a table of figures, a chart. */
+package io.furrow.bench.frame;
