@@ -1,5 +1,7 @@
 package io.furrow.bench.command;
 
+import java.time.Duration;
+
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
@@ -22,6 +24,7 @@ import io.furrow.bench.sink.SinkBench;
 import io.furrow.bench.whole.WholeBench;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.flink.job.Delivery;
+import io.furrow.flink.job.DurationConverter;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.launcher.Furrow;
 
@@ -61,6 +64,7 @@ public final class BenchCommand {
     static CommandLine commandLine() {
         return Furrow.commandLine()
                 .addSubcommand(new BenchCommand())
+                .registerConverter(Duration.class, new DurationConverter())
                 .registerConverter(Delivery.class, JobCommandLine::delivery);
     }
 }
