@@ -13,7 +13,7 @@ import java.util.stream.Stream;
 
 /** What a worker that stopped in order said of its disk; its gauges end with it. */
 final class LeftInLog {
-    private static final Pattern LEFT = Pattern.compile("LeftRecords .*: (\\d+) records in (\\S+) are not in Kafka");
+    private static final Pattern LEFT = Pattern.compile("UndeliveredRecords .*: (\\d+) records in (\\S+) are not in Kafka");
     private static final Pattern JOURNAL = Pattern.compile("\\d+-[0-9a-f]{16}");
 
     private LeftInLog() {}

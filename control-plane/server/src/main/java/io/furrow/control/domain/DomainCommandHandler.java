@@ -11,7 +11,7 @@ import io.furrow.kafka.field.FieldEdit;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
@@ -46,13 +46,13 @@ public final class DomainCommandHandler {
     }
 
     /** @param now epoch ms */
-    public CommandResult answer(DomainCommand command, long now) throws RefusedException {
+    public CommandResult answer(DomainCommand command, long now) throws RejectedException {
         if (command instanceof DomainCommand.Create create) {
             return create(create, now);
         }
         Domain known = domains.get(command.domain());
         if (known == null) {
-            throw new RefusedException(ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + command.domain() + "'");
+            throw new RejectedException(ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + command.domain() + "'");
         }
         if (command instanceof DomainCommand.Change change) {
             keep(known, known.changed(change.details(), now, sequence.next()));
@@ -61,9 +61,9 @@ public final class DomainCommandHandler {
         return delete(known, ((DomainCommand.Delete) command).force(), now);
     }
 
-    private CommandResult create(DomainCommand.Create create, long now) throws RefusedException {
+    private CommandResult create(DomainCommand.Create create, long now) throws RejectedException {
         if (domains.contains(create.domain())) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.DOMAIN_EXISTS,
                     "domain '%s' exists already; use 'change' to change it".formatted(create.domain()));
         }
@@ -72,11 +72,11 @@ public final class DomainCommandHandler {
     }
 
     /** With its missions; its fields end. What is stored of them stays. */
-    private CommandResult delete(Domain known, boolean force, long now) throws RefusedException {
+    private CommandResult delete(Domain known, boolean force, long now) throws RejectedException {
         String domain = known.domain();
         List<String> active = missions.activeIn(domain);
         if (!active.isEmpty() && !force) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.MISSIONS_RUNNING,
                     "%s running in domain '%s', '%s' among them; stop them first, or delete with force"
                             .formatted(Counts.are(active.size(), "mission"), domain, active.get(0)));
@@ -104,7 +104,7 @@ public final class DomainCommandHandler {
     }
 
     /** @param before null if there was none */
-    private void keep(Domain before, Domain domain) throws RefusedException {
+    private void keep(Domain before, Domain domain) throws RejectedException {
         byte[] value = domain.toBytes();
         quota.replace(before == null ? null : before.toBytes(), value);
         domains.put(domain.domain(), domain);

@@ -25,7 +25,7 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.MissionPlan;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
@@ -76,11 +76,11 @@ final class Farm {
         run(missionHandler.templates()::stock);
     }
 
-    CommandResult ask(MissionCommand command) throws RefusedException {
+    CommandResult ask(MissionCommand command) throws RejectedException {
         return stores.call(now, () -> missionHandler.answer(command, now));
     }
 
-    CommandResult ask(DomainCommand command) throws RefusedException {
+    CommandResult ask(DomainCommand command) throws RejectedException {
         return stores.call(now, () -> domainHandler.answer(command, now));
     }
 
@@ -95,7 +95,7 @@ final class Farm {
         return stores.all(records);
     }
 
-    void domain(String name) throws RefusedException {
+    void domain(String name) throws RejectedException {
         ask(new DomainCommand.Create(name, DomainDetails.NONE));
     }
 
@@ -109,7 +109,7 @@ final class Farm {
         run(() -> fields.put(version.key(), version));
     }
 
-    CommandResult start(String mission, String domain, DeviceGroup... groups) throws RefusedException {
+    CommandResult start(String mission, String domain, DeviceGroup... groups) throws RejectedException {
         return ask(new MissionCommand.Start(mission, domain, devices(groups), null, null));
     }
 
@@ -213,7 +213,7 @@ final class Farm {
         int written = outbox.all().size();
         assertThatThrownBy(what)
                 .isInstanceOfSatisfying(
-                        RefusedException.class, e -> assertThat(e.code()).isEqualTo(code));
+                        RejectedException.class, e -> assertThat(e.code()).isEqualTo(code));
         assertThat(content()).isEqualTo(before);
         assertThat(outbox.all()).hasSize(written);
     }

@@ -15,7 +15,7 @@ import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.MissionPlan;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 import static com.fasterxml.jackson.databind.node.JsonNodeFactory.instance;
@@ -126,12 +126,12 @@ class MissionDevicesTest {
         many.start("m", "north", Farm.group("Camera", 2), DeviceGroup.entity("urn:robot"));
         assertThatThrownBy(() -> many.start("other", "north", DeviceGroup.entity("urn:robot")))
                 .isInstanceOfSatisfying(
-                        RefusedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.DEVICE_TAKEN));
+                        RejectedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.DEVICE_TAKEN));
     }
 
     @Test
     void takesALongListInSeveralRequests() throws Exception {
-        farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid()));
+        farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unspecified()));
         farm.ask(add("robots", "Robot", 2));
         farm.ask(new MissionCommand.AddDevices(
                 "m",
@@ -144,7 +144,7 @@ class MissionDevicesTest {
 
         assertThat(farm.missions.get("m").deviceCount()).isEqualTo(4);
         assertThat(farm.outbox.compacted(Topics.MISSION_DEVICES)).containsOnlyKeys("m.0", "m.1");
-        farm.ask(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
+        farm.ask(new MissionCommand.Start("m", null, new MissionPlan.Unspecified(), null, null));
         assertThat(farm.device("urn:ngsi-ld:Camera:m-2").version().carriedBy()).isEqualTo("urn:ngsi-ld:Robot:m-2");
         farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.ask(add("late", "Robot", 1)));
     }
@@ -162,7 +162,7 @@ class MissionDevicesTest {
         large.putObject("parameters").put("note", "x".repeat(500_000));
         MissionCommand more = new MissionCommand.AddDevices(
                 "m", new MissionDevices(List.of(new DeviceGroup(null, null, "Camera", 1, null, null, true, large))));
-        farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid()));
+        farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unspecified()));
         for (int bytes = 0; bytes + 500_100 < Limits.MISSION_BYTES; bytes += 500_100) {
             farm.ask(more);
         }
@@ -175,7 +175,7 @@ class MissionDevicesTest {
             try {
                 farm.ask(new DomainCommand.Create("d" + domains, new DomainDetails(null, null, area, null)));
                 domains++;
-            } catch (RefusedException e) {
+            } catch (RejectedException e) {
                 assertThat(e.code()).isEqualTo(ErrorCode.QUOTA_EXCEEDED);
                 break;
             }

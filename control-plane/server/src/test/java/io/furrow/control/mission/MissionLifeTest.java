@@ -55,7 +55,7 @@ class MissionLifeTest {
     /** As the WeLASER dashboard asks: devices that are there report with the mission's name. */
     @Test
     void runsAtOnceWithoutDevicesOfItsOwn() throws Exception {
-        farm.ask(new MissionCommand.Start("m", "north", new MissionPlan.Unsaid(), null, null));
+        farm.ask(new MissionCommand.Start("m", "north", new MissionPlan.Unspecified(), null, null));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
         farm.ask(new MissionCommand.Stop("m"));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
@@ -265,7 +265,7 @@ class MissionLifeTest {
                         "other", "north", new MissionPlan.FromTemplate("nosuch", 0), null, null)));
         farm.refused(
                 ErrorCode.MISSION_EXISTS,
-                () -> farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid())));
+                () -> farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unspecified())));
 
         farm.ask(new MissionCommand.Stop("m"));
         farm.refused(ErrorCode.MISSION_NOT_RUNNING, () -> farm.ask(new MissionCommand.Stop("m")));
@@ -288,7 +288,7 @@ class MissionLifeTest {
     void deletesADomainWithItsMissionsAndEndsItsFields() throws Exception {
         farm.domain("south");
         farm.start("runs", "north", Farm.group("Camera", 1));
-        farm.ask(new MissionCommand.Create("idle", "north", new MissionPlan.Unsaid()));
+        farm.ask(new MissionCommand.Create("idle", "north", new MissionPlan.Unspecified()));
         farm.start("theirs", "south", Farm.group("Camera", 1));
         farm.field("a", 1, "north");
         farm.field("b", 1, "south");
@@ -351,7 +351,7 @@ class MissionLifeTest {
         farm.refused(ErrorCode.UNKNOWN_TEMPLATE, () -> farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 0)));
         farm.run(farm.missionHandler.templates()::stock);
         assertThat(farm.outbox.compacted(Topics.TEMPLATES)).isEmpty();
-        farm.ask(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
+        farm.ask(new MissionCommand.Start("m", null, new MissionPlan.Unspecified(), null, null));
         assertThat(farm.status("m").devices()).isEqualTo(5);
     }
 }

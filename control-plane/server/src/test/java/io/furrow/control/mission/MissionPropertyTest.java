@@ -18,7 +18,7 @@ import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.MissionPlan;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
@@ -81,7 +81,7 @@ class MissionPropertyTest {
                     case 6, 7 -> farm.step();
                     default -> reportOne();
                 }
-            } catch (RefusedException e) {
+            } catch (RejectedException e) {
                 refused++;
                 assertThat(farm.content()).as(said + ": " + e.getMessage()).isEqualTo(content);
                 assertThat(farm.outbox.all()).as(said).hasSize(written);
@@ -117,7 +117,7 @@ class MissionPropertyTest {
         private MissionPlan plan() {
             return switch (random.nextInt(4)) {
                 case 0 -> new MissionPlan.FromTemplate(random.nextInt(3) == 0 ? "nosuch" : TemplateStore.DEMO, 0);
-                case 1 -> new MissionPlan.Unsaid();
+                case 1 -> new MissionPlan.Unspecified();
                 case 2 -> Farm.devices(Farm.group("Camera", 1 + random.nextInt(3)), DeviceGroup.entity("urn:robot"));
                 default -> Farm.devices(Farm.group("Thermometer", 1 + random.nextInt(4)), Farm.real("Camera", 2));
             };

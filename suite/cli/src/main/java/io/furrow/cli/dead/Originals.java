@@ -14,7 +14,7 @@ import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.header.Header;
 
 import io.furrow.model.event.DeadLetter;
-import io.furrow.model.event.Original;
+import io.furrow.model.event.OriginalReference;
 
 /** Reads the records that dead letters stand for, from where these say they are. */
 final class Originals implements AutoCloseable {
@@ -31,22 +31,22 @@ final class Originals implements AutoCloseable {
      *
      * @throws IOException if Kafka does not answer
      */
-    Optional<ConsumerRecord<byte[], byte[]>> find(Original original, ConsumerRecord<byte[], byte[]> letter)
-            throws IOException {
-        TopicPartition partition = new TopicPartition(original.topic(), original.partition());
-        List<PartitionInfo> known = consumer.partitionsFor(original.topic(), Redrive.TIMEOUT);
-        if (known == null || known.stream().noneMatch(info -> info.partition() == original.partition())) {
+    Optional<ConsumerRecord<byte[], byte[]>> find(
+            OriginalReference originalReference, ConsumerRecord<byte[], byte[]> letter) throws IOException {
+        TopicPartition partition = new TopicPartition(originalReference.topic(), originalReference.partition());
+        List<PartitionInfo> known = consumer.partitionsFor(originalReference.topic(), Redrive.TIMEOUT);
+        if (known == null || known.stream().noneMatch(info -> info.partition() == originalReference.partition())) {
             return Optional.empty();
         }
         consumer.assign(List.of(partition));
         long first =
                 consumer.beginningOffsets(List.of(partition), Redrive.TIMEOUT).get(partition);
         long end = consumer.endOffsets(List.of(partition), Redrive.TIMEOUT).get(partition);
-        if (original.offset() < first || original.offset() >= end) {
+        if (originalReference.offset() < first || originalReference.offset() >= end) {
             return Optional.empty();
         }
-        consumer.seek(partition, original.offset());
-        return read(partition, original.offset()).filter(found -> isOf(letter, found));
+        consumer.seek(partition, originalReference.offset());
+        return read(partition, originalReference.offset()).filter(found -> isOf(letter, found));
     }
 
     private Optional<ConsumerRecord<byte[], byte[]>> read(TopicPartition partition, long offset) throws IOException {

@@ -24,7 +24,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.model.event.DeadLetter;
-import io.furrow.model.event.Original;
+import io.furrow.model.event.OriginalReference;
 
 /**
  * Sends dead letters to a topic again, as they were: key, bytes, time and headers, without those that say why they
@@ -193,7 +193,8 @@ public final class Redrive {
     /** The letter itself, or the record that it stands for; empty, and counted as left, where neither is whole. */
     private Optional<ConsumerRecord<byte[], byte[]>> original(ConsumerRecord<byte[], byte[]> letter)
             throws IOException {
-        Optional<Original> elsewhere = Original.of(header(letter, Original.POSITION), header(letter, Original.BYTES));
+        Optional<OriginalReference> elsewhere = OriginalReference.of(
+                header(letter, OriginalReference.POSITION), header(letter, OriginalReference.BYTES));
         if (elsewhere.isPresent()) {
             Optional<ConsumerRecord<byte[], byte[]>> found = originals.find(elsewhere.get(), letter);
             if (found.isEmpty()) {

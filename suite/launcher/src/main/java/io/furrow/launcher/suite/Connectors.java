@@ -146,10 +146,10 @@ public final class Connectors {
         Instant end = Instant.now().plus(TIMEOUT);
         while (Instant.now().isBefore(end)) {
             JsonNode seen = lookAt(health);
-            if (seen.path("subscriptionsKept").asInt() > 0) {
+            if (seen.path("subscriptionsInSync").asInt() > 0) {
                 return;
             }
-            if (seen.path("subscriptionsUnkept").asInt() > 0) {
+            if (seen.path("subscriptionsOutOfSync").asInt() > 0) {
                 throw new CommandException("The context broker at %s cannot be subscribed to: %s"
                         .formatted(
                                 contextBroker,

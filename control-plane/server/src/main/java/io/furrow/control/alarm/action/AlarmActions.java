@@ -12,8 +12,8 @@ import java.util.concurrent.TimeUnit;
 
 import io.furrow.control.alarm.watch.DeviceTypes;
 import io.furrow.control.audit.AuditEntry;
-import io.furrow.kafka.PartStatus;
-import io.furrow.kafka.RestartingWorker;
+import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.text.Counts;
 
 /**
@@ -25,7 +25,7 @@ public final class AlarmActions implements AutoCloseable {
     private static final int MAX_STOPS_WAITING = 1000;
     private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(5);
 
-    private final List<RestartingWorker> followers = new ArrayList<>();
+    private final List<SupervisedWorker> followers = new ArrayList<>();
     private ThreadPoolExecutor stops;
     private AuditLog audit;
 
@@ -43,7 +43,7 @@ public final class AlarmActions implements AutoCloseable {
         Clock clock = Clock.systemUTC();
         if (webhook != null) {
             AlarmDelivery delivery = new AlarmDelivery(client, webhook, new Webhook(webhook, clock), clock);
-            actions.followers.add(new RestartingWorker(AlarmDelivery.NAME, clock).start(delivery, delivery::detail));
+            actions.followers.add(new SupervisedWorker(AlarmDelivery.NAME, clock).start(delivery, delivery::detail));
         }
         if (stop != null) {
             actions.stopRobots(client, stop, clock);
@@ -60,14 +60,14 @@ public final class AlarmActions implements AutoCloseable {
                 TimeUnit.MINUTES,
                 new ArrayBlockingQueue<>(MAX_STOPS_WAITING),
                 task -> new Thread(task, "furrow-stop"));
-        RestartingWorker follower = new RestartingWorker(StopFollower.NAME, clock);
+        SupervisedWorker follower = new SupervisedWorker(StopFollower.NAME, clock);
         DeviceTypes types = new DeviceTypes(client);
         StopRobots robots = new StopRobots(settings, types, entry -> note(entry, follower), stops, clock);
-        followers.add(new RestartingWorker(DeviceTypes.NAME, clock).start(types, types::detail));
+        followers.add(new SupervisedWorker(DeviceTypes.NAME, clock).start(types, types::detail));
         followers.add(follower.start(new StopFollower(client, robots, types, clock), () -> stopsWaiting(types)));
     }
 
-    private void note(AuditEntry entry, RestartingWorker follower) {
+    private void note(AuditEntry entry, SupervisedWorker follower) {
         if (entry.reason() == null) {
             follower.succeeded();
         } else {
@@ -87,13 +87,13 @@ public final class AlarmActions implements AutoCloseable {
     }
 
     /** Returns the status of each worker thread, for a health page. */
-    public List<PartStatus> followers() {
-        return followers.stream().map(RestartingWorker::status).toList();
+    public List<ComponentStatus> followers() {
+        return followers.stream().map(SupervisedWorker::status).toList();
     }
 
     @Override
     public void close() {
-        followers.forEach(RestartingWorker::close);
+        followers.forEach(SupervisedWorker::close);
         if (stops != null) {
             stops.shutdown();
             try {

@@ -24,7 +24,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.control.alarm.watch.DeviceTypes;
 import io.furrow.control.alarm.watch.Encounter;
 import io.furrow.kafka.CommittedReader;
-import io.furrow.kafka.RestartingWorker;
+import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
@@ -37,7 +37,7 @@ import io.furrow.model.topic.Topics;
  * later: an instance that is assigned a partition starts at fresh records and reads the commands already sent from the
  * audit topic.
  */
-final class StopFollower implements RestartingWorker.Work, ConsumerRebalanceListener {
+final class StopFollower implements SupervisedWorker.Work, ConsumerRebalanceListener {
     static final String NAME = "stop-on-predicted";
 
     private static final Logger LOG = LoggerFactory.getLogger(StopFollower.class);
@@ -61,7 +61,7 @@ final class StopFollower implements RestartingWorker.Work, ConsumerRebalanceList
     }
 
     @Override
-    public void run(RestartingWorker follower) throws InterruptedException {
+    public void run(SupervisedWorker follower) throws InterruptedException {
         while (!types.isLoaded()) {
             if (follower.isClosing()) {
                 return;
