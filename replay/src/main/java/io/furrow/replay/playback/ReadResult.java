@@ -6,7 +6,7 @@ import java.util.Optional;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.RecordingExtent;
 
-/** The answer to a {@link Fetch} of the same epoch. */
+/** The answer to a {@link ReadRequest} of the same epoch. */
 public sealed interface ReadResult {
     long epoch();
 
