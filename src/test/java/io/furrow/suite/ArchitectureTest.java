@@ -5,6 +5,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 import java.util.TreeMap;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
@@ -29,6 +30,30 @@ import static org.assertj.core.api.Assertions.assertThat;
 class ArchitectureTest {
     private static final int MAX_CLASSES_OF_A_PACKAGE = 30;
     private static final JavaClasses CLASSES = everyModule();
+
+    private static final Set<String> BANNED = Set.of(
+            "board",
+            "caretaker",
+            "charge",
+            "commission",
+            "desk",
+            "doubt",
+            "fate",
+            "follower",
+            "gatekeeper",
+            "glimpse",
+            "keeper",
+            "lane",
+            "meeting",
+            "outbox",
+            "patience",
+            "reception",
+            "refeed",
+            "roster",
+            "shelf",
+            "sighting",
+            "timetable",
+            "wish");
 
     /** Four floors: the kit, rooms side by side, the suite of them, benchmarks. */
     @ParameterizedTest
@@ -159,6 +184,26 @@ class ArchitectureTest {
                 .haveNameMatching(
                         "(.*_)?(PATIENCE|LOOK|LOOKS)(_.*)?|(MOST|LONGEST|LEAST|SHORTEST|FEWEST)(_(?!SEVERE).*)?")
                 .check(CLASSES);
+    }
+
+    /** The other modules, {@code bench} and the system tests among them, have some of these words still. */
+    @ParameterizedTest
+    @ValueSource(
+            strings = {
+                "kit/model",
+                "kit/kafka",
+                "kit/http",
+                "kit/flink",
+                "kit/recordings",
+                "ngsi-connector",
+                "ingest",
+                "analytics",
+                "replay"
+            })
+    void usesTheWordsOfTheFieldInEveryIdentifier(String module) throws IOException {
+        Path sources = Path.of("..", module);
+
+        assertThat(SourceWords.identifiersWith(BANNED, sources)).isEmpty();
     }
 
     @Test

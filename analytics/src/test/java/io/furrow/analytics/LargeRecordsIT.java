@@ -36,7 +36,7 @@ import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
-import io.furrow.model.event.Original;
+import io.furrow.model.event.OriginalReference;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
@@ -75,10 +75,10 @@ class LargeRecordsIT {
             ConsumerRecord<byte[], byte[]> late =
                     awaitRecords(kafka, Topics.TEMPERATURE_LATE, 1).get(0);
             assertThat(headers(late))
-                    .containsEntry(Original.POSITION, "reports-0@3")
+                    .containsEntry(OriginalReference.POSITION, "reports-0@3")
                     .containsEntry("late-field", "north")
                     .hasEntrySatisfying(
-                            Original.BYTES,
+                            OriginalReference.BYTES,
                             bytes -> assertThat(Long.parseLong(bytes)).isGreaterThan(IMAGE));
             assertThat(late.timestamp()).isEqualTo(TIME + 1_000);
             assertThat(late.key()).isEqualTo(utf8("r3"));
@@ -91,8 +91,8 @@ class LargeRecordsIT {
                         assertThat(headers(letter))
                                 .containsEntry(DeadLetter.REASON, "not-json")
                                 .containsEntry(DeadLetter.SOURCE, "reports-0@4")
-                                .containsEntry(Original.POSITION, "reports-0@4")
-                                .containsEntry(Original.BYTES, Integer.toString(IMAGE));
+                                .containsEntry(OriginalReference.POSITION, "reports-0@4")
+                                .containsEntry(OriginalReference.BYTES, Integer.toString(IMAGE));
                     })
                     .extracting(letter -> headers(letter).get(DeadLetter.STAGE))
                     .containsExactlyInAnyOrder("temperature", "collision", "presence");

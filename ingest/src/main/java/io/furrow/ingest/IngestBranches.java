@@ -40,7 +40,7 @@ final class IngestBranches {
     }
 
     void route(DataStream<ReportedEvent> events) {
-        if (options.does(Part.ROUTES)) {
+        if (options.does(IngestBranch.ROUTES)) {
             SingleOutputStreamOperator<TopicRecord> routed = events.process(new RouteEvents(options.writesRoutes()))
                     .uid("route-events")
                     .name("Route by domain and mission");
@@ -49,7 +49,7 @@ final class IngestBranches {
         }
     }
 
-    void keepLatest(DataStream<ReportedEvent> events, TopicSnapshot latestAtStart) {
+    void storeLatest(DataStream<ReportedEvent> events, TopicSnapshot latestAtStart) {
         if (options.writesLatest()) {
             SingleOutputStreamOperator<TopicRecord> latest = keyed(events)
                     .transform(
@@ -67,20 +67,20 @@ final class IngestBranches {
     }
 
     void listImages(SingleOutputStreamOperator<ReportedEvent> moved) {
-        if (options.does(Part.IMAGES) && options.images().areMoved()) {
+        if (options.does(IngestBranch.IMAGES) && options.images().areMoved()) {
             kafka.write("images", moved.getSideOutput(ImageStage.MANIFEST));
         }
     }
 
-    void keepCatalog(DataStream<ReportedEvent> events) {
+    void storeCatalog(DataStream<ReportedEvent> events) {
         if (options.writesCatalog()) {
             kafka.write(
                     "catalog", CatalogStage.keep(keyed(events), options.catalogInterval(), options.catalogRetention()));
         }
     }
 
-    void keepMissions(DataStream<ReportedEvent> events) {
-        if (options.does(Part.MISSIONS) && options.missions().isOn()) {
+    void storeMissions(DataStream<ReportedEvent> events) {
+        if (options.does(IngestBranch.MISSIONS) && options.missions().isOn()) {
             DataStream<MissionEvent> ofMissions = events.map(
                             event -> new MissionEvent(event.domain(), event.mission(), event.record()))
                     .returns(MissionEvent.class)
@@ -93,8 +93,8 @@ final class IngestBranches {
     }
 
     /** The dead letters of these stages, where this instance does the part that they belong to; see {@link #writeDead}. */
-    void setAside(Part part, SingleOutputStreamOperator<?>... stages) {
-        if (options.does(part)) {
+    void setAside(IngestBranch ingestBranch, SingleOutputStreamOperator<?>... stages) {
+        if (options.does(ingestBranch)) {
             for (SingleOutputStreamOperator<?> stage : stages) {
                 dead.add(stage.getSideOutput(DeadLetters.TAG));
             }

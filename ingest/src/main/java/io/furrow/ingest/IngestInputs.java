@@ -8,7 +8,7 @@ import io.furrow.flink.kafka.KafkaTopicSnapshot;
 import io.furrow.flink.kafka.TopicNames;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.AdvanceQuietInput;
+import io.furrow.flink.time.AdvanceIdleInput;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -32,7 +32,7 @@ record IngestInputs(
         TopicNames topics) {
     /** The topics that the options name. */
     static IngestInputs ofKafka(StreamExecutionEnvironment env, IngestOptions options) {
-        DataStream<TopicRecord> records = AdvanceQuietInput.of(
+        DataStream<TopicRecord> records = AdvanceIdleInput.of(
                 env.fromSource(
                                 KafkaConnectors.source(options),
                                 KafkaConnectors.watermarks(options),

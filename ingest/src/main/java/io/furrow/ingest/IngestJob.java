@@ -8,10 +8,10 @@ import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.flink.device.DeviceChange;
-import io.furrow.flink.device.RecognizeDevices;
+import io.furrow.flink.device.ParseDevices;
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.kafka.KafkaOutput;
-import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.ClockSkewLimit;
 import io.furrow.flink.time.DeduplicateById;
 import io.furrow.flink.time.KeyedLatenessOperator;
 import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
@@ -19,13 +19,13 @@ import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.latest.LatestKey;
 import io.furrow.ingest.route.AssignMission;
 import io.furrow.ingest.route.NameBudget;
-import io.furrow.ingest.route.RecognizeEvents;
+import io.furrow.ingest.route.ParseEvents;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.ingest.route.StampIngest;
 import io.furrow.model.topic.Topics;
 
 /**
- * The job {@code ingest}: deduplicates events and writes them to the {@link Part parts} that this instance does:
+ * The job {@code ingest}: deduplicates events and writes them to the {@link IngestBranch parts} that this instance does:
  * routes, latest state, missions, images and catalog; unreadable records become dead letters.
  */
 public final class IngestJob {
@@ -46,13 +46,14 @@ public final class IngestJob {
     /** The pipeline; what goes to Kafka names its topic, other branches have sinks of their own. */
     static void define(IngestInputs in, KafkaOutput kafka, IngestOptions options) {
         SingleOutputStreamOperator<ReportedEvent> recognized = in.records()
-                .process(new RecognizeEvents(
-                        AheadLimit.of(options), options.does(Part.LATEST) && options.latestKey() == LatestKey.ID))
+                .process(new ParseEvents(
+                        ClockSkewLimit.of(options),
+                        options.does(IngestBranch.LATEST) && options.latestKey() == LatestKey.ID))
                 .uid("recognize-events")
                 .name("Recognize events");
 
         SingleOutputStreamOperator<DeviceChange> devices = in.devices()
-                .process(new RecognizeDevices("ingest"))
+                .process(new ParseDevices("ingest"))
                 .setParallelism(1) // a device's versions stay in order
                 .uid("recognize-devices")
                 .name("Recognize devices");
@@ -97,12 +98,12 @@ public final class IngestJob {
 
         IngestBranches branches = new IngestBranches(kafka, options);
         branches.route(events);
-        branches.keepLatest(events, in.latestAtStart());
+        branches.storeLatest(events, in.latestAtStart());
         branches.listImages(moved);
-        branches.keepCatalog(events);
-        branches.keepMissions(events);
-        branches.setAside(Part.ROUTES, recognized, devices, assigned);
-        branches.setAside(Part.IMAGES, moved);
+        branches.storeCatalog(events);
+        branches.storeMissions(events);
+        branches.setAside(IngestBranch.ROUTES, recognized, devices, assigned);
+        branches.setAside(IngestBranch.IMAGES, moved);
         branches.writeDead();
     }
 }

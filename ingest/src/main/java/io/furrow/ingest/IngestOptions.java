@@ -14,7 +14,7 @@ import io.furrow.flink.job.InputTopics;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.kafka.TopicOptions;
 import io.furrow.ingest.image.ImageOptions;
-import io.furrow.ingest.image.Storing;
+import io.furrow.ingest.image.StorageMode;
 import io.furrow.ingest.latest.LatestKey;
 import io.furrow.ingest.mission.MissionOptions;
 import io.furrow.ingest.route.AssignMission;
@@ -46,7 +46,7 @@ public final class IngestOptions extends JobOptions {
                             + " options otherwise, do the rest, and a store that is away stops its own part only. An instance of"
                             + " some parts is called ingest-PART-… where --name does not say otherwise. Default:"
                             + " ${DEFAULT-VALUE}; missions with --mongo and images with --images only.")
-    private Set<Part> parts;
+    private Set<IngestBranch> parts;
 
     @Option(
             names = "--default-domain",
@@ -148,26 +148,26 @@ public final class IngestOptions extends JobOptions {
      *
      * @throws ParameterException if the options lack what one of its parts needs
      */
-    boolean does(Part part) {
-        if (isDivided() && parts.contains(Part.MISSIONS) && !missions.isOn()) {
+    boolean does(IngestBranch ingestBranch) {
+        if (isDivided() && parts.contains(IngestBranch.MISSIONS) && !missions.isOn()) {
             throw refused("--parts missions has no server; add --mongo URI", null);
         }
-        if (isDivided() && parts.contains(Part.IMAGES) && !images.areMoved()) {
+        if (isDivided() && parts.contains(IngestBranch.IMAGES) && !images.areMoved()) {
             throw refused("--parts images has no folder; add --images URI, to the other instances too", null);
         }
-        return parts.contains(part);
+        return parts.contains(ingestBranch);
     }
 
     private boolean isDivided() {
-        return parts.size() < Part.values().length;
+        return parts.size() < IngestBranch.values().length;
     }
 
     /** What this instance does about images, where they are moved. */
-    Storing storing() {
+    StorageMode storing() {
         if (!isDivided()) {
-            return Storing.ALL;
+            return StorageMode.ALL;
         }
-        return does(Part.IMAGES) ? Storing.FOR_OTHERS : Storing.BY_OTHERS;
+        return does(IngestBranch.IMAGES) ? StorageMode.FOR_OTHERS : StorageMode.BY_OTHERS;
     }
 
     /** A replay's values are not news: they would go to {@code data.latest}, live topics and the mission's own collection. */
@@ -197,7 +197,7 @@ public final class IngestOptions extends JobOptions {
     protected String defaultName() {
         return isDivided()
                 ? super.defaultName() + "-"
-                        + parts.stream().sorted().map(Part::code).collect(Collectors.joining("-"))
+                        + parts.stream().sorted().map(IngestBranch::code).collect(Collectors.joining("-"))
                 : super.defaultName();
     }
 
@@ -250,11 +250,11 @@ public final class IngestOptions extends JobOptions {
     }
 
     public boolean writesLatest() {
-        return does(Part.LATEST) && !noLatest;
+        return does(IngestBranch.LATEST) && !noLatest;
     }
 
     public boolean writesCatalog() {
-        return does(Part.CATALOG) && !noCatalog;
+        return does(IngestBranch.CATALOG) && !noCatalog;
     }
 
     public Duration catalogInterval() {

@@ -49,12 +49,12 @@ class DividedIngestTest {
         Path whole = folder.resolve("whole");
         Path divided = folder.resolve("parts");
         List<String> expected =
-                told(IngestRun.of(options("--images", whole.toString()), KnownDevices.of(), reported), whole);
+                told(IngestRun.of(options("--images", whole.toString()), FixedDevices.of(), reported), whole);
 
         List<TopicRecord> together = new ArrayList<>();
         for (String part : List.of("routes", "latest", "catalog", "images")) {
             IngestOptions options = options("--parts", part, "--images", divided.toString());
-            together.addAll(IngestRun.of(options, KnownDevices.of(), reported));
+            together.addAll(IngestRun.of(options, FixedDevices.of(), reported));
         }
 
         assertThat(told(together, divided)).containsExactlyInAnyOrderElementsOf(expected);
@@ -89,9 +89,9 @@ class DividedIngestTest {
         TopicRecord camera = camera("c", 0, "", Pictures.png(1));
 
         List<TopicRecord> written =
-                IngestRun.of(options("--parts", "routes", "--images", folder.toString()), KnownDevices.of(), camera);
+                IngestRun.of(options("--parts", "routes", "--images", folder.toString()), FixedDevices.of(), camera);
         assertThat(files(folder)).isEmpty();
-        IngestRun.of(options("--parts", "images", "--images", folder.toString()), KnownDevices.of(), camera);
+        IngestRun.of(options("--parts", "images", "--images", folder.toString()), FixedDevices.of(), camera);
 
         String url = Entity.parse(written.get(0).value())
                 .value("Image")

@@ -187,7 +187,7 @@ class ImageStageJobTest {
                 new IngestInputs(
                         source,
                         noDevices,
-                        KnownDevices.of(),
+                        FixedDevices.of(),
                         TopicSnapshot.NONE,
                         TopicSnapshot.NONE,
                         TopicSnapshot.NONE,

@@ -56,13 +56,13 @@ class IngestDeadLettersTest {
         TopicRecord future = at(tooFar, record("x", thermometer("t1", "farm", "")));
         TopicRecord now = record("a", thermometer("t1", "farm", ""));
 
-        List<TopicRecord> written = IngestRun.of(options(), KnownDevices.of(), future, now);
+        List<TopicRecord> written = IngestRun.of(options(), FixedDevices.of(), future, now);
 
         assertThat(written)
                 .extracting(record -> record.topic() + " " + record.headers().get(DeadLetter.REASON))
                 .containsExactlyInAnyOrder(
                         "data.raw.dead from-the-future", "data.farm.realtime null", "data.latest null");
-        assertThat(IngestRun.of(options("--max-ahead", "3h", "--no-latest"), KnownDevices.of(), future, now))
+        assertThat(IngestRun.of(options("--max-ahead", "3h", "--no-latest"), FixedDevices.of(), future, now))
                 .extracting(TopicRecord::topic)
                 .containsOnly("data.farm.realtime");
     }

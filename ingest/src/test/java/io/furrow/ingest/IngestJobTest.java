@@ -120,7 +120,7 @@ class IngestJobTest {
 
     @Test
     void routesADeviceByItsNewMissionFromThatEventOn() throws Exception {
-        KnownDevices devices = KnownDevices.of(
+        FixedDevices devices = FixedDevices.of(
                 new DeviceVersion("robot", "", "/", "farm", "weeding", 0, null, 1, null),
                 new DeviceVersion("robot", "", "/", "farm", "sowing", TIME + 1, null, 2, null));
         TopicRecord before = record("a", Entity.builder("robot", "ROBOT"));
@@ -137,7 +137,7 @@ class IngestJobTest {
 
     @Test
     void letsAnEntitysOwnWordGoBeforeWhatIsKnownOfIt() throws Exception {
-        KnownDevices devices = KnownDevices.of(new DeviceVersion("t", "", "/", "north", "weeding", 0, null, 1, null));
+        FixedDevices devices = FixedDevices.of(new DeviceVersion("t", "", "/", "north", "weeding", 0, null, 1, null));
 
         assertThat(IngestRun.of(options("--no-latest"), devices, record("a", thermometer("t", "farm", "mowing"))))
                 .extracting(TopicRecord::topic)
@@ -153,7 +153,7 @@ class IngestJobTest {
         TopicRecord reported = record("a", thermometer("t", "farm", "weeding"));
         TopicRecord deleted = deletion("b", "t", TIME + 1);
 
-        List<TopicRecord> written = IngestRun.of(options(), KnownDevices.of(), reported, deleted, deleted);
+        List<TopicRecord> written = IngestRun.of(options(), FixedDevices.of(), reported, deleted, deleted);
 
         assertThat(written)
                 .filteredOn(record -> record.value() == null)
@@ -175,7 +175,7 @@ class IngestJobTest {
         TopicRecord late =
                 at(TIME - 1, record("w", Entity.builder("e-13", "Valve").number("level", 1)));
 
-        List<TopicRecord> written = IngestRun.of(options(), KnownDevices.of(), valve, pump, deleted, late);
+        List<TopicRecord> written = IngestRun.of(options(), FixedDevices.of(), valve, pump, deleted, late);
 
         assertThat(written)
                 .filteredOn(record -> record.topic().equals(Topics.LATEST))
@@ -195,7 +195,7 @@ class IngestJobTest {
         TopicRecord valve = record("v", Entity.builder("e-13", "Valve").text("Domain", "farm"));
         TopicRecord pump = record("p", Entity.builder("e-13", "Pump").text("Domain", "yard"));
 
-        assertThat(IngestRun.of(options(), KnownDevices.of(), valve, pump, deletion("d", "e-13", TIME + 1)))
+        assertThat(IngestRun.of(options(), FixedDevices.of(), valve, pump, deletion("d", "e-13", TIME + 1)))
                 .filteredOn(record -> record.value() == null)
                 .extracting(record -> record.topic() + " " + new String(record.key(), StandardCharsets.UTF_8))
                 .containsExactlyInAnyOrder(
@@ -218,7 +218,7 @@ class IngestJobTest {
                                 .number("Temperature", 2)
                                 .bool("Status", true)));
 
-        List<TopicRecord> written = IngestRun.of(options(), KnownDevices.of(), place, warm, coldBefore);
+        List<TopicRecord> written = IngestRun.of(options(), FixedDevices.of(), place, warm, coldBefore);
 
         assertThat(written)
                 .extracting(TopicRecord::topic)
@@ -238,9 +238,9 @@ class IngestJobTest {
     void leavesOutTheBranchesThatAreSwitchedOff() throws Exception {
         TopicRecord reported = record("a", thermometer("t", "farm", "weeding"));
 
-        assertThat(IngestRun.of(options("--no-latest", "--no-routes"), KnownDevices.of(), reported))
+        assertThat(IngestRun.of(options("--no-latest", "--no-routes"), FixedDevices.of(), reported))
                 .isEmpty();
-        assertThat(IngestRun.of(options("--no-routes"), KnownDevices.of(), reported))
+        assertThat(IngestRun.of(options("--no-routes"), FixedDevices.of(), reported))
                 .extracting(TopicRecord::topic)
                 .containsExactly("data.latest");
     }

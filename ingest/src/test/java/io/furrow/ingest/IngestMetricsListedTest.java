@@ -47,7 +47,7 @@ class IngestMetricsListedTest {
             IngestOptions options = new IngestOptions();
             JobCommandLine.of(options)
                     .parseArgs("--images", directory.resolve("images").toUri().toString(), "--mongo", mongo.uri());
-            IngestRun.of(options, KnownDevices.of(), report("m1", 0), report("m2", 1));
+            IngestRun.of(options, FixedDevices.of(), report("m1", 0), report("m2", 1));
         }
 
         Map<String, Set<String>> found = new TreeMap<>();

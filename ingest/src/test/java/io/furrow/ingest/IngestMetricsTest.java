@@ -52,7 +52,7 @@ class IngestMetricsTest {
         TopicRecord broken = camera("c", "sowing", "no picture");
         TopicRecord whole = camera("d", "weeding", Base64.getEncoder().encodeToString(Pictures.png(1)));
 
-        IngestRun.of(options, KnownDevices.of(), weeding, weeding, weeding, sowing, garbage, broken, whole);
+        IngestRun.of(options, FixedDevices.of(), weeding, weeding, weeding, sowing, garbage, broken, whole);
 
         assertThat(counted("routed"))
                 .containsEntry("", 4L)

@@ -145,7 +145,7 @@ class IngestRestartTest {
                     new IngestInputs(
                             asInPartitions,
                             devices,
-                            KnownDevices.of(),
+                            FixedDevices.of(),
                             TopicSnapshot.NONE,
                             TopicSnapshot.NONE,
                             TopicSnapshot.NONE,

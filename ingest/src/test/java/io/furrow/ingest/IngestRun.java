@@ -21,7 +21,7 @@ final class IngestRun {
     private IngestRun() {}
 
     /** All that the job would write to Kafka. */
-    static List<TopicRecord> of(IngestOptions options, KnownDevices devices, TopicRecord... records) throws Exception {
+    static List<TopicRecord> of(IngestOptions options, FixedDevices devices, TopicRecord... records) throws Exception {
         StreamExecutionEnvironment env = JobEnvironment.create(options);
         env.setParallelism(2);
         DataStream<TopicRecord> source = env.fromData(Arrays.asList(records))

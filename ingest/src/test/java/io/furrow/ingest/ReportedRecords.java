@@ -23,7 +23,7 @@ final class ReportedRecords {
 
     /** What goes to the topics of domains and missions, and to dead letters. */
     static List<TopicRecord> run(IngestOptions options, TopicRecord... records) throws Exception {
-        return IngestRun.of(options, KnownDevices.of(), records).stream()
+        return IngestRun.of(options, FixedDevices.of(), records).stream()
                 .filter(record -> !record.topic().equals(Topics.LATEST))
                 .toList();
     }

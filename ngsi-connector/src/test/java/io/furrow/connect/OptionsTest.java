@@ -87,7 +87,7 @@ class OptionsTest {
         Connector connector = new NgsiSinkConnector();
         var each = connector.validate(Map.of("context.broker.url", "http://orion:1026"));
 
-        assertThatThrownBy(() -> CheckedTogether.with(each, () -> {
+        assertThatThrownBy(() -> CrossFieldValidator.with(each, () -> {
                     throw new ConfigException("odd");
                 }))
                 .hasMessage("odd");

@@ -66,7 +66,7 @@ public final class SourceOutage {
                 what,
                 worker.health().path("durable").asLong(-1),
                 worker.health().path("pending").asLong(-1),
-                worker.health().path("turnedAway").asLong(-1),
+                worker.health().path("rejectedUnavailable").asLong(-1),
                 worker.residentMib());
     }
 

@@ -6,25 +6,25 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
 import io.furrow.analytics.job.AnalyticsOptions;
-import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 
 /** The clocks of devices in a job that follows positions. */
 public final class ClockStage {
     private final ClockEntity entities;
-    private final Receipt receipt;
+    private final ReceiptTime receiptTime;
     private final Duration maxBehind;
 
     /** @param job its name, for instance {@code collision} */
     public ClockStage(String job, AnalyticsOptions options) {
         this.entities = new ClockEntity(job, options.clockOutput());
-        this.receipt = Receipt.of(options);
+        this.receiptTime = ReceiptTime.of(options);
         this.maxBehind = options.clocks().maxBehind();
     }
 
     /** Reports the devices of which all is received long after its time, as entities. */
     public DataStream<TopicRecord> delays(DataStream<TopicRecord> records) {
-        return records.process(new ReportDelayedDevices(receipt, maxBehind))
+        return records.process(new ReportDelayedDevices(receiptTime, maxBehind))
                 .uid("report-delayed-devices")
                 .name("Report delayed devices")
                 .map(entities::of)
@@ -35,7 +35,7 @@ public final class ClockStage {
     /** Reports the devices that are behind by less, as entities. */
     public DataStream<TopicRecord> watch(DataStream<LaggingPosition> lagging) {
         return lagging.keyBy(LaggingPosition::key)
-                .process(new WatchClocks(maxBehind))
+                .process(new DetectClockLag(maxBehind))
                 .uid("watch-clocks")
                 .name("Watch the clocks of devices")
                 .map(entities::of)
@@ -46,7 +46,7 @@ public final class ClockStage {
     /** The records at corrected times. */
     public SingleOutputStreamOperator<TopicRecord> correct(DataStream<TopicRecord> records) {
         return records.keyBy(CorrectClocks::deviceOf)
-                .process(new CorrectClocks(receipt))
+                .process(new CorrectClocks(receiptTime))
                 .uid("correct-clocks")
                 .name("Correct the clocks of devices");
     }

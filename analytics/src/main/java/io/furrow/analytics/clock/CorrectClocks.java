@@ -12,8 +12,8 @@ import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.eventtime.OneTimer;
-import io.furrow.flink.record.Receipt;
+import io.furrow.analytics.eventtime.SingleTimer;
+import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -44,13 +44,13 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
     private static final long serialVersionUID = 1L;
     private static final long KEPT = Duration.ofDays(1).toMillis();
 
-    private final Receipt receipt;
-    private transient OneTimer timer;
+    private final ReceiptTime receiptTime;
+    private transient SingleTimer timer;
     private transient ValueState<ClockOffset> offset;
     private transient Counter corrected;
 
-    CorrectClocks(Receipt receipt) {
-        this.receipt = receipt;
+    CorrectClocks(ReceiptTime receiptTime) {
+        this.receiptTime = receiptTime;
     }
 
     /** Topic, tenant, service path and key of the record, which is the id of its entity. */
@@ -60,14 +60,14 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
 
     @Override
     public void open(OpenContext context) {
-        timer = new OneTimer(getRuntimeContext());
+        timer = new SingleTimer(getRuntimeContext());
         offset = getRuntimeContext().getState(new ValueStateDescriptor<>("offset", ClockOffset.class));
         corrected = getRuntimeContext().getMetricGroup().counter("corrected");
     }
 
     @Override
     public void processElement(TopicRecord record, Context context, Collector<TopicRecord> out) throws Exception {
-        OptionalLong stamp = receipt.stamp(record, System.currentTimeMillis());
+        OptionalLong stamp = receiptTime.stamp(record, System.currentTimeMillis());
         if (stamp.isEmpty() || !isOfDevice(record)) {
             out.collect(record);
             return;

@@ -10,7 +10,7 @@ import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
@@ -19,7 +19,7 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * Reports devices of any kind whose records are behind their {@link Receipt}, one after the other, by more than a limit. It goes by
+ * Reports devices of any kind whose records are behind their {@link ReceiptTime}, one after the other, by more than a limit. It goes by
  * receipts, whatever has become of event time. A record that is on time ends a run; one that is not newer than the last is no report
  * of the device. Of a device all records pass the same subtask.
  *
@@ -38,14 +38,14 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
     private static final int MAX_DEVICES = 10_000;
     private static final int CATCHES_UP = 2;
 
-    private final Receipt receipt;
+    private final ReceiptTime receiptTime;
     private final long maxBehindMillis;
     private transient Map<String, Run> runs;
 
     private record Run(LagRun lag, long newest) {}
 
-    ReportDelayedDevices(Receipt receipt, Duration maxBehind) {
-        this.receipt = receipt;
+    ReportDelayedDevices(ReceiptTime receiptTime, Duration maxBehind) {
+        this.receiptTime = receiptTime;
         this.maxBehindMillis = maxBehind.toMillis();
     }
 
@@ -61,7 +61,7 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
 
     @Override
     public void processElement(TopicRecord record, Context context, Collector<ClockReport> out) {
-        long received = receipt.of(record, record.timestamp(), System.currentTimeMillis());
+        long received = receiptTime.of(record, record.timestamp(), System.currentTimeMillis());
         boolean isBehind = received - record.timestamp() > maxBehindMillis;
         if (!isBehind && runs.isEmpty() || !CorrectClocks.isOfDevice(record) || !isReported(record)) {
             return;

@@ -39,11 +39,11 @@ public record CollisionDetection(
                         "Track devices through the grid", TypeInformation.of(CellUpdate.class), new TrackDevices(rules))
                 .uid("track-devices");
 
-        SingleOutputStreamOperator<PairObservation> sightings = updates.keyBy(CellUpdate::cell)
+        SingleOutputStreamOperator<PairObservation> observations = updates.keyBy(CellUpdate::cell)
                 .transform("Match pairs in each cell", TypeInformation.of(PairObservation.class), new MatchPairs(rules))
                 .uid("match-pairs");
 
-        DataStream<Encounter> encounters = sightings
+        DataStream<Encounter> encounters = observations
                 .keyBy(PairObservation::pair)
                 .transform(
                         "Track encounters of each pair",
@@ -57,7 +57,7 @@ public record CollisionDetection(
                 lasting,
                 updates.getSideOutput(TrackDevices.LATE),
                 updates.getSideOutput(TrackDevices.LAGGING),
-                sightings.getSideOutput(MatchPairs.OVERFLOWS));
+                observations.getSideOutput(MatchPairs.OVERFLOWS));
     }
 
     /** A pair's records stay where they are: the key is that of the stage before. */

@@ -18,10 +18,10 @@ import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.position.ReadPositions;
 import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.device.DeviceInput;
-import io.furrow.flink.device.RecognizeDevices;
+import io.furrow.flink.device.ParseDevices;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.ClockSkewLimit;
 import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
 
 /** The job {@code collision}: encounters of devices, from the first instant at which they are close to the last. */
@@ -57,13 +57,13 @@ public final class CollisionJob {
 
     private static DataStream<TopicRecord> detect(Inputs in, CollisionOptions options) {
         SingleOutputStreamOperator<PositionFix> read = in.records()
-                .process(new ReadPositions("collision", AheadLimit.of(options)))
+                .process(new ReadPositions("collision", ClockSkewLimit.of(options)))
                 .uid("read-positions")
                 .name("Read positions");
 
         SingleOutputStreamOperator<DeviceChange> devices = in.devices()
                 .records()
-                .process(new RecognizeDevices("collision"))
+                .process(new ParseDevices("collision"))
                 .setParallelism(1) // a device's versions stay in order
                 .uid("recognize-devices")
                 .name("Recognize devices");

@@ -11,7 +11,7 @@
  * io.furrow.analytics.collision.encounter.TrackEncounters} joins what the cells saw of a pair into encounters.
  *
  * <p>In a crowd, where more devices are close to one than the rules say, the nearest are followed: {@link
- * io.furrow.analytics.collision.matching.Matching}, and docs/adr/0045.
+ * io.furrow.analytics.collision.matching.PairSelection}, and docs/adr/0045.
  *
  * <p>Behind them, where asked for, {@link io.furrow.analytics.collision.debounce.DebounceEncounters} leaves out encounters that flicker or
  * are short; what each option means is in docs/adr/0018.

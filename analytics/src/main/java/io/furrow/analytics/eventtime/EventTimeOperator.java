@@ -27,20 +27,20 @@ import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.format.FormatType;
+import io.furrow.flink.format.VersionedTypeInfo;
 
 /**
  * A keyed stage that acts in event time: messages wait until the watermark has passed them and are then applied in sequence
  * to what is remembered of their key, before the watermark continues. It holds its keys in plain maps and goes through those
  * that have something to do once per watermark, because a timer per key and an access to keyed state per message cost several
- * times what is done with the message. Keyed state, the value {@code pending}, has all of it as of the last checkpoint.
+ * times what is done with the message. Keyed state, the value {@code keyState}, has all of it as of the last checkpoint.
  *
  * @param <K> the keys
  * @param <M> the messages
  * @param <S> what is remembered between them
  * @param <O> what comes out, without a timestamp
  */
-public abstract class EventTimeOperator<K, M extends Timed, S, O> extends AbstractStreamOperator<O>
+public abstract class EventTimeOperator<K, M extends HasEventTime, S, O> extends AbstractStreamOperator<O>
         implements OneInputStreamOperator<M, O> {
     /** For what is remembered until a message ends it. */
     protected static final long NEVER = Long.MAX_VALUE;
@@ -49,11 +49,11 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
     /** Of a millisecond: a key is looked at when the watermark comes to within 64 ms of its next message. */
     private static final int STEP_BITS = 6;
 
-    private final PendingFormat<M, S> format;
+    private final KeyStateSerializer<M, S> format;
 
     private transient Comparator<M> sequence;
     private transient KeySelector<M, K> keyOf;
-    private transient ValueState<Pending<M, S>> saved;
+    private transient ValueState<KeyState<M, S>> saved;
     private transient Map<K, Slot<K, M, S>> slots;
     /** What was saved and is no more. */
     private transient Set<K> gone;
@@ -65,7 +65,7 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
     private transient Collector<O> out;
 
     /** A key and what it has. */
-    private static final class Slot<K, M extends Timed, S> extends Pending<M, S> {
+    private static final class Slot<K, M extends HasEventTime, S> extends KeyState<M, S> {
         private final K key;
         /** In which it is awaited; where an earlier message came, it also stands in later ones, which are skipped. */
         private long step = NEVER;
@@ -81,9 +81,9 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
     }
 
     /** Is left where it is when the end moves away, and set again when it has passed. */
-    private record Deadline<K, M extends Timed, S>(long time, Slot<K, M, S> slot) {}
+    private record Deadline<K, M extends HasEventTime, S>(long time, Slot<K, M, S> slot) {}
 
-    protected EventTimeOperator(PendingFormat<M, S> format) {
+    protected EventTimeOperator(KeyStateSerializer<M, S> format) {
         this.format = format;
     }
 
@@ -120,7 +120,8 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         gone = new HashSet<>();
         awaited = new TreeMap<>();
         deadlines = new PriorityQueue<>(Comparator.comparingLong(Deadline::time));
-        ValueStateDescriptor<Pending<M, S>> pending = new ValueStateDescriptor<>("pending", new FormatType<>(format));
+        ValueStateDescriptor<KeyState<M, S>> pending =
+                new ValueStateDescriptor<>("pending", new VersionedTypeInfo<>(format));
         saved = context.getKeyedStateStore().getState(pending);
         if (context.isRestored()) {
             this.<K>getKeyedStateBackend()
@@ -132,9 +133,9 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         }
     }
 
-    private void restore(K key, Pending<M, S> pending) {
+    private void restore(K key, KeyState<M, S> keyState) {
         Slot<K, M, S> slot = new Slot<>(key);
-        slot.takeOver(format.copy(pending));
+        slot.takeOver(format.copy(keyState));
         slot.saved = true;
         slots.put(key, slot);
         if (!slot.waiting.isEmpty()) {

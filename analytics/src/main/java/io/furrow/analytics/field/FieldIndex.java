@@ -45,7 +45,7 @@ final class FieldIndex {
      *
      * @param until epoch ms of the next version, exclusive
      */
-    record Span(Located located, long until) {
+    record Interval(Located located, long until) {
         private boolean holdsAt(long time) {
             return located.field.validFrom() <= time && time < until;
         }
@@ -53,9 +53,9 @@ final class FieldIndex {
 
     private final STRtree tree = new STRtree();
 
-    FieldIndex(Collection<Span> spans) {
-        for (Span span : spans) {
-            tree.insert(span.located().field.area().getEnvelopeInternal(), span);
+    FieldIndex(Collection<Interval> spans) {
+        for (Interval interval : spans) {
+            tree.insert(interval.located().field.area().getEnvelopeInternal(), interval);
         }
         tree.build();
     }
@@ -65,9 +65,9 @@ final class FieldIndex {
         Coordinate point = new Coordinate(position.longitude(), position.latitude());
         List<Field> covering = new ArrayList<>();
         tree.query(new Envelope(point), item -> {
-            Span span = (Span) item; // the tree is raw; only this class fills it
-            if (span.holdsAt(time) && span.located.covers(point)) {
-                covering.add(span.located.field);
+            Interval interval = (Interval) item; // the tree is raw; only this class fills it
+            if (interval.holdsAt(time) && interval.located.covers(point)) {
+                covering.add(interval.located.field);
             }
         });
         return covering;

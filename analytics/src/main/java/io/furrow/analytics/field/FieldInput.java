@@ -29,7 +29,7 @@ public record FieldInput(Optional<DataStream<TopicRecord>> topic, TopicSnapshot 
     public static FieldInput of(StreamExecutionEnvironment env, JobOptions job, FieldOptions options) {
         Optional<List<FieldVersion>> file = options.file();
         if (file.isPresent()) {
-            return new FieldInput(Optional.empty(), new FieldsAtStart(file.get()));
+            return new FieldInput(Optional.empty(), new InitialFields(file.get()));
         }
         DataStream<TopicRecord> records = env.fromSource(
                         KafkaConnectors.wholeTopic(job, options.topic()), KafkaConnectors.alwaysIdle(), "Read fields")

@@ -45,8 +45,8 @@ public final class FieldOptions {
             return Optional.empty();
         }
         try {
-            return Optional.of(FieldFile.read(file));
-        } catch (UnusableFieldsException e) {
+            return Optional.of(GeoJsonFieldFile.read(file));
+        } catch (InvalidFieldsException e) {
             throw new ParameterException(spec.commandLine(), e.getMessage(), e);
         }
     }

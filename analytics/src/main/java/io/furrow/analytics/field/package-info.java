@@ -7,18 +7,18 @@
  * <pre>{@code
  * SingleOutputStreamOperator<TopicRecord> fields = in.fields()
  *         .records()
- *         .process(new RecognizeFields("presence"))
+ *         .process(new ParseFields("presence"))
  *         .setParallelism(1) // a version's records stay in order
  *         .uid("recognize-fields")
  *         .name("Recognize fields");
  *
  * fixes.connect(fields.broadcast())
- *         .transform(name, type, new TimelessBroadcastOperator<>(new JoinWithFields(in.fields().atStart()), List.of(KnownFields.BROADCAST)))
+ *         .transform(name, type, new TimelessBroadcastOperator<>(new JoinWithFields(in.fields().atStart()), List.of(FieldVersions.BROADCAST)))
  * }</pre>
  *
  * and its output takes {@code fields.getSideOutput(DeadLetters.TAG)} in. The function that joins is a {@code
  * BroadcastProcessFunction}, or a {@code KeyedBroadcastProcessFunction} where it keeps something of each device, and holds a {@link
- * io.furrow.analytics.field.KnownFields}: {@code known = KnownFields.read(atStart)} in {@code open}, {@code known.take(record)}
+ * io.furrow.analytics.field.FieldVersions}: {@code known = FieldVersions.read(atStart)} in {@code open}, {@code known.take(record)}
  * for each broadcast record, {@code known.covering(position, time)} for each event. It keeps nothing of the fields
  * in Flink's state.
  *

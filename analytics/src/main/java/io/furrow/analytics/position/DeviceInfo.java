@@ -10,7 +10,7 @@ import org.apache.flink.core.memory.DataOutputSerializer;
 import org.apache.flink.core.memory.DataOutputView;
 
 import io.furrow.flink.format.SharedByTasks;
-import io.furrow.flink.format.Text;
+import io.furrow.flink.format.StringCodec;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -93,16 +93,16 @@ public final class DeviceInfo {
     private static byte[] block(Device device, String id, String type, String mission, String carrier) {
         DataOutputSerializer out = new DataOutputSerializer(Byte.MAX_VALUE);
         try {
-            Text.write(device.topic(), out);
-            Text.write(device.identity(), out);
+            StringCodec.write(device.topic(), out);
+            StringCodec.write(device.identity(), out);
             boolean isEnd = device.identity().endsWith(id);
             out.writeInt(isEnd ? id.length() : -1);
             if (!isEnd) {
-                Text.write(id, out);
+                StringCodec.write(id, out);
             }
-            Text.write(type, out);
-            Text.write(mission, out);
-            Text.write(carrier, out);
+            StringCodec.write(type, out);
+            StringCodec.write(mission, out);
+            StringCodec.write(carrier, out);
         } catch (IOException e) {
             throw new UncheckedIOException(e); // it is memory
         }
@@ -131,11 +131,12 @@ public final class DeviceInfo {
 
     private static DeviceInfo decoded(byte[] block) throws IOException {
         DataInputDeserializer in = new DataInputDeserializer(block);
-        Device device = new Device(Text.read(in), Text.read(in));
+        Device device = new Device(StringCodec.read(in), StringCodec.read(in));
         int length = in.readInt();
         String identity = device.identity();
-        String id = length < 0 ? Text.read(in) : Text.shared(identity.substring(identity.length() - length));
-        return new DeviceInfo(device, id, Text.read(in), Text.read(in), Text.read(in), block);
+        String id =
+                length < 0 ? StringCodec.read(in) : StringCodec.shared(identity.substring(identity.length() - length));
+        return new DeviceInfo(device, id, StringCodec.read(in), StringCodec.read(in), StringCodec.read(in), block);
     }
 
     Device device() {

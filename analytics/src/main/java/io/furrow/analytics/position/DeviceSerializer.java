@@ -5,11 +5,11 @@ import java.io.IOException;
 import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
-import io.furrow.flink.format.Format;
-import io.furrow.flink.format.Text;
+import io.furrow.flink.format.StringCodec;
+import io.furrow.flink.format.VersionedSerializer;
 
 /** How a {@link Device} is written. */
-public final class DeviceSerializer extends Format<Device> {
+public final class DeviceSerializer extends VersionedSerializer<Device> {
     private static final long serialVersionUID = 1L;
     /** Topic, identity. */
     private static final int VERSION = 1;
@@ -26,8 +26,8 @@ public final class DeviceSerializer extends Format<Device> {
 
     @Override
     public void write(Device device, DataOutputView out) throws IOException {
-        Text.write(device.topic(), out);
-        Text.write(device.identity(), out);
+        StringCodec.write(device.topic(), out);
+        StringCodec.write(device.identity(), out);
     }
 
     @Override
@@ -35,6 +35,6 @@ public final class DeviceSerializer extends Format<Device> {
         if (version != VERSION) {
             throw unknown(version);
         }
-        return new Device(Text.read(in), Text.read(in));
+        return new Device(StringCodec.read(in), StringCodec.read(in));
     }
 }

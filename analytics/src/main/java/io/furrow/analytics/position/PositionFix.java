@@ -4,7 +4,7 @@ import java.util.Comparator;
 
 import org.apache.flink.api.common.typeinfo.TypeInfo;
 
-import io.furrow.analytics.eventtime.Timed;
+import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.position.Position;
 
@@ -21,7 +21,7 @@ import io.furrow.model.position.Position;
 @TypeInfo(PositionFixSerializer.class)
 public record PositionFix(
         DeviceInfo reporter, double latitude, double longitude, double speed, double heading, long time)
-        implements Timed {
+        implements HasEventTime {
     /** The order in which a pair is named: by id, then by identity. */
     public static final Comparator<PositionFix> NAMING =
             Comparator.comparing(PositionFix::id).thenComparing(PositionFix::identity);

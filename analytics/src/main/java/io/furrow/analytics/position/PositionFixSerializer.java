@@ -5,10 +5,10 @@ import java.io.IOException;
 import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
-import io.furrow.flink.format.Format;
+import io.furrow.flink.format.VersionedSerializer;
 
 /** How a {@link PositionFix} is written. */
-public final class PositionFixSerializer extends Format<PositionFix> {
+public final class PositionFixSerializer extends VersionedSerializer<PositionFix> {
     public static final PositionFixSerializer INSTANCE = new PositionFixSerializer();
 
     private static final long serialVersionUID = 1L;

@@ -10,7 +10,7 @@ import org.apache.flink.util.Collector;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.ClockSkewLimit;
 import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.EntityReader;
@@ -30,7 +30,7 @@ public abstract class ReadEntities<T> extends ProcessFunction<TopicRecord, T> {
     private final String stage;
     private final Set<ReplayKind> kinds;
     private final Set<String> attributes;
-    private final AheadLimit ahead;
+    private final ClockSkewLimit ahead;
     private transient EntityReader entity;
     private transient Counter rejected;
     private transient Counter skipped;
@@ -40,7 +40,7 @@ public abstract class ReadEntities<T> extends ProcessFunction<TopicRecord, T> {
      * @param kinds kinds of records that are read
      * @param attributes attributes that are extracted, beside those of the position
      */
-    protected ReadEntities(String stage, Set<ReplayKind> kinds, Set<String> attributes, AheadLimit ahead) {
+    protected ReadEntities(String stage, Set<ReplayKind> kinds, Set<String> attributes, ClockSkewLimit ahead) {
         this.stage = stage;
         this.kinds = kinds;
         this.attributes = attributes;

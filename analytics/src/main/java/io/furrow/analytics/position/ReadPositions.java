@@ -9,7 +9,7 @@ import org.apache.flink.util.Collector;
 
 import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.ClockSkewLimit;
 import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -26,7 +26,7 @@ public final class ReadPositions extends ReadEntities<PositionFix> {
     private transient Counter faulty;
 
     /** @param stage name of the job in dead letters */
-    public ReadPositions(String stage, AheadLimit ahead) {
+    public ReadPositions(String stage, ClockSkewLimit ahead) {
         super(
                 stage,
                 EnumSet.of(ReplayKind.EVENT, ReplayKind.PRIME),

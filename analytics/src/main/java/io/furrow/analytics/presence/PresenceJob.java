@@ -9,15 +9,15 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.clock.ClockStage;
 import io.furrow.analytics.field.FieldInput;
-import io.furrow.analytics.field.KnownFields;
-import io.furrow.analytics.field.RecognizeFields;
+import io.furrow.analytics.field.FieldVersions;
+import io.furrow.analytics.field.ParseFields;
 import io.furrow.analytics.job.AnalyticsJob;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.position.ReadPositions;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.AheadLimit;
 import io.furrow.flink.time.BroadcastLatenessOperator;
+import io.furrow.flink.time.ClockSkewLimit;
 
 /** The job {@code presence}: which device entered and left which field, and how long it stayed. */
 public final class PresenceJob {
@@ -52,13 +52,13 @@ public final class PresenceJob {
         String lateOutput = options.lateOutput();
 
         SingleOutputStreamOperator<PositionFix> fixes = in.records()
-                .process(new ReadPositions("presence", AheadLimit.of(options)))
+                .process(new ReadPositions("presence", ClockSkewLimit.of(options)))
                 .uid("read-positions")
                 .name("Read positions");
 
         SingleOutputStreamOperator<TopicRecord> fields = in.fields()
                 .recordsBeside(in.records())
-                .process(new RecognizeFields("presence"))
+                .process(new ParseFields("presence"))
                 .setParallelism(1) // a version's records stay in order
                 .uid("recognize-fields")
                 .name("Recognize fields");
@@ -70,7 +70,7 @@ public final class PresenceJob {
                         TypeInformation.of(PresenceTransition.class),
                         new BroadcastLatenessOperator<>(
                                 new TrackPresence(options.rules(), in.fields().atStart()),
-                                List.of(KnownFields.BROADCAST)))
+                                List.of(FieldVersions.BROADCAST)))
                 .uid("track-presence");
 
         DataStream<TopicRecord> results = passages.map(passage -> PresenceRecord.of(passage, output))

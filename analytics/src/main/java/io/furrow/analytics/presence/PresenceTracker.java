@@ -11,7 +11,7 @@ import java.util.function.Function;
 import java.util.stream.Collectors;
 
 import io.furrow.analytics.field.Field;
-import io.furrow.analytics.field.KnownFields;
+import io.furrow.analytics.field.FieldVersions;
 import io.furrow.analytics.position.PositionFix;
 
 /**
@@ -40,7 +40,7 @@ final class PresenceTracker implements Serializable {
             PresenceState from,
             List<PositionFix> due,
             long until,
-            KnownFields fields,
+            FieldVersions fields,
             Consumer<PresenceTransition> out) {
         PresenceState now = from;
         int next = 0;
@@ -59,7 +59,7 @@ final class PresenceTracker implements Serializable {
     }
 
     /** The next instant, after those judged, that can bring something without a new position. */
-    long nextInstant(PresenceState now, KnownFields fields) {
+    long nextInstant(PresenceState now, FieldVersions fields) {
         long next = now.stays().stream()
                 .mapToLong(stay -> stay.deadline(dwell))
                 .min()
@@ -72,12 +72,12 @@ final class PresenceTracker implements Serializable {
     }
 
     /** Looks at the device once more, at an instant not before the last: a version that came late shows now. */
-    PresenceState again(PresenceState now, long time, KnownFields fields, Consumer<PresenceTransition> out) {
+    PresenceState again(PresenceState now, long time, FieldVersions fields, Consumer<PresenceTransition> out) {
         return now.last() == null ? now : at(now, time, null, fields, out);
     }
 
     private PresenceState at(
-            PresenceState before, long time, PositionFix fix, KnownFields fields, Consumer<PresenceTransition> out) {
+            PresenceState before, long time, PositionFix fix, FieldVersions fields, Consumer<PresenceTransition> out) {
         PositionFix known = fix == null ? before.last() : fix;
         boolean silent = known == null || known.time() + timeToLive <= time;
         Map<String, Field> covering = silent

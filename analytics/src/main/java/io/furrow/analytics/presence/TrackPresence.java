@@ -13,20 +13,20 @@ import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
 import io.furrow.analytics.clock.LaggingPosition;
-import io.furrow.analytics.eventtime.Inbox;
-import io.furrow.analytics.eventtime.OneTimer;
-import io.furrow.analytics.field.KnownFields;
+import io.furrow.analytics.eventtime.EventTimeBuffer;
+import io.furrow.analytics.eventtime.SingleTimer;
+import io.furrow.analytics.field.FieldVersions;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.EventTimeReached;
-import io.furrow.flink.time.JudgesLateness;
+import io.furrow.flink.time.EventTimeProgress;
+import io.furrow.flink.time.LatenessAware;
 
 /**
  * Emits when devices enter and leave fields. Key: the device of a topic.
  *
  * <p><b>State</b>: positions that wait for the watermark, the whereabouts; how far event time has come, because a restored job
- * starts without a watermark and must not go back behind what it has emitted. Fields: see {@link KnownFields}.
+ * starts without a watermark and must not go back behind what it has emitted. Fields: see {@link FieldVersions}.
  *
  * <p><b>Cleared</b>: when the position's time-to-live has ended, the last {@code left} is emitted and no position waits.
  *
@@ -38,7 +38,7 @@ import io.furrow.flink.time.JudgesLateness;
  */
 public final class TrackPresence
         extends KeyedBroadcastProcessFunction<String, PositionFix, TopicRecord, PresenceTransition>
-        implements JudgesLateness {
+        implements LatenessAware {
     static final OutputTag<PositionFix> LATE = new OutputTag<>("late") {
         private static final long serialVersionUID = 1L;
     };
@@ -55,11 +55,11 @@ public final class TrackPresence
     private final PresenceTracker judge;
     private final TopicSnapshot atStart;
 
-    private transient KnownFields fields;
-    private transient OneTimer timer;
-    private transient Inbox<PositionFix> inbox;
+    private transient FieldVersions fields;
+    private transient SingleTimer timer;
+    private transient EventTimeBuffer<PositionFix> eventTimeBuffer;
     private transient ValueState<PresenceState> whereabouts;
-    private transient EventTimeReached reached;
+    private transient EventTimeProgress reached;
     private transient Counter accepted;
     private transient Counter late;
     private transient Counter crowdedOut;
@@ -71,15 +71,15 @@ public final class TrackPresence
     }
 
     @Override
-    public void judgeBy(EventTimeReached reached) {
+    public void judgeBy(EventTimeProgress reached) {
         this.reached = reached;
     }
 
     @Override
     public void open(OpenContext context) throws IOException {
-        fields = KnownFields.read(atStart);
-        timer = new OneTimer(getRuntimeContext());
-        inbox = new Inbox<>(getRuntimeContext(), PositionFix.class, PositionFix.SEQUENCE, timer);
+        fields = FieldVersions.read(atStart);
+        timer = new SingleTimer(getRuntimeContext());
+        eventTimeBuffer = new EventTimeBuffer<>(getRuntimeContext(), PositionFix.class, PositionFix.SEQUENCE, timer);
         whereabouts = getRuntimeContext().getState(new ValueStateDescriptor<>("whereabouts", PresenceState.class));
         accepted = getRuntimeContext().getMetricGroup().counter("accepted");
         late = getRuntimeContext().getMetricGroup().counter("late");
@@ -94,7 +94,7 @@ public final class TrackPresence
             late.inc();
             context.output(LATE, fix);
             seeLagging(fix, context);
-        } else if (inbox.offer(fix, MAX_WAITING, context.timerService())) {
+        } else if (eventTimeBuffer.offer(fix, MAX_WAITING, context.timerService())) {
             accepted.inc();
         } else {
             crowdedOut.inc();
@@ -107,7 +107,7 @@ public final class TrackPresence
         long last = known == null || known.last() == null
                 ? Long.MIN_VALUE
                 : known.last().time();
-        long counted = Math.max(last, inbox.newest());
+        long counted = Math.max(last, eventTimeBuffer.newest());
         if (fix.time() > counted) {
             context.output(
                     LAGGING,
@@ -134,7 +134,7 @@ public final class TrackPresence
         timer.rang();
         TimerService timers = context.timerService();
         long until = timers.currentWatermark();
-        List<PositionFix> due = inbox.takeDue(timers);
+        List<PositionFix> due = eventTimeBuffer.takeDue(timers);
         PresenceState before = whereabouts.value();
         PresenceState now =
                 judge.advance(before == null ? PresenceState.NOWHERE : before, due, until, fields, out::collect);

@@ -10,14 +10,14 @@ import org.apache.flink.streaming.api.functions.co.BroadcastProcessFunction;
 import org.apache.flink.util.Collector;
 
 import io.furrow.analytics.field.Field;
-import io.furrow.analytics.field.KnownFields;
+import io.furrow.analytics.field.FieldVersions;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 
 /**
  * Gives a reading to every field that covers its position at its time.
  *
- * <p>State: none of Flink's, see {@link KnownFields}. Late: a version that comes after a reading of its time does not change
+ * <p>State: none of Flink's, see {@link FieldVersions}. Late: a version that comes after a reading of its time does not change
  * where that went. Emits: a reading once per field; counted are {@code inside} and {@code outside} of all fields, and {@code
  * fieldChanges}.
  */
@@ -25,7 +25,7 @@ public final class AssignFields extends BroadcastProcessFunction<Reading, TopicR
     private static final long serialVersionUID = 1L;
 
     private final TopicSnapshot atStart;
-    private transient KnownFields fields;
+    private transient FieldVersions fields;
     private transient Counter inside;
     private transient Counter outside;
     private transient Counter changes;
@@ -36,7 +36,7 @@ public final class AssignFields extends BroadcastProcessFunction<Reading, TopicR
 
     @Override
     public void open(OpenContext context) throws IOException {
-        fields = KnownFields.read(atStart);
+        fields = FieldVersions.read(atStart);
         MetricGroup metrics = getRuntimeContext().getMetricGroup();
         inside = metrics.counter("inside");
         outside = metrics.counter("outside");

@@ -16,7 +16,7 @@ import org.apache.flink.streaming.runtime.operators.windowing.functions.Internal
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.flink.time.EventTimeReached;
+import io.furrow.flink.time.EventTimeProgress;
 
 /**
  * Flink's windows with {@link CollectReadings} and {@link CastVote}, in which a window that an earlier run has closed stays
@@ -27,7 +27,7 @@ final class CastVotes extends WindowOperator<String, FieldReading, DeviceReading
     /** As Flink calls it, so that either's state is the other's. */
     private static final String STATE = "window-contents";
 
-    private transient EventTimeReached reached;
+    private transient EventTimeProgress reached;
 
     /**
      * @param late takes readings whose windows are all closed
@@ -60,7 +60,7 @@ final class CastVotes extends WindowOperator<String, FieldReading, DeviceReading
     @Override
     public void initializeState(StateInitializationContext context) throws Exception {
         super.initializeState(context);
-        reached = EventTimeReached.restore(
+        reached = EventTimeProgress.restore(
                 context.getOperatorStateStore(), getRuntimeContext().getTaskInfo());
     }
 

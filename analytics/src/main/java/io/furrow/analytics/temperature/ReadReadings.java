@@ -13,7 +13,7 @@ import io.furrow.analytics.position.ReadEntities;
 import io.furrow.flink.record.Epochs;
 import io.furrow.flink.record.LargeRecords;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.ClockSkewLimit;
 import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
@@ -40,7 +40,7 @@ final class ReadReadings extends ReadEntities<Reading> {
     private transient Counter faulty;
     private transient Counter unlocated;
 
-    ReadReadings(String attribute, AheadLimit ahead) {
+    ReadReadings(String attribute, ClockSkewLimit ahead) {
         super("temperature", EnumSet.of(ReplayKind.EVENT), Set.of(attribute), ahead);
         this.attribute = attribute;
     }

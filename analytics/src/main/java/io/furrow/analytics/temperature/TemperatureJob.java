@@ -9,12 +9,12 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.clock.ClockStage;
 import io.furrow.analytics.field.FieldInput;
-import io.furrow.analytics.field.KnownFields;
-import io.furrow.analytics.field.RecognizeFields;
+import io.furrow.analytics.field.FieldVersions;
+import io.furrow.analytics.field.ParseFields;
 import io.furrow.analytics.job.AnalyticsJob;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.ClockSkewLimit;
 import io.furrow.flink.time.DeduplicateById;
 import io.furrow.flink.time.KeyedLatenessOperator;
 import io.furrow.flink.time.TimelessBroadcastOperator;
@@ -41,13 +41,13 @@ public final class TemperatureJob {
     static DataStream<TopicRecord> define(Inputs in, TemperatureOptions options) {
         SingleOutputStreamOperator<TopicRecord> fields = in.fields()
                 .recordsBeside(in.records())
-                .process(new RecognizeFields("temperature"))
+                .process(new ParseFields("temperature"))
                 .setParallelism(1) // a version's records stay in order
                 .uid("recognize-fields")
                 .name("Recognize fields");
 
         SingleOutputStreamOperator<Reading> readings = in.records()
-                .process(new ReadReadings(options.attribute(), AheadLimit.of(options)))
+                .process(new ReadReadings(options.attribute(), ClockSkewLimit.of(options)))
                 .uid("read-readings")
                 .name("Read readings");
 
@@ -63,7 +63,7 @@ public final class TemperatureJob {
                         "Assign readings to fields",
                         TypeInformation.of(FieldReading.class),
                         new TimelessBroadcastOperator<>(
-                                new AssignFields(in.fields().atStart()), List.of(KnownFields.BROADCAST)))
+                                new AssignFields(in.fields().atStart()), List.of(FieldVersions.BROADCAST)))
                 .uid("assign-fields");
 
         SingleOutputStreamOperator<DeviceVote> votes = VoteStage.cast(fieldReadings, options);

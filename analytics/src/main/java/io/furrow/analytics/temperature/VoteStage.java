@@ -41,7 +41,7 @@ final class VoteStage {
 
     static DataStream<TopicRecord> late(SingleOutputStreamOperator<DeviceVote> votes, TemperatureOptions options) {
         return votes.getSideOutput(LATE)
-                .map(new NameLateWindow(options.lateOutput(), options.window(), options.slide()))
+                .map(new TagLateReading(options.lateOutput(), options.window(), options.slide()))
                 .uid("name-late-window")
                 .name("Name the window of late readings");
     }

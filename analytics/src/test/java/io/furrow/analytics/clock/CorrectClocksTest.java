@@ -16,7 +16,7 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 
@@ -123,7 +123,7 @@ class CorrectClocksTest {
     }
 
     private static KeyedOneInputStreamOperatorTestHarness<String, TopicRecord, TopicRecord> harness() throws Exception {
-        CorrectClocks correct = new CorrectClocks(new Receipt(Duration.ofSeconds(10)));
+        CorrectClocks correct = new CorrectClocks(new ReceiptTime(Duration.ofSeconds(10)));
         return new KeyedOneInputStreamOperatorTestHarness<>(
                 new KeyedProcessOperator<>(correct), CorrectClocks::deviceOf, Types.STRING);
     }

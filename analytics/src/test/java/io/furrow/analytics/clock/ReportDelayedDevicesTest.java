@@ -11,7 +11,7 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 
@@ -31,7 +31,7 @@ class ReportDelayedDevicesTest {
     @BeforeEach
     void start() throws Exception {
         harness = new OneInputStreamOperatorTestHarness<>(new ProcessOperator<>(
-                new ReportDelayedDevices(new Receipt(Duration.ofSeconds(10)), Duration.ofMinutes(1))));
+                new ReportDelayedDevices(new ReceiptTime(Duration.ofSeconds(10)), Duration.ofMinutes(1))));
         harness.open();
     }
 

@@ -165,12 +165,12 @@ public final class CollisionOracle {
         PositionFix one = stretch.get(0).first;
         double threshold =
                 rules.thresholds().between(one.type(), stretch.get(0).second.type());
-        List<Seen> sightings =
+        List<Seen> observations =
                 stretch.stream().dropWhile(seen -> seen.distance > threshold).toList();
-        if (sightings.isEmpty()) {
+        if (observations.isEmpty()) {
             return;
         }
-        long start = sightings.get(0).time;
+        long start = observations.get(0).time;
         long due = start + rules.steadiness().dwell().toMillis();
         if (end <= due) {
             return;
@@ -178,7 +178,7 @@ public final class CollisionOracle {
         long reported = due;
         double closest = Double.POSITIVE_INFINITY;
         Seen newest = null;
-        for (Seen seen : sightings) {
+        for (Seen seen : observations) {
             if (seen.time > due && newest.time <= due) {
                 encounters.add(record(Phase.STARTED, newest, closest, start, due));
             }

@@ -44,7 +44,7 @@ import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.rules.DebounceRules;
-import io.furrow.analytics.eventtime.Timed;
+import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -144,7 +144,7 @@ class RescaledDetectionTest {
     /** After so many positions. */
     private static long watermark(int positions) {
         return arrivals.subList(0, positions).stream()
-                        .mapToLong(Timed::time)
+                        .mapToLong(HasEventTime::time)
                         .max()
                         .orElseThrow()
                 - DetectionRun.BOUND

@@ -20,7 +20,7 @@ import io.furrow.analytics.collision.grid.Track;
 import io.furrow.analytics.collision.grid.Tracker;
 import io.furrow.analytics.collision.matching.Cell;
 import io.furrow.analytics.collision.matching.CellOverflow;
-import io.furrow.analytics.collision.matching.Matching;
+import io.furrow.analytics.collision.matching.PairSelection;
 import io.furrow.analytics.collision.matching.ReportCrowds;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
@@ -28,14 +28,14 @@ import io.furrow.analytics.position.PositionFix;
 /** All stages without Flink: watermarks at random instants, and within each all keys in random order. */
 public final class Simulation {
     private final Tracker tracker;
-    private final Matching matching;
+    private final PairSelection pairSelection;
     private final ReportCrowds reports;
-    private final EncounterTracker follower;
+    private final EncounterTracker encounterTracker;
     private final EncounterDebouncer steadier;
     private final Random random;
     private final Map<String, Track> tracks = new HashMap<>();
     private final Map<Long, Cell> cells = new HashMap<>();
-    private final Map<Pair, OpenEncounter> meetings = new HashMap<>();
+    private final Map<Pair, OpenEncounter> openEncounters = new HashMap<>();
     private final Map<Pair, SteadyState> courses = new HashMap<>();
     private final List<Encounter> encounters = new ArrayList<>();
     private final List<CollisionOracle.Overflow> overflows = new ArrayList<>();
@@ -43,9 +43,9 @@ public final class Simulation {
 
     private Simulation(CollisionRules rules, Random random) {
         tracker = new Tracker(rules.exact());
-        matching = new Matching(rules.exact());
-        reports = new ReportCrowds(matching, new Grid(rules.exact()));
-        follower = new EncounterTracker(rules.exact());
+        pairSelection = new PairSelection(rules.exact());
+        reports = new ReportCrowds(pairSelection, new Grid(rules.exact()));
+        encounterTracker = new EncounterTracker(rules.exact());
         steadier = rules.steadiness().isNone() ? null : new EncounterDebouncer(rules);
         this.random = random;
     }
@@ -84,10 +84,10 @@ public final class Simulation {
             Track before = tracks.get(identity);
             tracks.put(identity, tracker.advance(before, sorted, until, updates::add));
         });
-        List<PairObservation> sightings = new ArrayList<>();
-        grouped(updates, CellUpdate::cell).forEach((cell, of) -> match(cell, of, sightings));
+        List<PairObservation> observations = new ArrayList<>();
+        grouped(updates, CellUpdate::cell).forEach((cell, of) -> match(cell, of, observations));
         cells.forEach((id, cell) -> reports.advance(id, cell, until, this::tell));
-        grouped(sightings, PairObservation::pair).forEach((pair, of) -> follow(pair, of, until));
+        grouped(observations, PairObservation::pair).forEach((pair, of) -> follow(pair, of, until));
         for (Pair pair : List.copyOf(courses.keySet())) {
             courses.put(pair, steadier.advance(courses.get(pair), until, encounters::add));
         }
@@ -101,7 +101,7 @@ public final class Simulation {
             int to = Cell.endOfInstant(updates, from);
             long time = updates.get(from).time();
             reports.advance(id, cell, time - 1, this::tell);
-            cell.apply(updates.subList(from, to), matching, out::add);
+            cell.apply(updates.subList(from, to), pairSelection, out::add);
             reports.applied(id, cell, time, this::tell);
             from = to;
         }
@@ -111,13 +111,13 @@ public final class Simulation {
         overflows.add(CollisionOracle.Overflow.of(overflow));
     }
 
-    private void follow(Pair pair, List<PairObservation> sightings, long until) {
-        sightings.sort(PairObservation.SEQUENCE);
+    private void follow(Pair pair, List<PairObservation> observations, long until) {
+        observations.sort(PairObservation.SEQUENCE);
         List<Encounter> exact = steadier == null ? encounters : new ArrayList<>();
-        OpenEncounter before = meetings.get(pair);
-        EncounterTracker.Followed followed = follower.follow(before, sightings, exact::add);
+        OpenEncounter before = openEncounters.get(pair);
+        EncounterTracker.Followed followed = encounterTracker.follow(before, observations, exact::add);
         violations += followed.violations();
-        meetings.put(pair, followed.meeting());
+        openEncounters.put(pair, followed.encounter());
         for (Encounter encounter : steadier == null ? List.<Encounter>of() : exact) {
             courses.compute(pair, (key, course) -> steadier.next(course, encounter, encounters::add));
         }

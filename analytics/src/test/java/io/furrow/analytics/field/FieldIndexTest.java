@@ -19,7 +19,7 @@ class FieldIndexTest {
     @CsvFileSource(resources = "/field/covered-positions.csv", numLinesToSkip = 1)
     void findsEveryFieldThatCoversAPosition(String what, double latitude, double longitude, String fields)
             throws Exception {
-        KnownFields known = KnownFields.read(new FieldsAtStart(FieldFile.read(FIELDS)));
+        FieldVersions known = FieldVersions.read(new InitialFields(GeoJsonFieldFile.read(FIELDS)));
 
         assertThat(known.covering(new Position(latitude, longitude), 1))
                 .extracting(Field::id)
@@ -28,7 +28,7 @@ class FieldIndexTest {
 
     @Test
     void keepsTheDomainOfAField() throws Exception {
-        assertThat(FieldFile.read(FIELDS))
+        assertThat(GeoJsonFieldFile.read(FIELDS))
                 .extracting(FieldVersion::id, FieldVersion::domain)
                 .contains(tuple("north", "canary"), tuple("ring", ""));
     }

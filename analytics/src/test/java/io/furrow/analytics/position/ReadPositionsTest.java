@@ -11,7 +11,7 @@ import org.junit.jupiter.api.Test;
 import io.furrow.analytics.collision.ReportedRun;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.ClockSkewLimit;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -70,7 +70,7 @@ class ReadPositionsTest {
     @Test
     void setsAsideAnEndOfAnEpochThatCannotBeRead() throws Exception {
         var harness = ProcessFunctionTestHarnesses.forProcessFunction(
-                new ReadPositions("collision", AheadLimit.of(ReportedRun.options())));
+                new ReadPositions("collision", ClockSkewLimit.of(ReportedRun.options())));
         Map<String, String> headers = Map.of(HeaderNames.REPLAY_KIND, "end", HeaderNames.REPLAY_EPOCH, "none");
         harness.processElement(
                 new TopicRecord("data.hoeing.replay.0a1b2c3d", 0, 7, 1000, new byte[0], new byte[0], headers), 1000);
@@ -102,7 +102,7 @@ class ReadPositionsTest {
     }
 
     private static List<PositionFix> read(byte[] value, Map<String, String> others) throws Exception {
-        AheadLimit ahead = AheadLimit.of(ReportedRun.options());
+        ClockSkewLimit ahead = ClockSkewLimit.of(ReportedRun.options());
         var harness = ProcessFunctionTestHarnesses.forProcessFunction(new ReadPositions("collision", ahead));
         byte[] key = "r1".getBytes(StandardCharsets.UTF_8);
         Map<String, String> headers = new HashMap<>(others);

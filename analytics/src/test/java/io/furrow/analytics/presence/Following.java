@@ -14,7 +14,7 @@ import org.apache.flink.streaming.util.AbstractStreamOperatorTestHarness;
 import org.apache.flink.streaming.util.KeyedBroadcastOperatorTestHarness;
 
 import io.furrow.analytics.clock.LaggingPosition;
-import io.furrow.analytics.field.KnownFields;
+import io.furrow.analytics.field.FieldVersions;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.BroadcastLatenessOperator;
@@ -127,7 +127,7 @@ final class Following {
         for (int index = 0; index < parallelism; index++) {
             ArrayList<TopicRecord> known = new ArrayList<>(topic);
             var operator = new BroadcastLatenessOperator<>(
-                    new TrackPresence(rules, () -> known), List.of(KnownFields.BROADCAST));
+                    new TrackPresence(rules, () -> known), List.of(FieldVersions.BROADCAST));
             var harness = new KeyedBroadcastOperatorTestHarness<>(
                     operator, PositionFix::key, Types.STRING, KEY_GROUPS, parallelism, index);
             operators.add(operator);

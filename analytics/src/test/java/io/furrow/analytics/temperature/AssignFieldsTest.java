@@ -10,7 +10,7 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.field.FieldRecords;
-import io.furrow.analytics.field.KnownFields;
+import io.furrow.analytics.field.FieldVersions;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.position.Position;
 
@@ -69,7 +69,7 @@ class AssignFieldsTest {
         assertThat(operator.extractOutputValues()).hasSize(1);
         assertThat(operator.getOperator()
                         .getOperatorStateBackend()
-                        .getBroadcastState(KnownFields.BROADCAST)
+                        .getBroadcastState(FieldVersions.BROADCAST)
                         .entries())
                 .as("the topic is the state")
                 .isEmpty();
@@ -82,7 +82,7 @@ class AssignFieldsTest {
 
     private void create() throws Exception {
         operator = new TwoInputStreamOperatorTestHarness<>(new CoBroadcastWithNonKeyedOperator<>(
-                new AssignFields(fields.atStart()), List.of(KnownFields.BROADCAST)));
+                new AssignFields(fields.atStart()), List.of(FieldVersions.BROADCAST)));
     }
 
     private void change(TopicRecord record) throws Exception {

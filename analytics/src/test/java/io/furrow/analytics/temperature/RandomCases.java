@@ -196,7 +196,7 @@ record RandomCases(
     TopicSnapshot fieldsAtStart() {
         int known =
                 (int) changes.stream().filter(change -> change.before() == 0).count();
-        return new KnownRecords(fieldRecords().subList(0, known));
+        return new FixedRecords(fieldRecords().subList(0, known));
     }
 
     TemperatureOptions options() {

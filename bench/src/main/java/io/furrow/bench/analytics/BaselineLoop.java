@@ -14,7 +14,7 @@ import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Track;
 import io.furrow.analytics.collision.grid.Tracker;
 import io.furrow.analytics.collision.matching.Cell;
-import io.furrow.analytics.collision.matching.Matching;
+import io.furrow.analytics.collision.matching.PairSelection;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.bench.analytics.load.Fleet;
@@ -25,7 +25,7 @@ import io.furrow.bench.analytics.load.Fleet;
  */
 final class BaselineLoop {
     private final Tracker tracker = new Tracker(CollisionRules.DEFAULT);
-    private final Matching matching = new Matching(CollisionRules.DEFAULT);
+    private final PairSelection pairSelection = new PairSelection(CollisionRules.DEFAULT);
     private final Fleet fleet;
     private final UnaryOperator<PositionFix> received;
     private final Track[] tracks;
@@ -95,7 +95,7 @@ final class BaselineLoop {
 
     private void apply() {
         instant.forEach((cell, updates) ->
-                cells.computeIfAbsent(cell, id -> Cell.empty()).apply(updates, matching, this::see));
+                cells.computeIfAbsent(cell, id -> Cell.empty()).apply(updates, pairSelection, this::see));
         instant.clear();
         changes.forEach((pair, change) -> {
             if (change > 0) {

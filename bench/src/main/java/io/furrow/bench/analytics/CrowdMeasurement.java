@@ -8,10 +8,10 @@ import java.util.List;
 import java.util.Random;
 import java.util.stream.IntStream;
 
+import io.furrow.analytics.collision.grid.CellPresence;
 import io.furrow.analytics.collision.grid.CellUpdate;
-import io.furrow.analytics.collision.grid.Presence;
 import io.furrow.analytics.collision.matching.Cell;
-import io.furrow.analytics.collision.matching.Matching;
+import io.furrow.analytics.collision.matching.PairSelection;
 import io.furrow.analytics.collision.rules.CellRules;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.bench.analytics.load.CrowdedFleet;
@@ -23,13 +23,13 @@ final class CrowdMeasurement {
     private static final ThreadMXBean THREADS = ManagementFactory.getThreadMXBean();
     private static final long CELL = 7;
 
-    private final Matching matching;
+    private final PairSelection pairSelection;
     private final Random random = new Random(1);
     private final Duration measured;
     private long sightings;
 
     private CrowdMeasurement(CollisionRules rules, Duration measured) {
-        matching = new Matching(rules);
+        pairSelection = new PairSelection(rules);
         this.measured = measured;
     }
 
@@ -72,11 +72,14 @@ final class CrowdMeasurement {
         for (int device = 0; device < ids.size(); device++) {
             long time = Fleet.START + second * 1000 + device * 1000L / ids.size();
             updates.add(new CellUpdate(
-                    CELL, time, Presence.RESIDENT, CrowdedFleet.noisy(ids.get(device), Fleet.LATITUDE, time, random)));
+                    CELL,
+                    time,
+                    CellPresence.RESIDENT,
+                    CrowdedFleet.noisy(ids.get(device), Fleet.LATITUDE, time, random)));
         }
         updates.sort(CellUpdate.SEQUENCE);
         long begin = THREADS.getCurrentThreadCpuTime();
-        cell.apply(updates, matching, sighting -> sightings++);
+        cell.apply(updates, pairSelection, sighting -> sightings++);
         return THREADS.getCurrentThreadCpuTime() - begin;
     }
 }

@@ -16,7 +16,7 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.streaming.api.functions.sink.v2.DiscardingSink;
 
-import io.furrow.analytics.field.KnownFields;
+import io.furrow.analytics.field.FieldVersions;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.presence.PresenceRules;
 import io.furrow.analytics.presence.PresenceTransition;
@@ -89,7 +89,7 @@ final class FieldMeasurement {
     }
 
     private void loop() throws IOException {
-        KnownFields known = KnownFields.read(fields);
+        FieldVersions known = FieldVersions.read(fields);
         long found = 0;
         for (long n = 0; n < points; n++) {
             found += known.covering(fields.position(n), 1).size();
@@ -111,7 +111,7 @@ final class FieldMeasurement {
                 "id",
                 record(n));
         stream(env, nth, Reading.class, WatermarkStrategy.noWatermarks())
-                .connect(changes(env).broadcast(KnownFields.BROADCAST))
+                .connect(changes(env).broadcast(FieldVersions.BROADCAST))
                 .process(new AssignFields(fields))
                 .sinkTo(new DiscardingSink<>());
         env.execute();
@@ -141,7 +141,7 @@ final class FieldMeasurement {
                         "TrackPresence",
                         TypeInformation.of(PresenceTransition.class),
                         new BroadcastLatenessOperator<>(
-                                new TrackPresence(PRESENCE, fields), List.of(KnownFields.BROADCAST)))
+                                new TrackPresence(PRESENCE, fields), List.of(FieldVersions.BROADCAST)))
                 .sinkTo(new DiscardingSink<>());
         env.execute();
     }

@@ -26,7 +26,7 @@ import org.apache.flink.streaming.api.functions.sink.v2.DiscardingSink;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.image.ImageOptions;
 import io.furrow.ingest.image.ImageStage;
-import io.furrow.ingest.image.Storing;
+import io.furrow.ingest.image.StorageMode;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.ngsi.Entity;
 
@@ -84,7 +84,7 @@ final class ImageMeasurement {
                 .map(i -> event(i, values.get((int) (i % DIFFERENT))))
                 .returns(TypeInformation.of(ReportedEvent.class))
                 .keyBy(ReportedEvent::identity, Types.STRING);
-        ImageStage.move(cameras, options, Storing.ALL).sinkTo(new DiscardingSink<>());
+        ImageStage.move(cameras, options, StorageMode.ALL).sinkTo(new DiscardingSink<>());
         long millis = env.execute("images").getNetRuntime(); // without the start of the cluster
         return images * 1e3 / millis;
     }

@@ -8,11 +8,11 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.header.Header;
 
-import io.furrow.flink.kafka.TopicRecordFormat;
+import io.furrow.flink.kafka.TopicRecordSchema;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.event.HeaderNames;
-import io.furrow.replay.playback.Played;
+import io.furrow.replay.playback.PlaybackRecord;
 import io.furrow.replay.record.EventEncoder;
 import io.furrow.replay.record.ReplayRecords;
 
@@ -26,7 +26,7 @@ import io.furrow.replay.record.ReplayRecords;
  */
 record PlayedRecord(long sequence, long time, long handedOver, long appended) {
     private static final String EVENT = "event";
-    private static final TopicRecordFormat FORMAT = new TopicRecordFormat();
+    private static final TopicRecordSchema FORMAT = new TopicRecordSchema();
 
     static boolean isEvent(ConsumerRecord<byte[], byte[]> record) {
         return header(record, HeaderNames.REPLAY_KIND).equals(EVENT);
@@ -44,9 +44,15 @@ record PlayedRecord(long sequence, long time, long handedOver, long appended) {
     static ProducerRecord<byte[], byte[]> written(
             StoredEvent event, DesiredReplay replay, EventEncoder encoder, long sequence, long now) {
         try {
-            Played played = new Played(
-                    Played.Kind.EVENT, encoder.event(event), null, 0, sequence, event.time(), now - event.time());
-            return FORMAT.serialize(ReplayRecords.of(played, replay), null, null);
+            PlaybackRecord playbackRecord = new PlaybackRecord(
+                    PlaybackRecord.Kind.EVENT,
+                    encoder.event(event),
+                    null,
+                    0,
+                    sequence,
+                    event.time(),
+                    now - event.time());
+            return FORMAT.serialize(ReplayRecords.of(playbackRecord, replay), null, null);
         } catch (IOException | InterruptedException e) {
             throw new IllegalStateException("an event was not encoded", e);
         }

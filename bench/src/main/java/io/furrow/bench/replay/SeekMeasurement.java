@@ -9,11 +9,11 @@ import java.util.function.Consumer;
 
 import io.furrow.bench.frame.Figures;
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
+import io.furrow.mission.EventPage;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.Span;
+import io.furrow.mission.RecordingExtent;
 import io.furrow.mission.StoredEvent;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.MongoRecordings;
@@ -46,9 +46,10 @@ final class SeekMeasurement {
         try (Recording recording = new MongoRecordings(mongo, MongoAccess.DATABASE)
                 .open(mission.name())
                 .orElseThrow()) {
-            Span span = recording.span().orElseThrow();
+            RecordingExtent recordingExtent = recording.span().orElseThrow();
             for (int percent : PERCENT) {
-                long point = span.first() + (span.last() - span.first()) * percent / 100;
+                long point =
+                        recordingExtent.first() + (recordingExtent.last() - recordingExtent.first()) * percent / 100;
                 same &= measure(figures, recording, percent, point);
             }
         }
@@ -86,12 +87,12 @@ final class SeekMeasurement {
     /** A recording whose states are found by reading it from its beginning. */
     private record Scanned(Recording recording) implements Recording {
         @Override
-        public Optional<Span> span() throws RecordingException {
+        public Optional<RecordingExtent> span() throws RecordingException {
             return recording.span();
         }
 
         @Override
-        public Page read(Cursor after, PageLimits limits) throws RecordingException {
+        public EventPage read(Cursor after, PageLimits limits) throws RecordingException {
             return recording.read(after, limits);
         }
 

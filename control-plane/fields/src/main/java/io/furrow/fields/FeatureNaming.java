@@ -12,7 +12,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.field.ImportOptions;
-import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.field.InvalidFileException;
 
 /** Derives the id, name and domain of a field from the attributes of its feature. */
 final class FeatureNaming {
@@ -29,9 +29,9 @@ final class FeatureNaming {
         this.attributes = attributes;
     }
 
-    /** @throws UnusableFileException if an option names an attribute that no feature has */
+    /** @throws InvalidFileException if an option names an attribute that no feature has */
     static FeatureNaming of(Path file, List<SourceFeature> features, ImportOptions options)
-            throws UnusableFileException {
+            throws InvalidFileException {
         Set<String> attributes = new TreeSet<>();
         features.forEach(feature -> feature.properties().fieldNames().forEachRemaining(attributes::add));
         require(file, "--id-property", options.idProperty(), attributes);
@@ -40,9 +40,9 @@ final class FeatureNaming {
     }
 
     private static void require(Path file, String option, String name, Set<String> attributes)
-            throws UnusableFileException {
+            throws InvalidFileException {
         if (name != null && attributes.stream().noneMatch(name::equalsIgnoreCase)) {
-            throw new UnusableFileException("%s %s: no feature of %s has this attribute; there are %s"
+            throw new InvalidFileException("%s %s: no feature of %s has this attribute; there are %s"
                     .formatted(option, name, file, attributes));
         }
     }

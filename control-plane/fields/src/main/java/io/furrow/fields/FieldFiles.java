@@ -13,8 +13,8 @@ import java.util.Map;
 import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.ImportOptions;
 import io.furrow.model.field.ImportedField;
-import io.furrow.model.field.RefusedFeature;
-import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.field.InvalidFileException;
+import io.furrow.model.field.RejectedFeature;
 
 /** Reads the fields of files: GeoJSON, Shapefiles and GeoPackages, in any coordinate system that GeoTools knows. */
 public final class FieldFiles {
@@ -23,11 +23,11 @@ public final class FieldFiles {
     private FieldFiles() {}
 
     /** Reads GeoJSON, a Shapefile or a GeoPackage, detected by the first bytes. */
-    public static FieldFile read(Path file, ImportOptions options) throws UnusableFileException {
+    public static FieldFile read(Path file, ImportOptions options) throws InvalidFileException {
         FieldLayer layer = layer(file, options);
         String crs = options.crs() == null ? layer.crs() : options.crs();
         if (crs == null) {
-            throw new UnusableFileException(file
+            throw new InvalidFileException(file
                     + " does not name its coordinate system; specify it with --crs, for instance --crs"
                     + " EPSG:25830");
         }
@@ -35,7 +35,7 @@ public final class FieldFiles {
         FeatureNaming naming = FeatureNaming.of(file, layer.features(), options);
         Map<String, Integer> taken = new HashMap<>();
         List<ImportedField> fields = new ArrayList<>();
-        List<RefusedFeature> refused = new ArrayList<>();
+        List<RejectedFeature> refused = new ArrayList<>();
         for (SourceFeature feature : layer.features()) {
             try {
                 String id = naming.id(feature);
@@ -46,7 +46,7 @@ public final class FieldFiles {
                 }
                 fields.add(field(feature, georeference, naming));
             } catch (RejectedFeatureException e) {
-                refused.add(new RefusedFeature(feature.number(), naming.called(feature), e.getMessage()));
+                refused.add(new RejectedFeature(feature.number(), naming.called(feature), e.getMessage()));
             }
         }
         return new FieldFile(georeference.name(), georeference.accuracyMeters(), fields, refused, layer.notes());
@@ -66,12 +66,12 @@ public final class FieldFiles {
                 repaired.edgeErrorMeters());
     }
 
-    private static FieldLayer layer(Path file, ImportOptions options) throws UnusableFileException {
+    private static FieldLayer layer(Path file, ImportOptions options) throws InvalidFileException {
         byte[] first;
         try (InputStream in = Files.newInputStream(file)) {
             first = in.readNBytes(FIRST_BYTES);
         } catch (IOException e) {
-            throw new UnusableFileException(file, e);
+            throw new InvalidFileException(file, e);
         }
         int begin = GeoJsonFields.begin(first);
         String text = new String(first, begin, first.length - begin, StandardCharsets.ISO_8859_1);
@@ -79,7 +79,7 @@ public final class FieldFiles {
             return GeoPackageFields.read(file, options.layer());
         }
         if (options.layer() != null) {
-            throw new UnusableFileException("--layer applies to GeoPackages only; " + file + " has no layers");
+            throw new InvalidFileException("--layer applies to GeoPackages only; " + file + " has no layers");
         }
         if (text.startsWith("\0\0'\n")) {
             return ShapefileFields.read(file);
@@ -87,7 +87,7 @@ public final class FieldFiles {
         if (text.strip().startsWith("{")) {
             return GeoJsonFields.read(file);
         }
-        throw new UnusableFileException(file
+        throw new InvalidFileException(file
                 + " is neither GeoJSON nor a Shapefile (.shp) nor a GeoPackage; unpack it first if it is an archive");
     }
 }

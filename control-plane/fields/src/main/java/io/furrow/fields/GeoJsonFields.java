@@ -13,7 +13,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.locationtech.jts.algorithm.Orientation;
 import org.locationtech.jts.geom.Coordinate;
 
-import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.field.InvalidFileException;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.Counts;
@@ -29,14 +29,14 @@ final class GeoJsonFields {
 
     private GeoJsonFields() {}
 
-    static FieldLayer read(Path file) throws UnusableFileException {
+    static FieldLayer read(Path file) throws InvalidFileException {
         JsonNode json = json(file);
         List<JsonNode> features = new ArrayList<>();
         switch (json.path("type").asText()) {
             case "FeatureCollection" -> json.path("features").forEach(features::add);
             case "Feature" -> features.add(json);
             default ->
-                throw new UnusableFileException(
+                throw new InvalidFileException(
                         file + " is JSON, but not a GeoJSON FeatureCollection or Feature; write one feature per field");
         }
         List<SourceFeature> read = new ArrayList<>();
@@ -51,19 +51,19 @@ final class GeoJsonFields {
         return Arrays.mismatch(BYTE_ORDER_MARK, file) == BYTE_ORDER_MARK.length ? BYTE_ORDER_MARK.length : 0;
     }
 
-    private static JsonNode json(Path file) throws UnusableFileException {
+    private static JsonNode json(Path file) throws InvalidFileException {
         try {
             return NgsiJson.readFile(Files.readAllBytes(file));
         } catch (IOException e) {
-            throw new UnusableFileException(file, e);
+            throw new InvalidFileException(file, e);
         } catch (UnreadableException e) {
             String remedy =
                     e.getMessage().startsWith("more than one") ? "; put the features into one FeatureCollection" : "";
-            throw new UnusableFileException(file + " is not JSON (" + e.getMessage() + ")" + remedy, e);
+            throw new InvalidFileException(file + " is not JSON (" + e.getMessage() + ")" + remedy, e);
         }
     }
 
-    private static String crs(Path file, JsonNode json) throws UnusableFileException {
+    private static String crs(Path file, JsonNode json) throws InvalidFileException {
         JsonNode crs = json.path("crs");
         if (crs.isMissingNode()) {
             return WGS84;
@@ -74,7 +74,7 @@ final class GeoJsonFields {
         if (crs.path("type").asText().equals("EPSG")) {
             return "EPSG:" + crs.path("properties").path("code").asText();
         }
-        throw new UnusableFileException(file
+        throw new InvalidFileException(file
                 + " has a member 'crs' that does not name a coordinate system; specify it with --crs, or remove"
                 + " the member");
     }

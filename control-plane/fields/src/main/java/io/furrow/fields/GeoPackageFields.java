@@ -13,7 +13,7 @@ import java.util.List;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.field.InvalidFileException;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -38,13 +38,13 @@ final class GeoPackageFields {
     private record Layer(String table, String geometry, String crs) {}
 
     /** @param name name of the layer; null for the only one */
-    static FieldLayer read(Path file, String name) throws UnusableFileException {
+    static FieldLayer read(Path file, String name) throws InvalidFileException {
         String url =
                 "jdbc:sqlite:file:" + file.toUri().getRawPath() + (hasLog(file) ? "?mode=ro" : "?mode=ro&immutable=1");
         try (Connection database = DriverManager.getConnection(url)) {
             return new GeoPackageFields(file, database).layer(name);
         } catch (SQLException e) {
-            throw new UnusableFileException(
+            throw new InvalidFileException(
                     file + " is not a readable GeoPackage (" + FailureText.of(e).replaceFirst("^\\[\\w+] *", "") + ")",
                     e);
         }
@@ -55,15 +55,14 @@ final class GeoPackageFields {
         return file.resolveSibling(file.getFileName() + "-wal").toFile().length() > 0;
     }
 
-    private FieldLayer layer(String name) throws SQLException, UnusableFileException {
+    private FieldLayer layer(String name) throws SQLException, InvalidFileException {
         List<Layer> layers = layers();
         List<String> names = layers.stream().map(Layer::table).toList();
         List<Layer> chosen = layers.stream()
                 .filter(layer -> name == null || layer.table().equals(name))
                 .toList();
         if (chosen.size() != 1) {
-            throw new UnusableFileException(
-                    "%s contains the layers %s; choose one with --layer".formatted(file, names));
+            throw new InvalidFileException("%s contains the layers %s; choose one with --layer".formatted(file, names));
         }
         return new FieldLayer(chosen.get(0).crs(), features(chosen.get(0)), List.of());
     }

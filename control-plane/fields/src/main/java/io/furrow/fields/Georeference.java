@@ -19,7 +19,7 @@ import org.geotools.referencing.operation.transform.ConcatenatedTransform;
 import org.geotools.referencing.operation.transform.IdentityTransform;
 import org.locationtech.jts.geom.Coordinate;
 
-import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.field.InvalidFileException;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -46,8 +46,8 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
         QUIET.forEach(logger -> logger.setLevel(Level.OFF));
     }
 
-    /** @throws UnusableFileException if the text names no coordinate system that can be transformed to WGS 84 */
-    static Georeference of(String text) throws UnusableFileException {
+    /** @throws InvalidFileException if the text names no coordinate system that can be transformed to WGS 84 */
+    static Georeference of(String text) throws InvalidFileException {
         Matcher epsg = EPSG.matcher(text.strip());
         try {
             if (CRS84.matcher(text.strip()).matches()) {
@@ -58,7 +58,7 @@ record Georeference(String name, MathTransform transform, boolean northFirst, do
             }
             return ofDefinition(text);
         } catch (FactoryException | TransformException | NumberFormatException e) {
-            throw new UnusableFileException(
+            throw new InvalidFileException(
                     "'%s' is not a known coordinate system (%s); specify it with --crs, for instance --crs EPSG:25830"
                             .formatted(Phrases.shortened(text), FailureText.of(e)),
                     e);

@@ -20,7 +20,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.linuxense.javadbf.DBFException;
 import com.linuxense.javadbf.DBFReader;
 
-import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.field.InvalidFileException;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -35,15 +35,15 @@ final class ShapefileFields {
         this.shp = shp;
     }
 
-    static FieldLayer read(Path shp) throws UnusableFileException {
+    static FieldLayer read(Path shp) throws InvalidFileException {
         return new ShapefileFields(shp).layer();
     }
 
-    private FieldLayer layer() throws UnusableFileException {
+    private FieldLayer layer() throws InvalidFileException {
         List<ShapefileReader.Shape> shapes = ShapefileReader.read(shp);
         List<ObjectNode> rows = rows(shapes.size());
         if (rows.size() != shapes.size()) {
-            throw new UnusableFileException("%s has %d shapes and %d rows of attributes; copy .shp and .dbf together"
+            throw new InvalidFileException("%s has %d shapes and %d rows of attributes; copy .shp and .dbf together"
                     .formatted(shp, shapes.size(), rows.size()));
         }
         List<SourceFeature> features = new ArrayList<>();
@@ -60,7 +60,7 @@ final class ShapefileFields {
     }
 
     /** Returns one row per shape; null if it is deleted. */
-    private List<ObjectNode> rows(int shapes) throws UnusableFileException {
+    private List<ObjectNode> rows(int shapes) throws InvalidFileException {
         List<ObjectNode> rows = new ArrayList<>();
         Optional<Path> dbf = beside(".dbf");
         if (dbf.isEmpty()) {
@@ -77,7 +77,7 @@ final class ShapefileFields {
                 rows.add(Boolean.TRUE.equals(row[0]) ? null : attributes(reader, row));
             }
         } catch (DBFException e) {
-            throw new UnusableFileException(dbf.get() + " cannot be read (" + FailureText.of(e) + ")", e);
+            throw new InvalidFileException(dbf.get() + " cannot be read (" + FailureText.of(e) + ")", e);
         }
         return rows;
     }
@@ -108,12 +108,12 @@ final class ShapefileFields {
     }
 
     /** The code page that .cpg names, or else the table, or else the one that its texts are in. */
-    private Charset charset(byte[] table) throws UnusableFileException {
+    private Charset charset(byte[] table) throws InvalidFileException {
         Optional<Path> cpg = beside(".cpg");
         String named = cpg.isPresent() ? text(cpg.get()) : "";
         if (!named.isEmpty()) {
             return CodePage.named(named)
-                    .orElseThrow(() -> new UnusableFileException(
+                    .orElseThrow(() -> new InvalidFileException(
                             "%s names the unknown code page '%s'; write into it what the texts of the .dbf file are in, for instance UTF-8 or 1252"
                                     .formatted(cpg.get(), named)));
         }
@@ -128,7 +128,7 @@ final class ShapefileFields {
     }
 
     /** Without a byte order mark and the blanks around it. */
-    private static String text(Path file) throws UnusableFileException {
+    private static String text(Path file) throws InvalidFileException {
         byte[] bytes = bytes(file);
         int begin = GeoJsonFields.begin(bytes);
         return new String(bytes, begin, bytes.length - begin, StandardCharsets.UTF_8)
@@ -136,11 +136,11 @@ final class ShapefileFields {
                 .strip();
     }
 
-    private static byte[] bytes(Path file) throws UnusableFileException {
+    private static byte[] bytes(Path file) throws InvalidFileException {
         try {
             return Files.readAllBytes(file);
         } catch (IOException e) {
-            throw new UnusableFileException(file, e);
+            throw new InvalidFileException(file, e);
         }
     }
 

@@ -11,7 +11,7 @@ import java.util.List;
 import org.locationtech.jts.algorithm.Orientation;
 import org.locationtech.jts.geom.Coordinate;
 
-import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.field.InvalidFileException;
 import io.furrow.model.text.Counts;
 
 /** Reads the main file of a Shapefile (.shp), as specified by "ESRI Shapefile Technical Description", July 1998. */
@@ -38,26 +38,26 @@ final class ShapefileReader {
     /** The content of a record; {@code fault} says why there is no outline. */
     record Shape(Outline outline, String fault) {}
 
-    static List<Shape> read(Path file) throws UnusableFileException {
+    static List<Shape> read(Path file) throws InvalidFileException {
         ByteBuffer bytes;
         try {
             bytes = ByteBuffer.wrap(Files.readAllBytes(file));
         } catch (IOException e) {
-            throw new UnusableFileException(file, e);
+            throw new InvalidFileException(file, e);
         }
         if (bytes.remaining() < FILE_HEADER || bytes.getInt(0) != FILE_CODE) {
-            throw new UnusableFileException(file + " is not a Shapefile: it does not begin with the code 9994");
+            throw new InvalidFileException(file + " is not a Shapefile: it does not begin with the code 9994");
         }
         return new ShapefileReader(file, bytes.position(FILE_HEADER)).all();
     }
 
-    private List<Shape> all() throws UnusableFileException {
+    private List<Shape> all() throws InvalidFileException {
         List<Shape> shapes = new ArrayList<>();
         while (bytes.remaining() >= RECORD_HEADER) {
             bytes.order(ByteOrder.BIG_ENDIAN).getInt();
             int length = 2 * bytes.getInt();
             if (length < 4 || length > bytes.remaining()) {
-                throw new UnusableFileException(
+                throw new InvalidFileException(
                         "%s is truncated in record %d; copy it again".formatted(file, shapes.size() + 1));
             }
             ByteBuffer content = bytes.slice(bytes.position(), length).order(ByteOrder.LITTLE_ENDIAN);

@@ -22,7 +22,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.ImportOptions;
 import io.furrow.model.field.ImportedField;
-import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.field.InvalidFileException;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -123,7 +123,7 @@ public class FieldFilesTest {
         Path file = resource("geopackage-layers.gpkg");
 
         assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
-                .isInstanceOf(UnusableFileException.class)
+                .isInstanceOf(InvalidFileException.class)
                 .hasMessageContaining("[fields, more]")
                 .hasMessageContaining("--layer");
         FieldFile more = FieldFiles.read(file, new ImportOptions("more", null, "code", null, null, Instant.EPOCH));
@@ -137,7 +137,7 @@ public class FieldFilesTest {
         Files.copy(resource("shapefile-25830.dbf"), folder.resolve("bare.DBF"));
 
         assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
-                .isInstanceOf(UnusableFileException.class)
+                .isInstanceOf(InvalidFileException.class)
                 .hasMessageContaining("--crs EPSG:25830");
         for (String crs :
                 List.of("EPSG:25830", "urn:ogc:def:crs:EPSG::25830", "http://www.opengis.net/def/crs/EPSG/0/25830")) {
@@ -218,7 +218,7 @@ public class FieldFilesTest {
         Path file = Files.writeString(folder.resolve("x.geojsonl"), "{\"type\":\"Feature\"}\n{\"type\":\"Feature\"}\n");
 
         assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
-                .isInstanceOf(UnusableFileException.class)
+                .isInstanceOf(InvalidFileException.class)
                 .hasMessageEndingWith(
                         "is not JSON (more than one JSON document at line 2, column 1); put the features into one FeatureCollection");
     }
@@ -230,7 +230,7 @@ public class FieldFilesTest {
         Files.writeString(folder.resolve("coded.cpg"), "Klingon");
 
         assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
-                .isInstanceOf(UnusableFileException.class)
+                .isInstanceOf(InvalidFileException.class)
                 .hasMessageContaining("names the unknown code page 'Klingon'; write into it");
     }
 
@@ -262,7 +262,7 @@ public class FieldFilesTest {
         Files.writeString(folder.resolve("lost.prj"), prj);
 
         assertThatThrownBy(() -> FieldFiles.read(shp, named("code")))
-                .isInstanceOf(UnusableFileException.class)
+                .isInstanceOf(InvalidFileException.class)
                 .hasMessageContaining("is not a known coordinate system")
                 .hasMessageContaining("--crs");
     }
@@ -310,7 +310,7 @@ public class FieldFilesTest {
     private void assertUnusable(String content, String message) throws IOException {
         Path file = Files.writeString(folder.resolve("file"), content, StandardCharsets.UTF_8);
         assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
-                .isInstanceOf(UnusableFileException.class)
+                .isInstanceOf(InvalidFileException.class)
                 .hasMessageContaining(message);
     }
 

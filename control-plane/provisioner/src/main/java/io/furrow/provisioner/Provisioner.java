@@ -2,19 +2,19 @@ package io.furrow.provisioner;
 
 import java.time.Clock;
 
-import io.furrow.kafka.PartStatus;
-import io.furrow.kafka.RestartingWorker;
+import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.SupervisedWorker;
 
 /**
  * Provisions the devices of {@code service.devices} at the IoT Agent and at the MQTT brokers, and removes all others.
  * Of several instances one is at work, another takes over when it dies. Whatever makes it fail, it begins again.
  */
 public final class Provisioner implements AutoCloseable {
-    private final RestartingWorker worker;
+    private final SupervisedWorker worker;
     private volatile String detail = "starts";
 
     private Provisioner(ProvisioningSettings settings) {
-        this.worker = new RestartingWorker("provisioner", Clock.systemUTC())
+        this.worker = new SupervisedWorker("provisioner", Clock.systemUTC())
                 .start(self -> provision(settings, self), () -> detail);
     }
 
@@ -23,7 +23,7 @@ public final class Provisioner implements AutoCloseable {
         return new Provisioner(settings);
     }
 
-    private void provision(ProvisioningSettings settings, RestartingWorker self) throws InterruptedException {
+    private void provision(ProvisioningSettings settings, SupervisedWorker self) throws InterruptedException {
         try (ProvisioningWorker loop = new ProvisioningWorker(settings)) {
             while (!self.isClosing()) {
                 loop.next();
@@ -34,7 +34,7 @@ public final class Provisioner implements AutoCloseable {
     }
 
     /** For a health page: it works as long as it reads what is requested, though the IoT Agent may be unavailable. */
-    public PartStatus status() {
+    public ComponentStatus status() {
         return worker.status();
     }
 

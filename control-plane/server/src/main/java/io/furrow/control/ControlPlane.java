@@ -2,7 +2,7 @@ package io.furrow.control;
 
 import java.io.IOException;
 
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 
 /**
  * The three managers in this JVM. Several instances of the same settings share the work: the managers of domains and of missions
@@ -39,7 +39,7 @@ public final class ControlPlane implements AutoCloseable {
     }
 
     /** For a health page. */
-    public PartStatus status() {
+    public ComponentStatus status() {
         return application.status();
     }
 

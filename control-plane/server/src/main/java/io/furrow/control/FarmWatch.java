@@ -7,7 +7,7 @@ import java.util.Properties;
 import org.apache.kafka.streams.StreamsConfig;
 
 import io.furrow.control.alarm.action.AlarmActions;
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 
 /**
  * Watches the farm in this JVM: health of devices, alarms, the entities of domains and missions. It is an application of its
@@ -59,12 +59,12 @@ public final class FarmWatch implements AutoCloseable {
     }
 
     /** For a health page. */
-    public PartStatus status() {
+    public ComponentStatus status() {
         return application.status().named("farmWatch");
     }
 
     /** How it is with each thread that acts on alarms, for a health page. */
-    public List<PartStatus> workers() {
+    public List<ComponentStatus> workers() {
         return actions.workers();
     }
 

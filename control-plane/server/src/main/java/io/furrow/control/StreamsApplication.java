@@ -18,7 +18,7 @@ import org.apache.kafka.streams.errors.StreamsUncaughtExceptionHandler.StreamThr
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.time.Backoff;
 
@@ -154,13 +154,14 @@ final class StreamsApplication implements AutoCloseable {
     }
 
     /** Its last success is the last time that all of its threads had asked Kafka for records. */
-    PartStatus status() {
+    ComponentStatus status() {
         KafkaStreams current = streams;
         boolean up = current.state() == KafkaStreams.State.RUNNING;
         String cause = failure;
         String detail =
                 up || cause == null ? current.state().name() : current.state().name() + " after " + cause;
-        return new PartStatus(name, up ? PartStatus.State.UP : PartStatus.State.DOWN, lastPoll(current), detail);
+        return new ComponentStatus(
+                name, up ? ComponentStatus.State.UP : ComponentStatus.State.DOWN, lastPoll(current), detail);
     }
 
     /** Null if no thread has polled yet. */

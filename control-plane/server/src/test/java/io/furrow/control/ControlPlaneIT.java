@@ -239,7 +239,8 @@ class ControlPlaneIT {
             first.close();
             producer.send(new ProducerRecord<>(
                     Topics.MISSION_MANAGER,
-                    Requests.write("m", new MissionCommand.Start("m", "d-0", new MissionPlan.Unsaid(), null, null))));
+                    Requests.write(
+                            "m", new MissionCommand.Start("m", "d-0", new MissionPlan.Unspecified(), null, null))));
             await().atMost(TIMEOUT).until(() -> answers(Topics.MISSION_MANAGER).size() == 1);
             assertThat(answers(Topics.MISSION_MANAGER).get(0).status()).isEqualTo("created");
             assertThat(second.isHealthy()).isTrue();

@@ -302,7 +302,7 @@ class ControlTopologyTest {
     /** Its recording lasts from 1 s to 9 s. */
     private void report(String replay, long sequence, ReplayStatus.State state, boolean settled) {
         String status = """
-                {"sequence":%d,"state":"%s","settled":%s,"progress":{"position":9000,"from":1000,"to":9000}}""".formatted(sequence, state.word(), settled);
+                {"sequence":%d,"state":"%s","settled":%s,"progress":{"position":9000,"from":1000,"to":9000}}""".formatted(sequence, state.code(), settled);
         farm.pipe(Topics.REPLAYS_STATUS, replay, status.getBytes(StandardCharsets.UTF_8));
     }
 

@@ -27,7 +27,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.control.alarm.action.StopRobots;
 import io.furrow.control.alarm.action.Webhook;
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.Requests;
 import io.furrow.model.device.DesiredDevice;
@@ -120,11 +120,11 @@ class FarmWatchIT {
             await().atMost(TIMEOUT).until(() -> state("collision").equals("closed"));
             await().atMost(TIMEOUT).until(() -> watch.workers().get(0).detail().contains("it responded with 503"));
             assertThat(watch.workers())
-                    .extracting(PartStatus::name, PartStatus::state)
+                    .extracting(ComponentStatus::name, ComponentStatus::state)
                     .containsExactly(
-                            tuple("webhook", PartStatus.State.UP),
-                            tuple("device-types", PartStatus.State.UP),
-                            tuple("stop-on-predicted", PartStatus.State.UP));
+                            tuple("webhook", ComponentStatus.State.UP),
+                            tuple("device-types", ComponentStatus.State.UP),
+                            tuple("stop-on-predicted", ComponentStatus.State.UP));
             assertThat(watch.workers().get(0).lastSuccess()).isNull();
         }
         hookIsUp = true;

@@ -19,7 +19,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -55,8 +55,8 @@ class StreamsApplicationIT {
                         .untilAtomic(handled, count -> assertThat(count).isPositive());
                 await().atMost(TIMEOUT).until(application::isHealthy);
                 assertThat(failures).hasValue(2);
-                PartStatus status = application.status();
-                assertThat(status.state()).isEqualTo(PartStatus.State.UP);
+                ComponentStatus status = application.status();
+                assertThat(status.state()).isEqualTo(ComponentStatus.State.UP);
                 assertThat(status.lastSuccess()).isNotNull();
             }
         }

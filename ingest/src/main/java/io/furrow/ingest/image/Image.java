@@ -11,7 +11,7 @@ record Image(byte[] bytes, ImageFormat format, String sha256) {
      * @throws UnreadableException with {@link Reason#NOT_AN_IMAGE} or {@link Reason#TOO_LARGE}
      */
     static Image of(byte[] text, int limit) throws UnreadableException {
-        byte[] bytes = ImageText.decode(text);
+        byte[] bytes = ImageDecoder.decode(text);
         if (bytes.length > limit) {
             throw new UnreadableException(
                     Reason.TOO_LARGE, "the image has " + bytes.length + " bytes, more than the " + limit + " allowed");

@@ -5,8 +5,8 @@ import org.apache.flink.metrics.Gauge;
 import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.metrics.ThreadSafeSimpleCounter;
 
-import io.furrow.flink.job.PerMission;
-import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.job.PerMissionMetrics;
+import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.ingest.route.ReportedEvent;
 
 /**
@@ -15,8 +15,8 @@ import io.furrow.ingest.route.ReportedEvent;
  */
 final class ImageCounts {
     private final Stored all;
-    private final PerMission<Stored> perMission;
-    private final DeadCounters dead;
+    private final PerMissionMetrics<Stored> perMissionMetrics;
+    private final DeadLetterCounters dead;
     private final Counter retries;
 
     /** Counts what was stored. */
@@ -25,27 +25,27 @@ final class ImageCounts {
             return new Stored(group.counter("images"), group.counter("imageBytes"));
         }
 
-        void add(Moved moved) {
-            images.inc(moved.images());
-            bytes.inc(moved.bytes());
+        void add(MoveResult moveResult) {
+            images.inc(moveResult.images());
+            bytes.inc(moveResult.bytes());
         }
     }
 
     ImageCounts(MetricGroup group, Gauge<Long> inFlight) {
         all = Stored.in(group);
-        perMission = new PerMission<>(group, PerMission.USUAL_LIMIT, Stored::in);
-        dead = new DeadCounters(group);
+        perMissionMetrics = new PerMissionMetrics<>(group, PerMissionMetrics.USUAL_LIMIT, Stored::in);
+        dead = new DeadLetterCounters(group);
         retries = group.counter("imageRetries", new ThreadSafeSimpleCounter());
         group.gauge("imageBytesInFlight", inFlight);
     }
 
-    void count(ReportedEvent event, Moved moved) {
-        if (moved.broken() != null) {
-            dead.count(moved.broken(), event.domain(), event.mission());
+    void count(ReportedEvent event, MoveResult moveResult) {
+        if (moveResult.broken() != null) {
+            dead.count(moveResult.broken(), event.domain(), event.mission());
         }
-        if (moved.images() > 0) {
-            all.add(moved);
-            perMission.of(event.domain(), event.mission()).add(moved);
+        if (moveResult.images() > 0) {
+            all.add(moveResult);
+            perMissionMetrics.of(event.domain(), event.mission()).add(moveResult);
         }
     }
 

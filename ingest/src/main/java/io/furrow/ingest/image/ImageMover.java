@@ -40,12 +40,12 @@ final class ImageMover {
     ImageMover(ImageSettings settings, ImageStore store) {
         this.settings = settings;
         this.store = store;
-        this.quotedNames = ImageSpan.quoted(settings.attributes());
+        this.quotedNames = ImageRange.quoted(settings.attributes());
     }
 
     /** False if a short look says that the event holds no image. */
     boolean concerns(TopicRecord record) {
-        return record.value() != null && ImageSpan.possible(record.value(), quotedNames);
+        return record.value() != null && ImageRange.possible(record.value(), quotedNames);
     }
 
     /**
@@ -53,21 +53,23 @@ final class ImageMover {
      *
      * @throws IOException if the store does not take an image; the same call may be made again
      */
-    Moved move(ReportedEvent event) throws IOException {
-        Moved moved = moved(event);
-        return settings.storing() == Storing.BY_OTHERS ? Moved.unannounced(moved.record()) : moved;
+    MoveResult move(ReportedEvent event) throws IOException {
+        MoveResult moveResult = moved(event);
+        return settings.storageMode() == StorageMode.BY_OTHERS
+                ? MoveResult.unannounced(moveResult.record())
+                : moveResult;
     }
 
-    private Moved moved(ReportedEvent event) throws IOException {
+    private MoveResult moved(ReportedEvent event) throws IOException {
         TopicRecord record = event.record();
-        List<ImageSpan> spans;
+        List<ImageRange> spans;
         try {
-            spans = ImageSpan.find(record.value(), settings.attributes());
+            spans = ImageRange.find(record.value(), settings.attributes());
             if (spans.isEmpty()) {
-                return Moved.unannounced(record);
+                return MoveResult.unannounced(record);
             }
         } catch (UnreadableException e) {
-            return new Moved(record, List.of(), List.of(DeadLetters.of(record, e, STAGE)), e.reason(), 0);
+            return new MoveResult(record, List.of(), List.of(DeadLetters.of(record, e, STAGE)), e.reason(), 0);
         }
         ImageName name =
                 ImageName.of(scope(record), event.domain(), event.mission(), event.entityId(), record.timestamp());
@@ -75,7 +77,7 @@ final class ImageMover {
         List<TopicRecord> manifest = new ArrayList<>();
         UnreadableException broken = null;
         long bytes = 0;
-        for (ImageSpan span : spans) {
+        for (ImageRange span : spans) {
             try {
                 Image image = Image.of(span.text(record.value()), settings.maxBytes());
                 StoredImage stored = store.store(name, image);
@@ -87,10 +89,10 @@ final class ImageMover {
                 broken = broken == null ? e : broken;
             }
         }
-        TopicRecord moved = record.withValue(ImageSpan.replace(record.value(), spans, values));
+        TopicRecord moved = record.withValue(ImageRange.replace(record.value(), spans, values));
         return broken == null
-                ? new Moved(moved, manifest, List.of(), null, bytes)
-                : new Moved(
+                ? new MoveResult(moved, manifest, List.of(), null, bytes)
+                : new MoveResult(
                         moved.with(BROKEN, broken.reason().code()),
                         manifest,
                         List.of(DeadLetters.of(record, broken, STAGE)),

@@ -76,7 +76,7 @@ public final class ImageOptions {
      *
      * @throws ParameterException naming the option that is wrong and the remedy
      */
-    Optional<ImageSettings> settings(Storing storing) {
+    Optional<ImageSettings> settings(StorageMode storageMode) {
         if (root == null) {
             return Optional.empty();
         }
@@ -85,7 +85,7 @@ public final class ImageOptions {
         check(maxInFlight >= 1, "--image-in-flight " + maxInFlight + " lets nothing pass; name at least 1");
         check(attributes.stream().noneMatch(String::isBlank), "--image-attribute has an empty name; leave it out");
         return Optional.of(new ImageSettings(
-                folder(root), new LinkedHashSet<>(attributes), maxBytes, threads, maxInFlight, timeout, storing));
+                folder(root), new LinkedHashSet<>(attributes), maxBytes, threads, maxInFlight, timeout, storageMode));
     }
 
     /** An absolute URI without a slash at its end; what begins with no scheme is a path of this machine, of any characters. */

@@ -21,5 +21,5 @@ record ImageSettings(
         int threads,
         long maxInFlightBytes,
         Duration timeout,
-        Storing storing)
+        StorageMode storageMode)
         implements Serializable {}

@@ -31,8 +31,8 @@ public final class ImageStage {
 
     /** @param events by {@link CarriesImages#identity()}; the caller gives uid and name */
     public static SingleOutputStreamOperator<ReportedEvent> move(
-            KeyedStream<ReportedEvent, String> events, ImageOptions options, Storing storing) {
-        Optional<ImageSettings> settings = options.settings(storing);
+            KeyedStream<ReportedEvent, String> events, ImageOptions options, StorageMode storageMode) {
+        Optional<ImageSettings> settings = options.settings(storageMode);
         settings.ifPresent(given -> check(given, options));
         return events.transform("move-images", events.getType(), operator(settings.orElse(null), events.getType()));
     }

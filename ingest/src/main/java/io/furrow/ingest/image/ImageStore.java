@@ -16,7 +16,7 @@ interface ImageStore {
     /** @throws IOException if there is no file system for the root's kind of URI and one is needed */
     static ImageStore of(ImageSettings settings) throws IOException {
         String root = settings.root();
-        return switch (settings.storing()) {
+        return switch (settings.storageMode()) {
             case ALL -> ImageFiles.in(root);
             case FOR_OTHERS -> ImageFiles.in(root)::storeByHash;
             case BY_OTHERS ->

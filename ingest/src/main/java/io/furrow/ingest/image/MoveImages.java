@@ -56,8 +56,8 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
     private transient ExecutorService threads;
     private transient ListState<ReportedEvent> inFlight;
     private transient Set<String> kept;
-    private transient Map<String, Deque<Waiting>> byEntity;
-    private transient Deque<Waiting> inOrder;
+    private transient Map<String, Deque<InFlightEvent>> byEntity;
+    private transient Deque<InFlightEvent> inOrder;
     private transient long bytes;
 
     /** @param settings null if images stay in the events */
@@ -116,29 +116,29 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
     }
 
     private void add(ReportedEvent event) throws Exception {
-        Waiting waiting = Waiting.event(event);
-        Deque<Waiting> queue = byEntity.computeIfAbsent(event.identity(), entity -> new ArrayDeque<>());
-        queue.add(waiting);
-        inOrder.add(waiting);
+        InFlightEvent inFlightEvent = InFlightEvent.event(event);
+        Deque<InFlightEvent> queue = byEntity.computeIfAbsent(event.identity(), entity -> new ArrayDeque<>());
+        queue.add(inFlightEvent);
+        inOrder.add(inFlightEvent);
         bytes += size(event);
         if (queue.size() == 1) {
-            begin(waiting);
+            begin(inFlightEvent);
         }
     }
 
     /** Hands the first event of an entity to a thread; one that needs none is emitted by the next mail. */
-    private void begin(Waiting waiting) {
-        ReportedEvent event = waiting.event();
+    private void begin(InFlightEvent inFlightEvent) {
+        ReportedEvent event = inFlightEvent.event();
         if (!isConcerned(event)) {
-            mailbox.execute(() -> goOn(waiting, Moved.unannounced(event.record())), "pass an event");
+            mailbox.execute(() -> goOn(inFlightEvent, MoveResult.unannounced(event.record())), "pass an event");
             return;
         }
         StoreRetries attempts = new StoreRetries(mover, settings.timeout(), counts::retried);
         threads.execute(() -> {
-            send(() -> expectAnswer(waiting));
+            send(() -> expectAnswer(inFlightEvent));
             try {
-                Moved moved = attempts.move(event);
-                send(() -> goOn(waiting, moved));
+                MoveResult moveResult = attempts.move(event);
+                send(() -> goOn(inFlightEvent, moveResult));
             } catch (IOException | RuntimeException | LinkageError e) { // the last: a store's client lacks a class
                 send(() -> fail(event, e));
             } catch (InterruptedException e) {
@@ -148,11 +148,12 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
     }
 
     /** The time of an image begins when a thread takes it: how long it waited for one says nothing of the store. */
-    private void expectAnswer(Waiting waiting) {
+    private void expectAnswer(InFlightEvent inFlightEvent) {
         long deadline = getProcessingTimeService().getCurrentProcessingTime()
                 + settings.timeout().plus(HANGING).toMillis();
-        waiting.until(getProcessingTimeService()
-                .registerTimer(deadline, time -> fail(waiting.event(), new IOException("the store does not answer"))));
+        inFlightEvent.until(getProcessingTimeService()
+                .registerTimer(
+                        deadline, time -> fail(inFlightEvent.event(), new IOException("the store does not answer"))));
     }
 
     /** Has the task's own thread do something. */
@@ -171,22 +172,24 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
                 cause);
     }
 
-    private void goOn(Waiting done, Moved moved) throws Exception {
+    private void goOn(InFlightEvent done, MoveResult moveResult) throws Exception {
         ReportedEvent event = done.event();
         output.collect(
-                new StreamRecord<>(event.as(moved.record()), event.record().timestamp()));
-        moved.manifest()
+                new StreamRecord<>(event.as(moveResult.record()), event.record().timestamp()));
+        moveResult
+                .manifest()
                 .forEach(record -> output.collect(
                         ImageStage.MANIFEST,
                         new StreamRecord<>(record, event.record().timestamp())));
-        moved.deadLetters()
+        moveResult
+                .deadLetters()
                 .forEach(record -> output.collect(
                         DeadLetters.TAG,
                         new StreamRecord<>(record, event.record().timestamp())));
-        counts.count(event, moved);
+        counts.count(event, moveResult);
         bytes -= size(event);
         done.pass();
-        Deque<Waiting> queue = byEntity.get(event.identity());
+        Deque<InFlightEvent> queue = byEntity.get(event.identity());
         queue.remove();
         if (!queue.isEmpty()) {
             begin(queue.element());
@@ -211,7 +214,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
         if (inOrder.isEmpty()) {
             super.processWatermark(mark);
         } else {
-            inOrder.add(Waiting.mark(() -> super.processWatermark(mark)));
+            inOrder.add(InFlightEvent.mark(() -> super.processWatermark(mark)));
         }
     }
 
@@ -220,14 +223,14 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
         if (inOrder.isEmpty()) {
             super.processWatermarkStatus(status);
         } else {
-            inOrder.add(Waiting.mark(() -> super.processWatermarkStatus(status)));
+            inOrder.add(InFlightEvent.mark(() -> super.processWatermarkStatus(status)));
         }
     }
 
     @Override
     public void snapshotState(StateSnapshotContext context) throws Exception {
         super.snapshotState(context);
-        for (Map.Entry<String, Deque<Waiting>> waiting : byEntity.entrySet()) {
+        for (Map.Entry<String, Deque<InFlightEvent>> waiting : byEntity.entrySet()) {
             setCurrentKey(waiting.getKey());
             List<ReportedEvent> events = new ArrayList<>();
             waiting.getValue().forEach(one -> events.add(one.event()));

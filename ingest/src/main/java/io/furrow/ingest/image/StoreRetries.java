@@ -24,7 +24,7 @@ final class StoreRetries {
     }
 
     /** @throws IOException what the last attempt said */
-    Moved move(ReportedEvent event) throws IOException, InterruptedException {
+    MoveResult move(ReportedEvent event) throws IOException, InterruptedException {
         long end = System.nanoTime() + timeout.toNanos();
         Backoff backoff = new Backoff(MIN_BACKOFF, MAX_BACKOFF);
         while (true) {

@@ -6,7 +6,7 @@ import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.StoredEvent;
@@ -26,11 +26,11 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
     /** In dead letters. */
     static final String STAGE = "missions";
 
-    private transient DeadCounters dead;
+    private transient DeadLetterCounters dead;
 
     @Override
     public void open(OpenContext context) {
-        dead = new DeadCounters(getRuntimeContext().getMetricGroup());
+        dead = new DeadLetterCounters(getRuntimeContext().getMetricGroup());
     }
 
     @Override

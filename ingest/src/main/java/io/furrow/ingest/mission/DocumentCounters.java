@@ -3,8 +3,8 @@ package io.furrow.ingest.mission;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.MetricGroup;
 
-import io.furrow.flink.job.PerMission;
-import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.job.PerMissionMetrics;
+import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.model.ngsi.Reason;
 
 /**
@@ -13,18 +13,21 @@ import io.furrow.model.ngsi.Reason;
  */
 final class DocumentCounters {
     private final Counter documents;
-    private final PerMission<Counter> perMission;
-    private final DeadCounters dead;
+    private final PerMissionMetrics<Counter> perMissionMetrics;
+    private final DeadLetterCounters dead;
 
     DocumentCounters(MetricGroup group) {
         documents = group.counter("documents");
-        perMission = new PerMission<>(group, PerMission.USUAL_LIMIT, mission -> mission.counter("documents"));
-        dead = new DeadCounters(group);
+        perMissionMetrics =
+                new PerMissionMetrics<>(group, PerMissionMetrics.USUAL_LIMIT, mission -> mission.counter("documents"));
+        dead = new DeadLetterCounters(group);
     }
 
     void written(MissionDocument document) {
         documents.inc();
-        perMission.of(document.event().domain(), document.event().mission()).inc();
+        perMissionMetrics
+                .of(document.event().domain(), document.event().mission())
+                .inc();
     }
 
     void refused(MissionDocument document) {

@@ -10,7 +10,7 @@ import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.EntityRecord;
@@ -41,7 +41,7 @@ public final class NormalizeNotifications extends ProcessFunction<TopicRecord, T
     private transient Counter accepted;
     private transient Counter excluded;
     private transient Map<EventTime.Fault, Counter> faults;
-    private transient DeadCounters dead;
+    private transient DeadLetterCounters dead;
 
     NormalizeNotifications(Settings settings) {
         this.settings = settings;
@@ -56,7 +56,7 @@ public final class NormalizeNotifications extends ProcessFunction<TopicRecord, T
                 EventTime.Fault.AHEAD, metrics.counter("clockAhead"),
                 EventTime.Fault.UNSET, metrics.counter("clockUnset"),
                 EventTime.Fault.UNREADABLE, metrics.counter("unreadableTime"));
-        dead = new DeadCounters(metrics);
+        dead = new DeadLetterCounters(metrics);
     }
 
     @Override

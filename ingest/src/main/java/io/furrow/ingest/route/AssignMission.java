@@ -18,7 +18,7 @@ import io.furrow.flink.device.DeviceLookup;
 import io.furrow.flink.device.DeviceVersions;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.ByType;
-import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.UnreadableException;
@@ -59,7 +59,7 @@ public final class AssignMission
     private final Rule rule;
     private final NameBudget names;
     private transient ByType<KnownRoute> routes;
-    private transient DeadCounters dead;
+    private transient DeadLetterCounters dead;
 
     public AssignMission(TopicSnapshot devicesAtStart, Rule rule, NameBudget names) {
         this.names = names;
@@ -73,7 +73,7 @@ public final class AssignMission
         routes = ROUTE.of(getRuntimeContext());
         devices.open();
         names.open();
-        dead = new DeadCounters(getRuntimeContext().getMetricGroup());
+        dead = new DeadLetterCounters(getRuntimeContext().getMetricGroup());
     }
 
     @Override

@@ -21,7 +21,7 @@ public final class EventEntity {
         this.entity = SlicedEntity.ofChecked(bytes);
     }
 
-    /** The entity that the record has as its value, which {@link RecognizeEvents} has looked at. */
+    /** The entity that the record has as its value, which {@link ParseEvents} has looked at. */
     public static SlicedEntity of(TopicRecord record) throws UnreadableException {
         int place = (int) (Thread.currentThread().getId() % THREADS);
         EventEntity newest = NEWEST[place];

@@ -6,7 +6,7 @@ import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.job.PerMission;
+import io.furrow.flink.job.PerMissionMetrics;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.topic.Topics;
 
@@ -17,7 +17,7 @@ public final class RouteEvents extends ProcessFunction<ReportedEvent, TopicRecor
     private final boolean writes;
     private transient Counter routed;
     private transient Counter unrouted;
-    private transient PerMission<RouteMeters> meters;
+    private transient PerMissionMetrics<RouteMeters> meters;
 
     /** @param writes without it events are measured only */
     public RouteEvents(boolean writes) {
@@ -29,7 +29,7 @@ public final class RouteEvents extends ProcessFunction<ReportedEvent, TopicRecor
         MetricGroup metrics = getRuntimeContext().getMetricGroup();
         routed = metrics.counter("routed");
         unrouted = metrics.counter("unrouted");
-        meters = new PerMission<>(metrics, PerMission.USUAL_LIMIT, RouteMeters::new);
+        meters = new PerMissionMetrics<>(metrics, PerMissionMetrics.USUAL_LIMIT, RouteMeters::new);
     }
 
     @Override

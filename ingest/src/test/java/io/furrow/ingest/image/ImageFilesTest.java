@@ -83,8 +83,8 @@ class ImageFilesTest {
     @Test
     void endsEveryNameInTheHashWhereOthersReferToIt() throws Exception {
         Image image = image(Pictures.png(1));
-        ImageStore mine = ImageStore.of(settings(Storing.FOR_OTHERS));
-        ImageStore others = ImageStore.of(settings(Storing.BY_OTHERS));
+        ImageStore mine = ImageStore.of(settings(StorageMode.FOR_OTHERS));
+        ImageStore others = ImageStore.of(settings(StorageMode.BY_OTHERS));
 
         StoredImage told = others.store(NAME, image);
         assertThat(everything()).isEmpty();
@@ -96,8 +96,8 @@ class ImageFilesTest {
         assertThat(everything()).hasSize(1);
     }
 
-    private ImageSettings settings(Storing storing) {
-        return new ImageSettings("file://" + folder, Set.of("Image"), 100_000, 1, 1, Duration.ZERO, storing);
+    private ImageSettings settings(StorageMode storageMode) {
+        return new ImageSettings("file://" + folder, Set.of("Image"), 100_000, 1, 1, Duration.ZERO, storageMode);
     }
 
     @Test

@@ -24,7 +24,7 @@ class ImageOptionsTest {
 
     @Test
     void leavesImagesInTheEventsUnlessToldWhereToPutThem() {
-        assertThat(parsed().settings(Storing.ALL)).isEmpty();
+        assertThat(parsed().settings(StorageMode.ALL)).isEmpty();
     }
 
     @ParameterizedTest
@@ -37,14 +37,17 @@ class ImageOptionsTest {
         "/, file:///"
     })
     void takesAFolderOnAnyFileSystem(String given, String root) {
-        assertThat(parsed("--images", given).settings(Storing.ALL).orElseThrow().root())
+        assertThat(parsed("--images", given)
+                        .settings(StorageMode.ALL)
+                        .orElseThrow()
+                        .root())
                 .isEqualTo(root);
     }
 
     @Test
     void takesARelativeFolderFromWhereItRuns() {
         assertThat(parsed("--images", "images")
-                        .settings(Storing.ALL)
+                        .settings(StorageMode.ALL)
                         .orElseThrow()
                         .root())
                 .isEqualTo("file://" + Path.of("images").toAbsolutePath());
@@ -53,16 +56,22 @@ class ImageOptionsTest {
     @ParameterizedTest
     @ValueSource(strings = {"/data dir/images", "/Höfe/a#b", "/100%/x", "/what?", "/a:b/c"})
     void takesAPathOfAnyCharacters(String given) {
-        assertThat(parsed("--images", given).settings(Storing.ALL).orElseThrow().root())
+        assertThat(parsed("--images", given)
+                        .settings(StorageMode.ALL)
+                        .orElseThrow()
+                        .root())
                 .isEqualTo(Path.of(given).toUri().toString());
     }
 
     @Test
     void takesSeveralAttributes() {
-        assertThat(parsed("--images", "/x").settings(Storing.ALL).orElseThrow().attributes())
+        assertThat(parsed("--images", "/x")
+                        .settings(StorageMode.ALL)
+                        .orElseThrow()
+                        .attributes())
                 .containsExactly("Image");
         assertThat(parsed("--images", "/x", "--image-attribute", "Left,Right")
-                        .settings(Storing.ALL)
+                        .settings(StorageMode.ALL)
                         .orElseThrow()
                         .attributes())
                 .containsExactly("Left", "Right");
@@ -81,7 +90,7 @@ class ImageOptionsTest {
     void refusesAWrongSettingWithARemedy(String args, String message) {
         ImageOptions options = parsed(args.split(" (?=--)"));
 
-        assertThatThrownBy(() -> options.settings(Storing.ALL))
+        assertThatThrownBy(() -> options.settings(StorageMode.ALL))
                 .isInstanceOf(CommandLine.ParameterException.class)
                 .hasMessageContaining(message)
                 .hasMessageContaining(";");

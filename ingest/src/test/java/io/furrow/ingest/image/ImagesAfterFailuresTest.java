@@ -97,6 +97,6 @@ class ImagesAfterFailuresTest {
                 .returns(TypeInformation.of(ReportedEvent.class))
                 .keyBy(ReportedEvent::identity, Types.STRING);
         return new ArrayList<>(
-                ImageStage.move(cameras, options.images, Storing.ALL).executeAndCollect(2 * IMAGES));
+                ImageStage.move(cameras, options.images, StorageMode.ALL).executeAndCollect(2 * IMAGES));
     }
 }

@@ -71,7 +71,7 @@ abstract class MoveImagesHarness {
                 threads,
                 inFlight,
                 Duration.ofSeconds(1),
-                Storing.ALL);
+                StorageMode.ALL);
         return new KeyedOneInputStreamOperatorTestHarness<>(
                 ImageStage.operator(settings, TypeInformation.of(ReportedEvent.class)),
                 ReportedEvent::identity,

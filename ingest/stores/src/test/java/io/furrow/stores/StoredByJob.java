@@ -27,7 +27,7 @@ import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.image.ImageOptions;
 import io.furrow.ingest.image.ImageStage;
-import io.furrow.ingest.image.Storing;
+import io.furrow.ingest.image.StorageMode;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.ngsi.Entity;
 
@@ -59,7 +59,7 @@ final class StoredByJob {
         env.setParallelism(2);
         KeyedStream<ReportedEvent, String> keyed =
                 env.fromData(events).setParallelism(1).keyBy(ReportedEvent::identity);
-        SingleOutputStreamOperator<ReportedEvent> moved = ImageStage.move(keyed, options.images, Storing.ALL);
+        SingleOutputStreamOperator<ReportedEvent> moved = ImageStage.move(keyed, options.images, StorageMode.ALL);
         Map<String, byte[]> stored = new TreeMap<>();
         for (ReportedEvent event : moved.executeAndCollect(2 * IMAGES)) {
             String url = Entity.parse(event.record().value())

@@ -36,14 +36,14 @@ public final class LatestState {
         boolean done = false;
         while (!done) {
             RecordingInterruptedException.check();
-            Page page = recording.read(next, limits);
-            for (StoredEvent event : page.events()) {
+            EventPage eventPage = recording.read(next, limits);
+            for (StoredEvent event : eventPage.events()) {
                 if (event.time() < time && (entities.isEmpty() || entities.contains(event.entityId()))) {
                     state.add(event);
                 }
             }
-            next = page.next();
-            done = page.last() || next.time() >= time;
+            next = eventPage.next();
+            done = eventPage.last() || next.time() >= time;
         }
         return state.events();
     }

@@ -15,17 +15,17 @@ public interface Recording extends AutoCloseable {
      *
      * @throws RecordingException if the recording cannot be read now
      */
-    Optional<Span> span() throws RecordingException;
+    Optional<RecordingExtent> span() throws RecordingException;
 
     /**
      * The page that begins after the cursor. Holds at least one event unless the recording ends there or the page skips as many
      * records as it may hold events.
      *
-     * @throws RecordingGoneException if the recording has been deleted since it was opened
+     * @throws RecordingDeletedException if the recording has been deleted since it was opened
      * @throws RecordingInterruptedException if the thread is interrupted while it waits
      * @throws RecordingException if the recording cannot be read now
      */
-    Page read(Cursor after, PageLimits limits) throws RecordingException;
+    EventPage read(Cursor after, PageLimits limits) throws RecordingException;
 
     /**
      * The cursor that lies {@code count} wanted events before another, just after a wanted event: exactly these lie between the two. Here
@@ -33,7 +33,7 @@ public interface Recording extends AutoCloseable {
      *
      * @param from events up to this cursor are counted
      * @param first where the recording is taken to begin: {@link Cursor#START} or later, the answer where no more events are requested
-     * @param count from 1 to {@value CursorsBack#MAX}
+     * @param count from 1 to {@value StepBack#MAX}
      * @param desired asked for the events in any order, for some twice
      * @throws IllegalArgumentException for any other count
      * @throws RecordingInterruptedException if the thread is interrupted meanwhile
@@ -41,20 +41,20 @@ public interface Recording extends AutoCloseable {
      */
     default Cursor back(Cursor from, Cursor first, long count, Predicate<StoredEvent> desired, PageLimits limits)
             throws RecordingException {
-        CursorsBack.check(count);
-        CursorsBack back = new CursorsBack(first, count);
-        Page page;
+        StepBack.check(count);
+        StepBack back = new StepBack(first, count);
+        EventPage eventPage;
         Cursor next = first;
         do {
             RecordingInterruptedException.check();
-            page = read(next, limits);
-            for (StoredEvent event : page.events()) {
+            eventPage = read(next, limits);
+            for (StoredEvent event : eventPage.events()) {
                 if (Cursor.after(event).compareTo(from) <= 0) {
                     back.add(Cursor.after(event), desired.test(event));
                 }
             }
-            next = page.next();
-        } while (!page.last() && next.compareTo(from) < 0);
+            next = eventPage.next();
+        } while (!eventPage.last() && next.compareTo(from) < 0);
         return back.oldest();
     }
 

@@ -31,18 +31,18 @@ public abstract class RecordingContract {
             try (Recording recording = recorded(events)) {
                 List<StoredEvent> read = new ArrayList<>();
                 Cursor next = Cursor.START;
-                Page page;
+                EventPage eventPage;
                 do {
                     PageLimits limits = new PageLimits(1 + random.nextInt(40), 1 + random.nextInt(8_000));
-                    page = recording.read(next, limits);
-                    assertThat(page.skipped()).as("seed %d", seed).isEmpty();
-                    assertThat(page.events().size()).as("seed %d", seed).isLessThanOrEqualTo(limits.events());
-                    assertThat(page.events().isEmpty()).as("seed %d", seed).isEqualTo(events.isEmpty());
-                    boolean fits = page.events().size() == 1 || total(page) <= limits.bytes();
+                    eventPage = recording.read(next, limits);
+                    assertThat(eventPage.skipped()).as("seed %d", seed).isEmpty();
+                    assertThat(eventPage.events().size()).as("seed %d", seed).isLessThanOrEqualTo(limits.events());
+                    assertThat(eventPage.events().isEmpty()).as("seed %d", seed).isEqualTo(events.isEmpty());
+                    boolean fits = eventPage.events().size() == 1 || total(eventPage) <= limits.bytes();
                     assertThat(fits).as("seed %d: %s", seed, limits).isTrue();
-                    read.addAll(page.events());
-                    next = page.next();
-                } while (!page.last());
+                    read.addAll(eventPage.events());
+                    next = eventPage.next();
+                } while (!eventPage.last());
                 assertThat(read).as("seed %d, round %d", seed, round).isEqualTo(ordered);
             }
         }
@@ -60,15 +60,15 @@ public abstract class RecordingContract {
                 Cursor after = random.nextBoolean() ? Cursor.after(any) : Cursor.before(any.time());
                 int most = 1 + random.nextInt(30);
 
-                Page page = recording.read(after, new PageLimits(most, Integer.MAX_VALUE));
+                EventPage eventPage = recording.read(after, new PageLimits(most, Integer.MAX_VALUE));
 
                 List<StoredEvent> rest = ordered.stream()
                         .filter(event -> Cursor.after(event).compareTo(after) > 0)
                         .toList();
                 List<StoredEvent> expected = rest.subList(0, Math.min(most, rest.size()));
-                assertThat(page.events()).as("seed %d, %s", seed, after).isEqualTo(expected);
-                assertThat(page.last()).isEqualTo(expected.size() == rest.size());
-                assertThat(page.next())
+                assertThat(eventPage.events()).as("seed %d, %s", seed, after).isEqualTo(expected);
+                assertThat(eventPage.last()).isEqualTo(expected.size() == rest.size());
+                assertThat(eventPage.next())
                         .isEqualTo(expected.isEmpty() ? after : Cursor.after(expected.get(expected.size() - 1)));
             }
         }
@@ -163,9 +163,9 @@ public abstract class RecordingContract {
         int small = bytes(events.get(0));
         try (Recording recording = recorded(events)) {
             PageLimits two = new PageLimits(10, 2 * small);
-            Page first = recording.read(Cursor.START, two);
-            Page second = recording.read(first.next(), two);
-            Page third = recording.read(second.next(), two);
+            EventPage first = recording.read(Cursor.START, two);
+            EventPage second = recording.read(first.next(), two);
+            EventPage third = recording.read(second.next(), two);
 
             assertThat(first.events()).extracting(StoredEvent::id).containsExactly("a", "b");
             assertThat(second.events()).extracting(StoredEvent::id).containsExactly("c");
@@ -182,18 +182,18 @@ public abstract class RecordingContract {
     void tellsItsSpan() throws Exception {
         try (Recording recording = recorded(List.of(
                 RandomEvents.event("a", 7, 0), RandomEvents.event("b", -3, 0), RandomEvents.event("c", 5, 0)))) {
-            assertThat(recording.span()).contains(new Span(-3, 7));
+            assertThat(recording.span()).contains(new RecordingExtent(-3, 7));
         }
         try (Recording recording = recorded(List.of())) {
             assertThat(recording.span()).isEmpty();
             assertThat(recording.read(Cursor.START, LARGE))
-                    .isEqualTo(new Page(List.of(), List.of(), Cursor.START, true));
+                    .isEqualTo(new EventPage(List.of(), List.of(), Cursor.START, true));
         }
     }
 
-    private long total(Page page) throws Exception {
+    private long total(EventPage eventPage) throws Exception {
         long total = 0;
-        for (StoredEvent event : page.events()) {
+        for (StoredEvent event : eventPage.events()) {
             total += bytes(event);
         }
         return total;

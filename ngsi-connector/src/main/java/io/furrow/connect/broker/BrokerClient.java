@@ -53,7 +53,7 @@ public final class BrokerClient {
         return builder.build();
     }
 
-    /** Waits for the answer; an interrupt while waiting stays set and counts as {@link Outcome.Away}. */
+    /** Waits for the answer; an interrupt while waiting stays set and counts as {@link Outcome.Unavailable}. */
     public Outcome send(BrokerRequest asked) {
         URI uri = URI.create(settings.prefix() + asked.path());
         HttpRequest request = request(uri, asked);
@@ -112,7 +112,7 @@ public final class BrokerClient {
     private static Outcome outcome(URI uri, HttpResponse<byte[]> answer) {
         int status = answer.statusCode();
         if (status / 100 == 2) {
-            return new Outcome.Done(status, new AnswerHeaders(answer.headers()), answer.body());
+            return new Outcome.Done(status, new ResponseHeaders(answer.headers()), answer.body());
         }
         String words = status + " " + text(answer.body());
         return switch (status) {
@@ -121,7 +121,7 @@ public final class BrokerClient {
             case 408, 425, 429 -> away(uri, words, answer);
             default ->
                 switch (status / 100) {
-                    case 4 -> new Outcome.Refused(status, words);
+                    case 4 -> new Outcome.Rejected(status, words);
                     case 5 -> away(uri, words, answer);
                     default -> new Outcome.WrongSetting(uri + " answered " + words);
                 };
@@ -130,7 +130,7 @@ public final class BrokerClient {
 
     private static Outcome tooLarge(URI uri, LimitedBody.TooLargeException e) {
         return e.status() / 100 == 2
-                ? new Outcome.Refused(e.status(), e.status() + ", but " + e.getMessage())
+                ? new Outcome.Rejected(e.status(), e.status() + ", but " + e.getMessage())
                 : away(uri + " answered " + e.status() + ", and " + e.getMessage(), e);
     }
 
@@ -139,13 +139,13 @@ public final class BrokerClient {
     }
 
     private static Outcome away(String reason, Throwable cause) {
-        return new Outcome.Away(reason, Optional.empty(), cause, 0);
+        return new Outcome.Unavailable(reason, Optional.empty(), cause, 0);
     }
 
     private static Outcome away(URI uri, String words, HttpResponse<byte[]> answer) {
         Optional<Duration> retryAfter =
                 answer.headers().firstValue("Retry-After").flatMap(BrokerClient::retryAfter);
-        return new Outcome.Away(uri + " answered " + words, retryAfter, null, answer.statusCode());
+        return new Outcome.Unavailable(uri + " answered " + words, retryAfter, null, answer.statusCode());
     }
 
     /** RFC 9110: seconds, or a date. */

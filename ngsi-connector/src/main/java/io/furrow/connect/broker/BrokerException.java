@@ -32,11 +32,12 @@ public final class BrokerException extends Exception {
         if (outcome instanceof Outcome.Done done) {
             return done;
         }
-        if (outcome instanceof Outcome.Away away) {
-            throw new BrokerException("cannot " + what + ": " + away.reason(), away.cause(), away.retryAfter());
+        if (outcome instanceof Outcome.Unavailable unavailable) {
+            throw new BrokerException(
+                    "cannot " + what + ": " + unavailable.reason(), unavailable.cause(), unavailable.retryAfter());
         }
-        String words = outcome instanceof Outcome.Refused refused
-                ? refused.words()
+        String words = outcome instanceof Outcome.Rejected rejected
+                ? rejected.words()
                 : outcome instanceof Outcome.WrongSetting wrong ? wrong.words() : ((Outcome.Absent) outcome).words();
         throw new BrokerException("cannot " + what + ": the context broker answered " + words, null, Optional.empty());
     }

@@ -18,7 +18,7 @@ public sealed interface Outcome {
      * @param headers of the answer
      * @param body as it came, empty for 204
      */
-    record Done(int status, AnswerHeaders headers, byte[] body) implements Outcome {
+    record Done(int status, ResponseHeaders headers, byte[] body) implements Outcome {
         /**
          * The body as JSON, a missing node where it is empty.
          *
@@ -49,7 +49,7 @@ public sealed interface Outcome {
      * The context broker rejects the request (any other 4xx), or its answer is larger than allowed (2xx). {@code words}
      * are the status and the reason.
      */
-    record Refused(int status, String words) implements Outcome {
+    record Rejected(int status, String words) implements Outcome {
         /** Whether a smaller request might succeed. */
         public boolean isTooLarge() {
             return status / 100 == 2;
@@ -64,7 +64,7 @@ public sealed interface Outcome {
      * @param cause null if there was an answer
      * @param status of the answer, 0 if there was none
      */
-    record Away(String reason, Optional<Duration> retryAfter, Throwable cause, int status) implements Outcome {}
+    record Unavailable(String reason, Optional<Duration> retryAfter, Throwable cause, int status) implements Outcome {}
 
     /** No request can succeed until a setting is changed (401, 403, 405, 3xx). {@code words} are the URL and the answer. */
     record WrongSetting(String words) implements Outcome {}

@@ -16,7 +16,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  *
  * <pre>
  * received                   = accepted + dead + excluded
- * accepted + dead + repaired = durable + turnedAway
+ * accepted + dead + repaired = durable + rejectedUnavailable
  * recovered + durable        = produced + skipped + lost + pending
  * </pre>
  *
@@ -24,7 +24,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  * notification becomes one record, and each unreadable entity or body becomes one dead letter. Only counters described by
  * {@code requests} count HTTP requests. {@code pending} is a gauge of the journal.
  *
- * <p>The translation counts received, accepted, dead and excluded; the request handler counts turnedAway and all requests;
+ * <p>The translation counts received, accepted, dead and excluded; the request handler counts rejectedUnavailable and all requests;
  * the journal counts recovered, durable (before it confirms them), lost and pending; the task counts produced and skipped,
  * when the worker reports them; the repair counts repaired, once its records are durable (records that are not durable are
  * retried and counted once), and repeated.
@@ -38,8 +38,9 @@ public final class Ledger extends Metrics {
     public final LongAdder accepted = counter("accepted", "Received entities that became a record of the topic");
     public final LongAdder dead = counter("dead", "Received entities and bodies that became a dead letter");
     public final LongAdder excluded = counter("excluded", "Received entities dropped because of their type");
-    public final LongAdder turnedAway = counter(
-            "turnedAway", "Accepted and dead records that did not become durable; no 2xx was sent for any of them");
+    public final LongAdder rejectedUnavailable = counter(
+            "rejectedUnavailable",
+            "Accepted and dead records that did not become durable; no 2xx was sent for any of them");
     public final LongAdder durable = counter("durable", "Records on disk, dead letters and repaired ones included");
     public final LongAdder recovered = counter(
             "recovered",
@@ -75,13 +76,13 @@ public final class Ledger extends Metrics {
     public final LongAdder foreignTenant =
             counter("foreignTenant", "Requests answered 403: a tenant that is not allowed");
     public final LongAdder foreign = counter("foreign", "Requests answered 403: their Host or Origin is not allowed");
-    public final LongAdder held = counter("held", "Requests whose records had to wait for space in the journal");
+    public final LongAdder delayed = counter("delayed", "Requests whose records had to wait for space in the journal");
     public final LongAdder overload =
             counter("overload", "Requests reset or answered 503: no space, or not durable in time");
     public final LongAdder late =
             counter("late", "Requests counted in overload whose records may still become durable");
-    public final LongAdder cut =
-            counter("cut", "Requests whose sender was too slow or disconnected before its body was read");
+    public final LongAdder timedOut =
+            counter("timedOut", "Requests whose sender was too slow or disconnected before its body was read");
 
     /**
      * Adds a value to {@code /health} that is not a number.

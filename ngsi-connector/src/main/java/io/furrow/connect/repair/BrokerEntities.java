@@ -20,10 +20,10 @@ import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
+import io.furrow.connect.repair.EntityRequests.NotifiedAttributes;
 import io.furrow.connect.repair.EntityRequests.Range;
-import io.furrow.connect.repair.EntityRequests.Told;
 import io.furrow.connect.repair.KeysetReader.Page;
-import io.furrow.connect.subscription.Content;
+import io.furrow.connect.subscription.NotificationContent;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
@@ -54,36 +54,37 @@ public final class BrokerEntities {
     private final Function<BrokerRequest, Outcome> broker;
     private final FiwareScope scope;
     private final Subject subject;
-    private final Told told;
+    private final NotifiedAttributes notifiedAttributes;
     private final boolean isPathTold;
     private final long maxBytes;
     private int fitting = Integer.MAX_VALUE;
 
     /**
      * @param scope the tenant, and the service path of the subscription, {@code /#} for all
-     * @param content of the subscription: a read entity must result in the same event as its notification
+     * @param notificationContent of the subscription: a read entity must result in the same event as its notification
      * @param maxBytes of a page's body
      */
     public BrokerEntities(
             Function<BrokerRequest, Outcome> broker,
             FiwareScope scope,
             Subject subject,
-            Content content,
+            NotificationContent notificationContent,
             long maxBytes) {
         this.broker = broker;
         this.scope = scope;
         this.subject = subject;
         this.maxBytes = maxBytes;
-        isPathTold = content.attrs().contains(SERVICE_PATH);
-        Set<String> attrs = new LinkedHashSet<>(content.attrs().isEmpty() ? List.of("*") : content.attrs());
+        isPathTold = notificationContent.attrs().contains(SERVICE_PATH);
+        Set<String> attrs =
+                new LinkedHashSet<>(notificationContent.attrs().isEmpty() ? List.of("*") : notificationContent.attrs());
         attrs.remove("alterationType");
         attrs.addAll(List.of(MODIFIED, SERVICE_PATH));
-        told = new Told(attrs, content.metadata());
+        notifiedAttributes = new NotifiedAttributes(attrs, notificationContent.metadata());
     }
 
     /** The entities modified at or after a time, oldest first. */
     public Page modifiedFrom(Instant from, int offset, int limit) throws BrokerException, InterruptedException {
-        return page(new Range(MODIFIED, from, offset, limit), told);
+        return page(new Range(MODIFIED, from, offset, limit), notifiedAttributes);
     }
 
     /** The entities created at or after a time, oldest first; of the attributes only the built-in ones. */
@@ -94,7 +95,7 @@ public final class BrokerEntities {
     /** The current entities of an id, in the order of their times; empty if it was deleted. */
     List<EntityState> ofId(FiwareScope place, String id) throws BrokerException, InterruptedException {
         try {
-            JsonNode answer = ask(place, EntityRequests.ofId(id, told), TREE_TO_BODY * maxBytes);
+            JsonNode answer = ask(place, EntityRequests.ofId(id, notifiedAttributes), TREE_TO_BODY * maxBytes);
             List<EntityState> states = states(answer, MODIFIED, Instant.EPOCH);
             states.sort(Comparator.comparing(EntityState::time));
             return states;
@@ -123,7 +124,7 @@ public final class BrokerEntities {
         return subject.covers(state.entity().id(), state.entity().type());
     }
 
-    private Page page(Range range, Told desired) throws BrokerException, InterruptedException {
+    private Page page(Range range, NotifiedAttributes desired) throws BrokerException, InterruptedException {
         int limit = Math.min(range.limit(), fitting);
         while (true) {
             try {
@@ -152,15 +153,15 @@ public final class BrokerEntities {
         return new Page(states, PAIR, stubs.size() == PAIR);
     }
 
-    private static Told builtIns(String order) {
-        return new Told(new LinkedHashSet<>(List.of(order, SERVICE_PATH)), List.of());
+    private static NotifiedAttributes builtIns(String order) {
+        return new NotifiedAttributes(new LinkedHashSet<>(List.of(order, SERVICE_PATH)), List.of());
     }
 
     /**
      * The entity with all attributes, at the time of its stub, behind which others may follow; empty if it was deleted.
      */
     private Optional<EntityState> whole(EntityState stub) throws BrokerException, InterruptedException {
-        String path = EntityRequests.ofType(stub.entity().id(), stub.entity().type(), told);
+        String path = EntityRequests.ofType(stub.entity().id(), stub.entity().type(), notifiedAttributes);
         try {
             return states(ask(stub.scope(), path, TREE_TO_BODY * maxBytes / PAIR), MODIFIED, stub.time()).stream()
                     .findFirst()
@@ -225,7 +226,7 @@ public final class BrokerEntities {
     private JsonNode ask(FiwareScope place, String path, long maxHeap)
             throws BrokerException, InterruptedException, UnreadableException {
         Outcome outcome = answer(BrokerRequest.get(place, path));
-        if (outcome instanceof Outcome.Refused refused && refused.isTooLarge()) {
+        if (outcome instanceof Outcome.Rejected rejected && rejected.isTooLarge()) {
             throw tooLarge();
         }
         Outcome.Done done = BrokerException.success("read entities of tenant '" + scope.service() + "'", outcome);

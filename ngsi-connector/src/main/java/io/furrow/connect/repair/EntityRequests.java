@@ -19,7 +19,7 @@ final class EntityRequests {
     private EntityRequests() {}
 
     /** The requested attributes and metadata; no names of metadata for all of their own. */
-    record Told(Set<String> attrs, List<String> metadata) {
+    record NotifiedAttributes(Set<String> attrs, List<String> metadata) {
         private String query() {
             return "&attrs=" + encoded(String.join(",", attrs))
                     + (metadata.isEmpty() ? "" : "&metadata=" + encoded(String.join(",", metadata)));
@@ -37,7 +37,7 @@ final class EntityRequests {
     }
 
     /** A page of a subject's entities, oldest first. */
-    static String page(Range range, Subject subject, Told told) {
+    static String page(Range range, Subject subject, NotifiedAttributes notifiedAttributes) {
         StringBuilder path = new StringBuilder(START)
                 .append("&orderBy=")
                 .append(range.order())
@@ -45,7 +45,7 @@ final class EntityRequests {
                 .append(encoded(range.order() + ">=" + range.from().truncatedTo(ChronoUnit.MILLIS)))
                 .append("&limit=")
                 .append(range.limit())
-                .append(told.query());
+                .append(notifiedAttributes.query());
         if (range.offset() > 0) {
             path.append("&offset=").append(range.offset());
         }
@@ -60,15 +60,15 @@ final class EntityRequests {
     }
 
     /** The entities of an id, whatever their types. */
-    static String ofId(String id, Told told) {
+    static String ofId(String id, NotifiedAttributes notifiedAttributes) {
         // In a list of ids the comma is the separator.
         String which = id.contains(",") ? "&idPattern=" + encoded("^" + literal(id) + "$") : "&id=" + encoded(id);
-        return START + which + "&limit=100" + told.query();
+        return START + which + "&limit=100" + notifiedAttributes.query();
     }
 
     /** An entity of an id and a type. */
-    static String ofType(String id, String type, Told told) {
-        return ofId(id, told) + "&type=" + encoded(type);
+    static String ofType(String id, String type, NotifiedAttributes notifiedAttributes) {
+        return ofId(id, notifiedAttributes) + "&type=" + encoded(type);
     }
 
     private static String literal(String text) {

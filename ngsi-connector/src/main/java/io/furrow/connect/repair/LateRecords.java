@@ -7,7 +7,7 @@ import java.time.Instant;
 import java.util.Optional;
 
 /**
- * The oldest of the records that are stale and that {@link LastRecords} cannot track: what changed since has to be read again.
+ * The oldest of the records that are stale and that {@link LastRecordCache} cannot track: what changed since has to be read again.
  * Survives a restart in a file. Thread-safe.
  */
 final class LateRecords {

@@ -37,19 +37,19 @@ public final class ReconcileLoop implements AutoCloseable {
     private static final long REST_MILLIS = 200;
 
     private static final class Schedule {
-        private final SubscriptionReconciler caretaker;
+        private final SubscriptionReconciler reconciler;
         private long due = System.nanoTime();
         private Duration pause = Duration.ZERO;
         private volatile boolean failing;
         private volatile boolean done;
         private volatile String problem = "";
 
-        private Schedule(SubscriptionReconciler caretaker) {
-            this.caretaker = caretaker;
+        private Schedule(SubscriptionReconciler reconciler) {
+            this.reconciler = reconciler;
         }
     }
 
-    private final List<Schedule> charges = new ArrayList<>();
+    private final List<Schedule> schedules = new ArrayList<>();
     private final Duration interval;
     private final Thread thread;
     private volatile boolean closed;
@@ -61,37 +61,37 @@ public final class ReconcileLoop implements AutoCloseable {
      */
     public static ReconcileLoop start(
             Function<BrokerRequest, Outcome> broker,
-            List<Assignment> commissions,
+            List<Assignment> assignments,
             RepairSettings settings,
-            SharedServices means,
+            SharedServices services,
             Duration interval)
             throws IOException {
-        ReconcileLoop caretakers = new ReconcileLoop(interval);
+        ReconcileLoop loop = new ReconcileLoop(interval);
         try {
-            for (Assignment commission : commissions) {
-                caretakers.charges.add(new Schedule(commission.caretaker(broker, settings, means)));
+            for (Assignment assignment : assignments) {
+                loop.schedules.add(new Schedule(assignment.reconciler(broker, settings, services)));
             }
         } catch (IOException e) {
-            caretakers.close();
+            loop.close();
             throw e;
         }
-        means.live().onStale(caretakers::markStale);
-        means.live().onOverflow(caretakers::noteLate);
-        caretakers.show(means.ledger());
-        caretakers.thread.start();
-        return caretakers;
+        services.live().onStale(loop::markStale);
+        services.live().onOverflow(loop::noteLate);
+        loop.show(services.ledger());
+        loop.thread.start();
+        return loop;
     }
 
     /** A desired subscription in a scope, whose service path may end in {@code /#}. */
     public record Assignment(FiwareScope scope, DesiredSubscription desired) {
-        private SubscriptionReconciler caretaker(
-                Function<BrokerRequest, Outcome> broker, RepairSettings settings, SharedServices means)
+        private SubscriptionReconciler reconciler(
+                Function<BrokerRequest, Outcome> broker, RepairSettings settings, SharedServices services)
                 throws IOException {
             return SubscriptionReconciler.open(
                     SubscriptionReconciler.Target.of(
                             broker, scope, desired, settings.reading().pageMaxBytes()),
                     settings,
-                    means);
+                    services);
         }
     }
 
@@ -103,51 +103,51 @@ public final class ReconcileLoop implements AutoCloseable {
 
     private void show(Ledger ledger) {
         ledger.gauge(
-                "subscriptionsKept",
+                "subscriptionsInSync",
                 "Subscriptions in the desired state, as of the last poll",
-                () -> charges.stream()
+                () -> schedules.stream()
                         .filter(each -> each.done && !each.failing)
                         .count());
         ledger.gauge(
-                "subscriptionsUnkept",
+                "subscriptionsOutOfSync",
                 "Subscriptions that cannot be managed now: the context broker is unavailable or rejects requests",
-                () -> charges.stream().filter(each -> each.failing).count());
+                () -> schedules.stream().filter(each -> each.failing).count());
         ledger.gauge(
                 "lastGapMillis",
                 "Milliseconds from the last time known good to the last repair",
-                () -> charges.stream()
-                        .mapToLong(each -> each.caretaker.lastGap().toMillis())
+                () -> schedules.stream()
+                        .mapToLong(each -> each.reconciler.lastGap().toMillis())
                         .max()
                         .orElse(0));
         ledger.gauge(
                 "knownEntities",
                 "Entities whose deletion can be found",
-                () -> charges.stream()
-                        .mapToLong(each -> each.caretaker.knownEntities())
+                () -> schedules.stream()
+                        .mapToLong(each -> each.reconciler.knownEntities())
                         .sum());
         ledger.detail("subscriptions", this::details);
     }
 
     private JsonNode details() {
         ArrayNode details = JsonNodeFactory.instance.arrayNode();
-        for (Schedule charge : charges) {
+        for (Schedule schedule : schedules) {
             ObjectNode detail = details.addObject()
-                    .put("tenant", charge.caretaker.scope().service())
-                    .put("servicePath", charge.caretaker.scope().servicePath());
-            if (charge.failing) {
-                detail.put("problem", charge.problem);
+                    .put("tenant", schedule.reconciler.scope().service())
+                    .put("servicePath", schedule.reconciler.scope().servicePath());
+            if (schedule.failing) {
+                detail.put("problem", schedule.problem);
             }
-            detail.put("url", charge.caretaker.url());
-            detail.put("failsInARow", charge.caretaker.delivered().failsInARow());
+            detail.put("url", schedule.reconciler.url());
+            detail.put("failsInARow", schedule.reconciler.delivered().failsInARow());
         }
         return details;
     }
 
     /** An entity of the topic changed or was deleted. */
     public void note(String identity, boolean gone) {
-        for (Schedule charge : charges) {
+        for (Schedule schedule : schedules) {
             try {
-                charge.caretaker.note(identity, gone);
+                schedule.reconciler.note(identity, gone);
             } catch (IOException | RuntimeException e) {
                 // The next poll fails for the same reason, and logs it.
                 LOG.debug("cannot note {}", LogText.oneLine(identity), e);
@@ -156,9 +156,9 @@ public final class ReconcileLoop implements AutoCloseable {
     }
 
     private void markStale(String identity) {
-        for (Schedule charge : charges) {
+        for (Schedule schedule : schedules) {
             try {
-                charge.caretaker.markStale(identity);
+                schedule.reconciler.markStale(identity);
             } catch (IOException | RuntimeException e) {
                 // The next poll fails for the same reason, and logs it.
                 LOG.debug("cannot note {}", LogText.oneLine(identity), e);
@@ -168,13 +168,13 @@ public final class ReconcileLoop implements AutoCloseable {
 
     /** Each of them reads again: whose entities they are was not tracked. */
     private void noteLate(Instant from) {
-        for (Schedule charge : charges) {
+        for (Schedule schedule : schedules) {
             try {
-                charge.caretaker.noteLate(from);
+                schedule.reconciler.noteLate(from);
             } catch (IOException | RuntimeException e) {
                 LOG.warn(
                         "cannot store from when entities of {} have to be read again; a restart would forget it",
-                        charge.caretaker.scope(),
+                        schedule.reconciler.scope(),
                         e);
             }
         }
@@ -182,19 +182,19 @@ public final class ReconcileLoop implements AutoCloseable {
 
     /** Whether one of the subscriptions notifies about entities in the scope. */
     public boolean covers(FiwareScope scope) {
-        return charges.stream().anyMatch(charge -> charge.caretaker.covers(scope));
+        return schedules.stream().anyMatch(schedule -> schedule.reconciler.covers(scope));
     }
 
     private void run() {
         try {
             while (!closed) {
                 long now = System.nanoTime();
-                for (Schedule charge : charges) {
-                    if (charge.due - now <= 0 && !closed && !resting) {
-                        look(charge);
+                for (Schedule schedule : schedules) {
+                    if (schedule.due - now <= 0 && !closed && !resting) {
+                        poll(schedule);
                     }
                 }
-                long next = charges.stream()
+                long next = schedules.stream()
                         .mapToLong(each -> each.due - System.nanoTime())
                         .min()
                         .orElse(0);
@@ -207,48 +207,48 @@ public final class ReconcileLoop implements AutoCloseable {
     }
 
     /** Catches every failure so that the next poll runs: nothing else would notice the end of this thread. */
-    private void look(Schedule charge) throws InterruptedException {
+    private void poll(Schedule schedule) throws InterruptedException {
         Duration asked = Duration.ZERO;
         try {
-            charge.caretaker.look();
-            succeeded(charge);
+            schedule.reconciler.poll();
+            succeeded(schedule);
         } catch (BrokerException e) {
             asked = e.retryAfter().orElse(Duration.ZERO);
-            failed(charge, e);
+            failed(schedule, e);
         } catch (IOException | RuntimeException | Error e) {
-            failed(charge, e);
+            failed(schedule, e);
         }
         if (Thread.interrupted()) {
             throw new InterruptedException("stopped");
         }
-        Duration wait = charge.failing ? charge.pause : interval;
-        charge.due = System.nanoTime() + (asked.compareTo(wait) > 0 ? asked : wait).toNanos();
+        Duration wait = schedule.failing ? schedule.pause : interval;
+        schedule.due = System.nanoTime() + (asked.compareTo(wait) > 0 ? asked : wait).toNanos();
     }
 
-    private void succeeded(Schedule charge) {
-        if (charge.failing) {
-            LOG.info("subscription of {} is managed again", charge.caretaker.scope());
+    private void succeeded(Schedule schedule) {
+        if (schedule.failing) {
+            LOG.info("subscription of {} is managed again", schedule.reconciler.scope());
         }
-        charge.failing = false;
-        charge.done = true;
-        charge.pause = Duration.ZERO;
+        schedule.failing = false;
+        schedule.done = true;
+        schedule.pause = Duration.ZERO;
     }
 
-    private void failed(Schedule charge, Throwable why) {
+    private void failed(Schedule schedule, Throwable why) {
         if (closed) {
             return;
         }
-        boolean known = charge.failing;
-        charge.failing = true;
-        charge.problem = FailureText.of(why);
-        Duration twice = charge.pause.isZero() ? FIRST_PAUSE : charge.pause.multipliedBy(2);
-        charge.pause = twice.compareTo(MAX_PAUSE) > 0 ? MAX_PAUSE : twice;
+        boolean known = schedule.failing;
+        schedule.failing = true;
+        schedule.problem = FailureText.of(why);
+        Duration twice = schedule.pause.isZero() ? FIRST_PAUSE : schedule.pause.multipliedBy(2);
+        schedule.pause = twice.compareTo(MAX_PAUSE) > 0 ? MAX_PAUSE : twice;
         if (!known) {
             LOG.warn(
                     "subscription of {} cannot be managed: {}; the source continues to accept notifications and"
                             + " retries; check context.broker.url and the subscription.* options",
-                    charge.caretaker.scope(),
-                    charge.problem,
+                    schedule.reconciler.scope(),
+                    schedule.problem,
                     why);
         }
     }
@@ -268,11 +268,11 @@ public final class ReconcileLoop implements AutoCloseable {
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }
-        for (Schedule charge : charges) {
+        for (Schedule schedule : schedules) {
             try {
-                charge.caretaker.close();
+                schedule.reconciler.close();
             } catch (IOException e) {
-                LOG.warn("cannot close the known entities of {}", charge.caretaker.scope(), e);
+                LOG.warn("cannot close the known entities of {}", schedule.reconciler.scope(), e);
             }
         }
     }

@@ -20,8 +20,8 @@ import io.furrow.model.event.Origin;
 final class Repair {
     private final BrokerEntities entities;
     private final RepairSettings.Reading reading;
-    private final LiveEvents live;
-    private final KnownEntities known;
+    private final RecordTracker live;
+    private final EntityIdSet known;
     private final RepairPublisher emission;
     private int changed;
     private int repeated;
@@ -30,8 +30,8 @@ final class Repair {
     Repair(
             BrokerEntities entities,
             RepairSettings.Reading reading,
-            LiveEvents live,
-            KnownEntities known,
+            RecordTracker live,
+            EntityIdSet known,
             RepairPublisher emission) {
         this.entities = entities;
         this.reading = reading;
@@ -83,7 +83,7 @@ final class Repair {
     /** Reads entities again whose last record may not be the newest. */
     void stale(Predicate<FiwareScope> ours) throws BrokerException, InterruptedException, IOException {
         for (String identity : live.stale()) {
-            FiwareScope place = Identities.scope(identity);
+            FiwareScope place = EntityKeys.scope(identity);
             if (ours.test(place)) {
                 readAgain(identity, place);
             }
@@ -93,7 +93,7 @@ final class Repair {
     private void readAgain(String identity, FiwareScope place)
             throws BrokerException, InterruptedException, IOException {
         long asked = live.now();
-        List<EntityState> states = entities.ofId(place, Identities.id(identity)).stream()
+        List<EntityState> states = entities.ofId(place, EntityKeys.id(identity)).stream()
                 .filter(state -> state.identity().equals(identity))
                 .toList();
         if (states.isEmpty()) {
@@ -144,7 +144,7 @@ final class Repair {
             return;
         }
         long asked = live.now();
-        Optional<EntityState> there = entities.stubsOfId(Identities.scope(identity), Identities.id(identity)).stream()
+        Optional<EntityState> there = entities.stubsOfId(EntityKeys.scope(identity), EntityKeys.id(identity)).stream()
                 .filter(state -> state.identity().equals(identity))
                 .findFirst();
         if (there.isEmpty()) {
@@ -157,9 +157,9 @@ final class Repair {
     private void emitEnd(String identity, long asked) throws InterruptedException, IOException {
         Instant now = Clock.systemUTC().instant();
         EntityDeletion deletion = new EntityDeletion(
-                Identities.type(identity),
-                Identities.id(identity),
-                Identities.scope(identity),
+                EntityKeys.type(identity),
+                EntityKeys.id(identity),
+                EntityKeys.scope(identity),
                 now,
                 now,
                 Origin.REPAIR);

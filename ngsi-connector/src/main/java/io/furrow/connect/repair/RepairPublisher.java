@@ -11,7 +11,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.LogText;
-import io.furrow.connect.repair.LiveEvents.Appended;
+import io.furrow.connect.repair.RecordTracker.Appended;
 import io.furrow.model.text.FailureText;
 
 /** Emits findings in small batches and waits until they are durable, which leaves room for concurrent notifications. */
@@ -24,11 +24,11 @@ final class RepairPublisher {
     private static final Duration MAX_PAUSE = Duration.ofMillis(100);
 
     private final RepairOutput output;
-    private final LiveEvents live;
-    private final KnownEntities known;
+    private final RecordTracker live;
+    private final EntityIdSet known;
     private final String subscription;
 
-    RepairPublisher(RepairOutput output, LiveEvents live, KnownEntities known, String subscription) {
+    RepairPublisher(RepairOutput output, RecordTracker live, EntityIdSet known, String subscription) {
         this.output = output;
         this.live = live;
         this.known = known;
@@ -36,7 +36,7 @@ final class RepairPublisher {
     }
 
     private record Serialized(MissedChange finding, byte[] bytes) {
-        EntityRecord record() {
+        TrackedRecord record() {
             return finding.record();
         }
     }
@@ -44,7 +44,7 @@ final class RepairPublisher {
     /**
      * Emits the new states.
      *
-     * @param asked the {@link LiveEvents#now} before the context broker was queried
+     * @param asked the {@link RecordTracker#now} before the context broker was queried
      * @return the number of emitted records
      */
     int emit(List<? extends MissedChange> findings, long asked) throws InterruptedException, IOException {

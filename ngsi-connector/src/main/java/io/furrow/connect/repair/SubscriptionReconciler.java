@@ -20,8 +20,8 @@ import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.repair.DeliveryBalance.Arrived;
-import io.furrow.connect.repair.DeliveryBalance.Verdict;
+import io.furrow.connect.repair.GapDetector.Arrived;
+import io.furrow.connect.repair.GapDetector.Result;
 import io.furrow.connect.repair.LateRecords.Late;
 import io.furrow.connect.subscription.DeliveryReport;
 import io.furrow.connect.subscription.DesiredSubscription;
@@ -37,26 +37,26 @@ import io.furrow.model.event.FiwareScope;
 public final class SubscriptionReconciler implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(SubscriptionReconciler.class);
 
-    private final SubscriptionClient keeper;
+    private final SubscriptionClient client;
     private final BrokerEntities entities;
     private final RepairSettings settings;
-    private final SharedServices means;
-    private final KnownEntities known;
+    private final SharedServices services;
+    private final EntityIdSet known;
     private final Watermark watermark;
     private final LateRecords lateRecords;
-    private final DeliveryBalance balance;
+    private final GapDetector gapDetector;
     private final BrokerUptime uptime;
     private String subscription = "";
-    private Optional<Instant> lookedAt = Optional.empty();
+    private Optional<Instant> polledAt = Optional.empty();
     private Optional<String> missing = Optional.empty();
     private Optional<Late> late = Optional.empty();
-    private long turnedAway;
+    private long failedBefore;
     private final ListingSchedule listings;
     private volatile Duration gap = Duration.ZERO;
     private volatile DeliveryReport delivered = DeliveryReport.NOTHING_SENT;
 
     /** The subscription and its entities. */
-    record Target(SubscriptionClient keeper, BrokerEntities entities, BrokerUptime uptime) {
+    record Target(SubscriptionClient client, BrokerEntities entities, BrokerUptime uptime) {
         /** @param maxBytes of a page's body */
         static Target of(
                 Function<BrokerRequest, Outcome> broker,
@@ -65,39 +65,39 @@ public final class SubscriptionReconciler implements AutoCloseable {
                 long maxBytes) {
             return new Target(
                     new SubscriptionClient(broker, scope, desired),
-                    new BrokerEntities(broker, scope, desired.subject(), desired.content(), maxBytes),
+                    new BrokerEntities(broker, scope, desired.subject(), desired.notificationContent(), maxBytes),
                     new BrokerUptime(broker, scope));
         }
     }
 
     /** The services that all subscriptions of a task share. */
-    public record SharedServices(LiveEvents live, RepairOutput output, Ledger ledger) {}
+    public record SharedServices(RecordTracker live, RepairOutput output, Ledger ledger) {}
 
-    private SubscriptionReconciler(Target charge, RepairSettings settings, SharedServices means, Path folder)
+    private SubscriptionReconciler(Target target, RepairSettings settings, SharedServices services, Path folder)
             throws IOException {
-        keeper = charge.keeper();
-        entities = charge.entities();
-        uptime = charge.uptime();
+        client = target.client();
+        entities = target.entities();
+        uptime = target.uptime();
         listings = new ListingSchedule(settings.deletions().interval());
         this.settings = settings;
-        this.means = means;
-        balance = new DeliveryBalance(keeper.desired().content().namesItsSubscription());
-        known = KnownEntities.open(folder.resolve("known"), settings.deletions().knownMaxBytes());
+        this.services = services;
+        gapDetector = new GapDetector(client.desired().notificationContent().namesItsSubscription());
+        known = EntityIdSet.open(folder.resolve("known"), settings.deletions().knownMaxBytes());
         watermark = Watermark.open(folder.resolve("watermark"));
         lateRecords = LateRecords.open(folder.resolve("late"));
-        means.live().restoreStale(known.stale());
-        watermark.time().ifPresent(time -> means.live().forgetUntil(time.minus(settings.overlap())));
+        services.live().restoreStale(known.stale());
+        watermark.time().ifPresent(time -> services.live().forgetUntil(time.minus(settings.overlap())));
     }
 
     /**
      * @throws IOException if the folder cannot be used
      */
-    static SubscriptionReconciler open(Target charge, RepairSettings settings, SharedServices means)
+    static SubscriptionReconciler open(Target target, RepairSettings settings, SharedServices services)
             throws IOException {
-        String share = charge.keeper().desired().name().share().label();
-        Path folder = settings.folder().resolve(folderName(charge.keeper().scope(), share));
+        String share = target.client().desired().name().partition().label();
+        Path folder = settings.folder().resolve(folderName(target.client().scope(), share));
         Files.createDirectories(folder);
-        return new SubscriptionReconciler(charge, settings, means, folder);
+        return new SubscriptionReconciler(target, settings, services, folder);
     }
 
     /** Readable where possible, and unique. */
@@ -113,7 +113,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
 
     /** An entity of the topic changed or was deleted; from any thread. */
     void note(String identity, boolean gone) throws IOException {
-        if (!covers(Identities.scope(identity))) {
+        if (!covers(EntityKeys.scope(identity))) {
             return;
         }
         if (gone) {
@@ -125,7 +125,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
 
     /** One of its entities has to be read again; from any thread. */
     void markStale(String identity) throws IOException {
-        if (covers(Identities.scope(identity))) {
+        if (covers(EntityKeys.scope(identity))) {
             known.markStale(identity);
         }
     }
@@ -137,7 +137,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
 
     /** Whether its subscription notifies about entities in the scope. */
     boolean covers(FiwareScope scope) {
-        FiwareScope ours = keeper.scope();
+        FiwareScope ours = client.scope();
         if (!ours.service().equals(scope.service())) {
             return false;
         }
@@ -153,40 +153,42 @@ public final class SubscriptionReconciler implements AutoCloseable {
      * @throws BrokerException if the context broker is unavailable or rejects a request
      * @throws IOException if persistent state cannot be written, or the source accepts no more records
      */
-    void look() throws BrokerException, IOException, InterruptedException {
+    void poll() throws BrokerException, IOException, InterruptedException {
         Instant now = Clock.systemUTC().instant();
-        long failed = means.ledger().turnedAway.sum() + means.ledger().overload.sum();
-        long arrived = means.live().arrivedOf(subscription);
+        long failed = services.ledger().rejectedUnavailable.sum()
+                + services.ledger().overload.sum();
+        long arrived = services.live().arrivedOf(subscription);
         SubscriptionStatus kept = keep(now);
         delivered = kept.report();
-        Verdict verdict = balance.look(kept, new Arrived(arrived, means.live().arrivedOf(kept.id())));
-        reasonIn(verdict).ifPresent(this::miss);
+        Result result =
+                gapDetector.look(kept, new Arrived(arrived, services.live().arrivedOf(kept.id())));
+        reasonIn(result).ifPresent(this::miss);
         if (wasRestarted(kept)) {
             miss("the context broker was started again");
         }
-        if (failed > turnedAway) {
+        if (failed > failedBefore) {
             miss("the source had to reject notifications");
         }
         late = lateRecords.late();
         if (late.isPresent()) {
             miss("more notifications were late than repair.recent.max.bytes can track");
         }
-        turnedAway = failed;
+        failedBefore = failed;
         if (missing.isPresent()) {
-            listings.demand(verdict instanceof Verdict.First || kept.state() != SubscriptionStatus.State.AT_WORK);
+            listings.demand(result instanceof Result.FirstPoll || kept.state() != SubscriptionStatus.State.AT_WORK);
         }
         if (settings.mode() == RepairSettings.Mode.OFF) {
             missing = Optional.empty();
             lateRecords.settle(late);
         } else {
-            repair(kept, verdict, now);
+            repair(kept, result, now);
         }
         known.flush();
     }
 
     /** Where its notifications go. */
     String url() {
-        return keeper.desired().target().url();
+        return client.desired().target().url();
     }
 
     /** What the context broker said about its notifications at the last poll. */
@@ -196,14 +198,14 @@ public final class SubscriptionReconciler implements AutoCloseable {
 
     private SubscriptionStatus keep(Instant now) throws BrokerException {
         try {
-            SubscriptionStatus kept = keeper.keep(now);
+            SubscriptionStatus kept = client.keep(now);
             if (!kept.id().equals(subscription)) {
-                means.live().follow(subscription, kept.id());
+                services.live().follow(subscription, kept.id());
                 subscription = kept.id();
             }
             return kept;
         } catch (BrokerException e) {
-            if (lookedAt.isPresent()) {
+            if (polledAt.isPresent()) {
                 miss("the context broker could not be queried");
             }
             throw e;
@@ -211,30 +213,30 @@ public final class SubscriptionReconciler implements AutoCloseable {
     }
 
     private boolean wasRestarted(SubscriptionStatus kept) {
-        Optional<Instant> before = lookedAt;
-        lookedAt = Optional.of(kept.at());
+        Optional<Instant> before = polledAt;
+        polledAt = Optional.of(kept.at());
         return before.filter(time -> uptime.isYoungerThan(time, kept.at())).isPresent();
     }
 
-    private Optional<String> reasonIn(Verdict verdict) {
-        if (verdict instanceof Verdict.First && missing.isEmpty()) {
+    private Optional<String> reasonIn(Result result) {
+        if (result instanceof Result.FirstPoll && missing.isEmpty()) {
             missing = Optional.of("the source has started");
         }
-        return verdict instanceof Verdict.Missing found ? Optional.of(found.reason()) : Optional.empty();
+        return result instanceof Result.Missing found ? Optional.of(found.reason()) : Optional.empty();
     }
 
     /** The first reason is the one that is logged. */
     private void miss(String reason) {
         if (missing.isEmpty()) {
-            means.ledger().gaps.increment();
+            services.ledger().gaps.increment();
             missing = Optional.of(reason);
         }
     }
 
-    private void repair(SubscriptionStatus kept, Verdict verdict, Instant now)
+    private void repair(SubscriptionStatus kept, Result result, Instant now)
             throws BrokerException, IOException, InterruptedException {
-        RepairPublisher emission = new RepairPublisher(means.output(), means.live(), known, kept.id());
-        Repair repair = new Repair(entities, settings.reading(), means.live(), known, emission);
+        RepairPublisher emission = new RepairPublisher(services.output(), services.live(), known, kept.id());
+        Repair repair = new Repair(entities, settings.reading(), services.live(), known, emission);
         long begin = System.nanoTime();
         boolean isMissing = missing.isPresent();
         try {
@@ -249,17 +251,17 @@ public final class SubscriptionReconciler implements AutoCloseable {
             }
             settle(marked);
         } finally {
-            means.ledger().repeated.add(repair.result().repeated());
+            services.ledger().repeated.add(repair.result().repeated());
         }
         if (isMissing) {
             report(kept, missing.get(), repair.result(), Duration.ofNanos(System.nanoTime() - begin));
             missing = Optional.empty();
             lateRecords.settle(late);
             // To the second: later notifications of earlier changes concern entities that were read or deleted.
-            means.live().forgetUntil(kept.at().plusSeconds(1));
-            balance.repaired(means.live().arrivedOf(kept.id()));
+            services.live().forgetUntil(kept.at().plusSeconds(1));
+            gapDetector.repaired(services.live().arrivedOf(kept.id()));
             watermark.advanceTo(kept.at());
-        } else if (verdict instanceof Verdict.Balanced balanced) {
+        } else if (result instanceof Result.Balanced balanced) {
             watermark.advanceTo(balanced.until());
         }
     }
@@ -269,7 +271,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
      * restarts.
      */
     private void settle(Set<String> marked) throws IOException {
-        List<String> left = means.live().stale();
+        List<String> left = services.live().stale();
         for (String identity : left) {
             markStale(identity);
         }
@@ -288,7 +290,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
                 .flatMap(Optional::stream)
                 .min(Comparator.naturalOrder());
         if (since.isPresent()) {
-            means.live().forgetUntil(since.get());
+            services.live().forgetUntil(since.get());
             repair.changesFrom(since.get());
         }
     }
@@ -298,7 +300,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
                 "repaired subscription {} of tenant '{}', because {}: a gap of {} s, {} entities changed, {} deleted,"
                         + " {} were known; it took {} ms",
                 kept.id(),
-                keeper.scope().service(),
+                client.scope().service(),
                 reason,
                 gap.toSeconds(),
                 result.changed(),
@@ -309,13 +311,13 @@ public final class SubscriptionReconciler implements AutoCloseable {
             LOG.warn(
                     "tenant '{}' has more entities than {} bytes hold: deletions that were not notified are not found;"
                             + " raise repair.known.max.bytes if there is memory",
-                    keeper.scope().service(),
+                    client.scope().service(),
                     settings.deletions().knownMaxBytes());
         }
     }
 
     FiwareScope scope() {
-        return keeper.scope();
+        return client.scope();
     }
 
     /** The time between the last known good time and the last repair. */

@@ -12,7 +12,7 @@ import org.apache.kafka.connect.data.Struct;
 import org.apache.kafka.connect.sink.SinkRecord;
 
 import io.furrow.connect.record.EntityStruct;
-import io.furrow.connect.sink.api.Change;
+import io.furrow.connect.sink.api.EntityChange;
 import io.furrow.connect.sink.api.EntityKey;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -35,18 +35,18 @@ record ChangeReader(FiwareScope defaultScope, String defaultType) {
     static final Pattern SERVICE_PATH = Pattern.compile("/[A-Za-z0-9_/]{0,600}");
 
     /** @throws UnreadableException if the record does not describe an entity that a context broker can store */
-    Change read(SinkRecord record, int source) throws UnreadableException {
+    EntityChange read(SinkRecord record, int source) throws UnreadableException {
         FiwareScope scope = scope(record);
         long time = time(record);
         if (record.value() == null) {
-            return new Change(new EntityKey(scope, key(record)), null, time, source);
+            return new EntityChange(new EntityKey(scope, key(record)), null, time, source);
         }
         JsonNode json = record.value() instanceof Struct struct ? json(struct) : json(record.value());
         if (json instanceof ObjectNode object) {
             complete(object, record);
         }
         Entity entity = Entity.ofAnyForm(json);
-        return new Change(new EntityKey(scope, entity.id()), entity, time, source);
+        return new EntityChange(new EntityKey(scope, entity.id()), entity, time, source);
     }
 
     private void complete(ObjectNode entity, SinkRecord record) throws UnreadableException {
@@ -74,7 +74,7 @@ record ChangeReader(FiwareScope defaultScope, String defaultType) {
         if (record.timestampType() == TimestampType.LOG_APPEND_TIME) {
             return RecordHeaders.millis(record, HeaderNames.CE_TIME).orElse(record.timestamp());
         }
-        return record.timestamp() == null || record.timestamp() < 0 ? Change.NO_TIME : record.timestamp();
+        return record.timestamp() == null || record.timestamp() < 0 ? EntityChange.NO_TIME : record.timestamp();
     }
 
     private static String key(SinkRecord record) throws UnreadableException {

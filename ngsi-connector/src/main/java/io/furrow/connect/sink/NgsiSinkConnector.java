@@ -10,7 +10,7 @@ import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.connect.connector.Task;
 import org.apache.kafka.connect.sink.SinkConnector;
 
-import io.furrow.connect.CheckedTogether;
+import io.furrow.connect.CrossFieldValidator;
 import io.furrow.connect.PluginVersion;
 
 /** Writes the entities of topics to a context broker. Tasks share the partitions. */
@@ -32,7 +32,7 @@ public class NgsiSinkConnector extends SinkConnector {
 
     @Override
     public Config validate(Map<String, String> options) {
-        return CheckedTogether.with(super.validate(options), () -> new NgsiSinkConfig(options));
+        return CrossFieldValidator.with(super.validate(options), () -> new NgsiSinkConfig(options));
     }
 
     @Override

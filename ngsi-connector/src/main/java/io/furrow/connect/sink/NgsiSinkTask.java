@@ -20,12 +20,12 @@ import org.slf4j.LoggerFactory;
 import io.furrow.connect.PluginVersion;
 import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.ledger.LedgerBean;
-import io.furrow.connect.sink.api.BrokerAwayException;
 import io.furrow.connect.sink.api.BrokerBackoff;
-import io.furrow.connect.sink.api.Change;
+import io.furrow.connect.sink.api.BrokerUnavailableException;
 import io.furrow.connect.sink.api.ContextWriter;
-import io.furrow.connect.sink.api.ContextWriter.Fates;
-import io.furrow.connect.sink.api.ContextWriter.RefusedChange;
+import io.furrow.connect.sink.api.ContextWriter.ChangeResults;
+import io.furrow.connect.sink.api.ContextWriter.RejectedChange;
+import io.furrow.connect.sink.api.EntityChange;
 import io.furrow.connect.sink.api.WrongSettingException;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.UnreadableException;
@@ -81,7 +81,7 @@ public class NgsiSinkTask extends SinkTask {
             return;
         }
         List<Errant> errant = new ArrayList<>();
-        List<Change> changes = new ArrayList<>(records.size());
+        List<EntityChange> changes = new ArrayList<>(records.size());
         int echo = 0;
         int ignored = 0;
         for (int i = 0; i < records.size(); i++) {
@@ -95,12 +95,12 @@ public class NgsiSinkTask extends SinkTask {
             }
         }
         int unreadable = errant.size();
-        Fates fates = write(changes);
-        for (RefusedChange refused : fates.refused) {
+        ChangeResults changeResults = write(changes);
+        for (RejectedChange refused : changeResults.refused) {
             String message = "the context broker rejects the entity: " + refused.words();
-            errant.add(new Errant(records.get(refused.change().source()), new DataException(message)));
+            errant.add(new Errant(records.get(refused.entityChange().source()), new DataException(message)));
         }
-        count(fates);
+        count(changeResults);
         ledger.received.add(records.size());
         ledger.echo.add(echo);
         ledger.ignored.add(ignored);
@@ -108,7 +108,7 @@ public class NgsiSinkTask extends SinkTask {
         report(errant);
     }
 
-    private void read(SinkRecord record, int source, List<Change> changes, List<Errant> errant) {
+    private void read(SinkRecord record, int source, List<EntityChange> changes, List<Errant> errant) {
         if (record.key() == null && hasNeighbors && keylessTopics.add(record.topic())) {
             LOG.warn(
                     "Topic {} has records without key, so that several tasks may receive one entity: an older value can"
@@ -124,20 +124,20 @@ public class NgsiSinkTask extends SinkTask {
         }
     }
 
-    private void count(Fates fates) {
-        ledger.written.add(fates.written);
-        ledger.coalesced.add(fates.coalesced);
-        ledger.stale.add(fates.stale);
-        ledger.deleted.add(fates.deleted);
-        ledger.refused.add(fates.refused.size());
+    private void count(ChangeResults changeResults) {
+        ledger.written.add(changeResults.written);
+        ledger.coalesced.add(changeResults.coalesced);
+        ledger.stale.add(changeResults.stale);
+        ledger.deleted.add(changeResults.deleted);
+        ledger.refused.add(changeResults.refused.size());
     }
 
-    private Fates write(List<Change> changes) {
+    private ChangeResults write(List<EntityChange> changes) {
         try {
-            Fates fates = writer.apply(changes);
+            ChangeResults changeResults = writer.apply(changes);
             backoff.reset();
-            return fates;
-        } catch (BrokerAwayException e) {
+            return changeResults;
+        } catch (BrokerUnavailableException e) {
             ledger.retried.increment();
             context.timeout(backoff.after(e.away()).toMillis());
             throw new RetriableException(e.getMessage(), e);

@@ -27,7 +27,7 @@ import io.furrow.connect.source.option.SizeOptions;
 import io.furrow.connect.source.option.SubscriptionOptions;
 import io.furrow.connect.source.option.TlsOptions;
 import io.furrow.connect.source.option.TopicOptions;
-import io.furrow.connect.subscription.IdShare;
+import io.furrow.connect.subscription.IdPartition;
 import io.furrow.http.AccessRule;
 
 /**
@@ -137,11 +137,11 @@ public class NgsiSourceConfig extends AbstractConfig {
         if (!subscription.enabled()) {
             return;
         }
-        if (tasks > IdShare.MAX) {
+        if (tasks > IdPartition.MAX) {
             throw new ConfigException(
                     "tasks.max",
                     tasks,
-                    "the ids can be divided among " + IdShare.MAX + " tasks at most; lower it, or set "
+                    "the ids can be divided among " + IdPartition.MAX + " tasks at most; lower it, or set "
                             + SubscriptionOptions.ENABLED + "=false");
         }
         if (tasks > 1) {

@@ -11,7 +11,7 @@ import org.apache.kafka.connect.connector.Task;
 import org.apache.kafka.connect.source.ExactlyOnceSupport;
 import org.apache.kafka.connect.source.SourceConnector;
 
-import io.furrow.connect.CheckedTogether;
+import io.furrow.connect.CrossFieldValidator;
 import io.furrow.connect.PluginVersion;
 
 /**
@@ -36,7 +36,7 @@ public class NgsiSourceConnector extends SourceConnector {
 
     @Override
     public Config validate(Map<String, String> options) {
-        return CheckedTogether.with(super.validate(options), () -> new NgsiSourceConfig(options));
+        return CrossFieldValidator.with(super.validate(options), () -> new NgsiSourceConfig(options));
     }
 
     @Override

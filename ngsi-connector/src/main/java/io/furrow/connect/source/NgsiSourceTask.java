@@ -30,7 +30,7 @@ public class NgsiSourceTask extends SourceTask {
     private static final Duration POLL_WAIT = Duration.ofMillis(200);
 
     private final AtomicReference<SourceRuntime> source = new AtomicReference<>();
-    private final AtomicReference<JournalMaintenance> keeper = new AtomicReference<>();
+    private final AtomicReference<JournalMaintenance> maintenance = new AtomicReference<>();
     /** By partition, the offset of the newest record. */
     private final Map<String, Long> offsets = new ConcurrentHashMap<>();
 
@@ -59,7 +59,7 @@ public class NgsiSourceTask extends SourceTask {
                     .map(running -> resumed(running, this::committed))
                     .orElseGet(() -> SourceRuntime.open(config, this::committed)));
             askForLimits();
-            keeper.set(JournalMaintenance.start(source.get().journals(), config.taskCount() > 1));
+            maintenance.set(JournalMaintenance.start(source.get().journals(), config.taskCount() > 1));
         } catch (RuntimeException | Error e) {
             // The worker does not stop a task that failed to start.
             stop();
@@ -102,7 +102,7 @@ public class NgsiSourceTask extends SourceTask {
 
     /** The port of the listener. */
     int port() {
-        return source.get().reception().port();
+        return source.get().endpoint().port();
     }
 
     @Override
@@ -166,16 +166,16 @@ public class NgsiSourceTask extends SourceTask {
         if (limits != null) {
             limits.close();
         }
-        JournalMaintenance keeping = keeper.getAndSet(null);
+        JournalMaintenance stopping = maintenance.getAndSet(null);
         SourceRuntime running = source.getAndSet(null);
-        boolean standby = keeping != null
-                && keeping.isKafkaAway()
+        boolean standby = stopping != null
+                && stopping.isKafkaUnavailable()
                 && !config.journal().standby().isZero();
         if (running != null && !standby) {
             running.stopListening();
         }
-        if (keeping != null) {
-            keeping.close();
+        if (stopping != null) {
+            stopping.close();
         }
         if (running != null && standby) {
             running.detach();

@@ -19,14 +19,14 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.ledger.PrometheusPage;
 import io.furrow.connect.source.http.AdmissionQueue;
 import io.furrow.connect.source.http.ByteBudget;
-import io.furrow.connect.source.http.ForeignRequests;
 import io.furrow.connect.source.http.KafkaSslContextFactory;
 import io.furrow.connect.source.http.NotificationHandler;
 import io.furrow.connect.source.http.NotificationServer;
-import io.furrow.connect.source.http.Page;
-import io.furrow.connect.source.http.PageHandler;
+import io.furrow.connect.source.http.RejectedRequestHandler;
 import io.furrow.connect.source.http.RequestAuthenticator;
 import io.furrow.connect.source.http.RequestHandler;
+import io.furrow.connect.source.http.StatusHandler;
+import io.furrow.connect.source.http.StatusPage;
 import io.furrow.connect.source.http.TlsEngines;
 import io.furrow.connect.source.journal.RecordLog;
 import io.furrow.connect.source.notification.NotificationTranslator;
@@ -40,13 +40,13 @@ public final class NotificationEndpoint implements AutoCloseable {
     private static final Duration BIND_TIMEOUT = Duration.ofSeconds(10);
     private static final int HEALTH_CONNECTIONS = 64;
 
-    private final AdmissionQueue deliveries;
+    private final AdmissionQueue admissionQueue;
     private final NotificationServer server;
     private final Optional<NotificationServer> health;
 
     private NotificationEndpoint(
-            AdmissionQueue deliveries, NotificationServer server, Optional<NotificationServer> health) {
-        this.deliveries = deliveries;
+            AdmissionQueue admissionQueue, NotificationServer server, Optional<NotificationServer> health) {
+        this.admissionQueue = admissionQueue;
         this.server = server;
         this.health = health;
     }
@@ -56,33 +56,33 @@ public final class NotificationEndpoint implements AutoCloseable {
      *
      * @throws ConnectException if the source cannot listen on the address
      */
-    static NotificationEndpoint open(NgsiSourceConfig config, RecordLog intake, Ledger ledger) {
-        return open(config, intake, ledger, BIND_TIMEOUT);
+    static NotificationEndpoint open(NgsiSourceConfig config, RecordLog recordLog, Ledger ledger) {
+        return open(config, recordLog, ledger, BIND_TIMEOUT);
     }
 
     /** @param timeout how long to wait for a port that is in use */
-    static NotificationEndpoint open(NgsiSourceConfig config, RecordLog intake, Ledger ledger, Duration timeout) {
-        return open(config, new NotificationTranslator(config.translation(), ledger), intake, ledger, timeout);
+    static NotificationEndpoint open(NgsiSourceConfig config, RecordLog recordLog, Ledger ledger, Duration timeout) {
+        return open(config, new NotificationTranslator(config.translation(), ledger), recordLog, ledger, timeout);
     }
 
     /** @param arrived receives the subscription of each notification that names one */
     static NotificationEndpoint open(
-            NgsiSourceConfig config, RecordLog intake, Ledger ledger, Consumer<String> arrived) {
+            NgsiSourceConfig config, RecordLog recordLog, Ledger ledger, Consumer<String> arrived) {
         NotificationTranslator translator = new NotificationTranslator(config.translation(), ledger, arrived);
-        return open(config, translator, intake, ledger, BIND_TIMEOUT);
+        return open(config, translator, recordLog, ledger, BIND_TIMEOUT);
     }
 
     private static NotificationEndpoint open(
             NgsiSourceConfig config,
             NotificationTranslator translator,
-            RecordLog intake,
+            RecordLog recordLog,
             Ledger ledger,
             Duration timeout) {
         QueuedThreadPool threads = NotificationServer.threads();
-        AdmissionQueue deliveries = new AdmissionQueue(intake, ledger);
+        AdmissionQueue admissionQueue = new AdmissionQueue(recordLog, ledger);
         Handler notifications = new NotificationHandler(
                 translator,
-                deliveries,
+                admissionQueue,
                 ledger,
                 new NotificationHandler.Limits(
                         config.sizes().maxBodyBytes(),
@@ -93,23 +93,23 @@ public final class NotificationEndpoint implements AutoCloseable {
         Handler requests = new RequestHandler(
                 new RequestAuthenticator(config.security(), ledger),
                 notifications,
-                new PageHandler(pages(config, ledger)),
+                new StatusHandler(pages(config, ledger)),
                 config.sizes().maxBodyBytes());
         Optional<NotificationServer> health = Optional.empty();
         try {
             health = health(config, ledger, timeout);
             return new NotificationEndpoint(
-                    deliveries,
+                    admissionQueue,
                     NotificationServer.start(
                             settings(config, ledger), threads, guarded(config, ledger, requests), ledger, timeout),
                     health);
         } catch (UncheckedIOException e) {
-            close(deliveries, health);
+            close(admissionQueue, health);
             String remedy = "; free the address or change " + ListeningOptions.HOST + ", " + ListeningOptions.PORT
                     + " or " + ListeningOptions.HEALTH_PORT;
             throw new ConnectException(e.getCause().getMessage() + remedy, e);
         } catch (RuntimeException e) {
-            close(deliveries, health);
+            close(admissionQueue, health);
             throw e;
         }
     }
@@ -129,22 +129,22 @@ public final class NotificationEndpoint implements AutoCloseable {
                                 listening.requestTimeout(),
                                 false),
                         NotificationServer.threads(),
-                        guarded(config, ledger, new PageHandler(pages(config, ledger))),
+                        guarded(config, ledger, new StatusHandler(pages(config, ledger))),
                         ledger,
                         timeout));
     }
 
     private static Handler guarded(NgsiSourceConfig config, Ledger ledger, Handler handler) {
-        return new AccessHandler(config.accessRule(), new ForeignRequests(ledger), handler);
+        return new AccessHandler(config.accessRule(), new RejectedRequestHandler(ledger), handler);
     }
 
-    private static Map<String, Supplier<Page>> pages(NgsiSourceConfig config, Ledger ledger) {
+    private static Map<String, Supplier<StatusPage>> pages(NgsiSourceConfig config, Ledger ledger) {
         PrometheusPage prometheus = new PrometheusPage(ledger, config.name(), config.taskIndex());
         return Map.of(
                 "/health",
-                () -> new Page("application/json", NgsiJson.write(ledger.toJson())),
+                () -> new StatusPage("application/json", NgsiJson.write(ledger.toJson())),
                 "/metrics",
-                () -> new Page(PrometheusPage.CONTENT_TYPE, prometheus.write()));
+                () -> new StatusPage(PrometheusPage.CONTENT_TYPE, prometheus.write()));
     }
 
     private static NotificationServer.Settings settings(NgsiSourceConfig config, Ledger ledger) {
@@ -182,14 +182,14 @@ public final class NotificationEndpoint implements AutoCloseable {
         return health.map(NotificationServer::port).map(OptionalInt::of).orElseGet(OptionalInt::empty);
     }
 
-    private static void close(AdmissionQueue deliveries, Optional<NotificationServer> health) {
-        deliveries.close();
+    private static void close(AdmissionQueue admissionQueue, Optional<NotificationServer> health) {
+        admissionQueue.close();
         health.ifPresent(NotificationServer::close);
     }
 
     @Override
     public void close() {
-        close(deliveries, health);
+        close(admissionQueue, health);
         server.close();
     }
 }

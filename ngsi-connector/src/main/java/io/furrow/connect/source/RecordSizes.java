@@ -6,7 +6,7 @@ import java.util.Map;
 
 import io.furrow.connect.journal.JournalRecord;
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.option.SizeOptions;
@@ -34,8 +34,8 @@ final class RecordSizes {
     }
 
     /** The record that is sent to Kafka for a journal record. */
-    OutgoingRecord fitting(JournalRecord kept) {
-        OutgoingRecord record = JournalRecordCodec.read(kept.payload());
+    KafkaRecord fitting(JournalRecord kept) {
+        KafkaRecord record = JournalRecordCodec.read(kept.payload());
         long limit = limit(record.topic());
         // The journal's format has about the same length and is already measured.
         if (kept.payload().length + SizeOptions.ROOM_FOR_TRANSFORMATIONS <= limit || record.bytes() <= limit) {
@@ -61,15 +61,15 @@ final class RecordSizes {
     }
 
     /** A dead letter with as much of the value as the dead-letter topic accepts. */
-    private OutgoingRecord letter(OutgoingRecord record, Map<String, String> headers) {
+    private KafkaRecord letter(KafkaRecord record, Map<String, String> headers) {
         byte[] value = record.value();
-        OutgoingRecord letter = new OutgoingRecord(deadLetterTopic, record.key(), value, record.time(), headers);
+        KafkaRecord letter = new KafkaRecord(deadLetterTopic, record.key(), value, record.time(), headers);
         long excess = letter.bytes() - limit(deadLetterTopic);
         if (excess <= 0 || value == null) {
             return letter;
         }
         int room = (int) Math.max(0, value.length - excess - ROOM_FOR_SENTENCE);
         headers.computeIfPresent(DeadLetter.MESSAGE, (name, message) -> message + " (truncated to " + room + " bytes)");
-        return new OutgoingRecord(deadLetterTopic, record.key(), Arrays.copyOf(value, room), record.time(), headers);
+        return new KafkaRecord(deadLetterTopic, record.key(), Arrays.copyOf(value, room), record.time(), headers);
     }
 }

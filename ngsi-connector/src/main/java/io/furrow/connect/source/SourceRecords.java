@@ -11,7 +11,7 @@ import org.apache.kafka.connect.header.ConnectHeaders;
 import org.apache.kafka.connect.source.SourceRecord;
 
 import io.furrow.connect.journal.JournalRecord;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.journal.TaskJournals;
 import io.furrow.connect.source.option.KeyMode;
 import io.furrow.connect.source.option.ValueMode;
@@ -22,7 +22,7 @@ record SourceRecords(KeyMode keys, ValueMode values) {
      * @param reading the record that is sent to Kafka for a journal record
      * @throws ConnectException if a newer version of the plugin wrote one of them
      */
-    List<SourceRecord> of(TaskJournals.Batch turn, Function<JournalRecord, OutgoingRecord> reading) {
+    List<SourceRecord> of(TaskJournals.Batch turn, Function<JournalRecord, KafkaRecord> reading) {
         Map<String, String> partition = SourceOffsets.partition(turn.journal());
         List<SourceRecord> records = new ArrayList<>(turn.records().size());
         for (JournalRecord kept : turn.records()) {
@@ -38,7 +38,7 @@ record SourceRecords(KeyMode keys, ValueMode values) {
         return records;
     }
 
-    private SourceRecord of(Map<String, String> partition, long sequence, OutgoingRecord record) {
+    private SourceRecord of(Map<String, String> partition, long sequence, KafkaRecord record) {
         ConnectHeaders headers = new ConnectHeaders();
         record.headers().forEach(headers::addString);
         SchemaAndValue key = keys.of(record.key());

@@ -30,8 +30,8 @@ import io.furrow.connect.source.option.JournalOptions;
 record SourceRuntime(
         NgsiSourceConfig config,
         TaskJournals journals,
-        OwnSubscriptions subscriptions,
-        NotificationEndpoint reception,
+        SubscriptionManager subscriptions,
+        NotificationEndpoint endpoint,
         Ledger ledger,
         LedgerBean bean)
         implements AutoCloseable {
@@ -55,13 +55,13 @@ record SourceRuntime(
             String journal = journals.own().id();
             ledger.detail("journal", () -> JsonNodeFactory.instance.textNode(journal));
             ledger.detail("orphans", () -> orphans(journals));
-            OwnSubscriptions subscriptions = OwnSubscriptions.of(config, ledger);
-            JournalRecordLog intake = new JournalRecordLog(journals.own(), ledger);
-            NotificationEndpoint reception =
-                    NotificationEndpoint.open(config, subscriptions.watched(intake), ledger, subscriptions::arrived);
+            SubscriptionManager subscriptions = SubscriptionManager.of(config, ledger);
+            JournalRecordLog recordLog = new JournalRecordLog(journals.own(), ledger);
+            NotificationEndpoint endpoint =
+                    NotificationEndpoint.open(config, subscriptions.watched(recordLog), ledger, subscriptions::arrived);
             LedgerBean bean = LedgerBean.show(ledger, "ngsi-source", config.name(), config.taskIndex());
-            SourceRuntime source = new SourceRuntime(config, journals, subscriptions, reception, ledger, bean);
-            source.subscribe(intake);
+            SourceRuntime source = new SourceRuntime(config, journals, subscriptions, endpoint, ledger, bean);
+            source.subscribe(recordLog);
             return source;
         } catch (RuntimeException | Error e) {
             journals.close();
@@ -69,9 +69,9 @@ record SourceRuntime(
         }
     }
 
-    private void subscribe(JournalRecordLog intake) {
+    private void subscribe(JournalRecordLog recordLog) {
         try {
-            subscriptions.start(reception.port(), intake);
+            subscriptions.start(endpoint.port(), recordLog);
         } catch (RuntimeException | Error e) {
             close();
             throw e;
@@ -157,7 +157,7 @@ record SourceRuntime(
 
     /** Stops the listener and all requests to the context broker; the journals stay open. */
     void stopListening() {
-        reception.close();
+        endpoint.close();
         subscriptions.close();
     }
 

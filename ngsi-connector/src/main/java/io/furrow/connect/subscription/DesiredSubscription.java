@@ -15,20 +15,21 @@ import io.furrow.model.time.Instants;
  * The desired state of a subscription.
  *
  * @param name by which it is found again; all tasks of a connector share its {@code base}
- * @param pace how often it notifies, and when it expires
+ * @param throttling how often it notifies, and when it expires
  */
-public record DesiredSubscription(Name name, Subject subject, Content content, Target target, Pace pace) {
+public record DesiredSubscription(
+        Name name, Subject subject, NotificationContent notificationContent, Target target, Throttling throttling) {
     /**
      * The description of the subscription: {@code furrow farm 1/2}, with its service path where that is not {@code /#}.
      *
      * @param base of all subscriptions of this connector
      */
-    public record Name(String base, IdShare share, String servicePath) {
+    public record Name(String base, IdPartition partition, String servicePath) {
         private static final String EVERYWHERE = "/#";
 
         /** The description that is stored in the context broker. */
         public String text() {
-            return text(share.label());
+            return text(partition.label());
         }
 
         private String text(String label) {
@@ -37,8 +38,8 @@ public record DesiredSubscription(Name name, Subject subject, Content content, T
 
         /** Whether a description belongs to this connector with the same number of tasks. */
         boolean isSibling(String description) {
-            for (int i = 0; i < share.count(); i++) {
-                if (description.equals(text(new IdShare(i, share.count()).label()))) {
+            for (int i = 0; i < partition.count(); i++) {
+                if (description.equals(text(new IdPartition(i, partition.count()).label()))) {
                     return true;
                 }
             }
@@ -62,9 +63,9 @@ public record DesiredSubscription(Name name, Subject subject, Content content, T
      *     notified
      * @param expiry lifetime of the subscription; empty for unlimited
      */
-    public record Pace(Duration throttling, Optional<Duration> expiry) {
+    public record Throttling(Duration throttling, Optional<Duration> expiry) {
         /** Every change, without expiry. */
-        public static final Pace EVERY_CHANGE = new Pace(Duration.ZERO, Optional.empty());
+        public static final Throttling EVERY_CHANGE = new Throttling(Duration.ZERO, Optional.empty());
     }
 
     /** The body of a request that creates it. */
@@ -72,12 +73,12 @@ public record DesiredSubscription(Name name, Subject subject, Content content, T
         ObjectNode json = JsonNodeFactory.instance.objectNode().put("description", name.text());
         json.set("subject", subject.json());
         ObjectNode notification = json.putObject("notification");
-        content.writeTo(notification);
+        notificationContent.writeTo(notification);
         target.writeTo(notification);
-        if (pace.throttling().toSeconds() > 0) {
-            json.put("throttling", pace.throttling().toSeconds());
+        if (throttling.throttling().toSeconds() > 0) {
+            json.put("throttling", throttling.throttling().toSeconds());
         }
-        pace.expiry().ifPresent(life -> json.put("expires", end(now, life)));
+        throttling.expiry().ifPresent(life -> json.put("expires", end(now, life)));
         return json;
     }
 
@@ -88,11 +89,11 @@ public record DesiredSubscription(Name name, Subject subject, Content content, T
     /** Whether the expiry of a subscription in the context broker is neither near nor later than desired. */
     boolean lastsLongEnough(JsonNode shown, Instant now) {
         Optional<Instant> end = Instants.ofText(shown.path("expires").asText(""));
-        if (pace.expiry().isEmpty() || end.isEmpty()) {
-            return pace.expiry().isEmpty() && end.isEmpty();
+        if (throttling.expiry().isEmpty() || end.isEmpty()) {
+            return throttling.expiry().isEmpty() && end.isEmpty();
         }
         Duration left = Duration.between(now, end.get());
-        Duration life = pace.expiry().get();
+        Duration life = throttling.expiry().get();
         return left.compareTo(life.dividedBy(2)) > 0 && left.compareTo(life.plus(life)) < 0;
     }
 }

@@ -60,7 +60,7 @@ record SubscriptionPlan(Optional<JsonNode> current, List<Step> steps, List<JsonN
         List<JsonNode> leftovers = listed.stream()
                 .filter(one -> desired.name().isLeftover(description(one)))
                 .toList();
-        if (desired.name().share().index() == 0 && areAllThere(desired, listed)) {
+        if (desired.name().partition().index() == 0 && areAllThere(desired, listed)) {
             leftovers.forEach(one -> steps.add(remove(one)));
         }
         return new SubscriptionPlan(current, List.copyOf(steps), leftovers);
@@ -72,7 +72,7 @@ record SubscriptionPlan(Optional<JsonNode> current, List<Step> steps, List<JsonN
                         .filter(desired.name()::isSibling)
                         .distinct()
                         .count()
-                == desired.name().share().count();
+                == desired.name().partition().count();
     }
 
     private static Step remove(JsonNode subscription) {

@@ -94,7 +94,7 @@ class BrokerClientTest {
     @ParameterizedTest
     @ValueSource(ints = {400, 409, 413, 422})
     void callsOtherAnswersOf4xxARefusalInTheWordsOfTheBroker(int status) {
-        assertThat(answered(status, "too odd")).isEqualTo(new Outcome.Refused(status, status + " too odd"));
+        assertThat(answered(status, "too odd")).isEqualTo(new Outcome.Rejected(status, status + " too odd"));
     }
 
     @Test
@@ -103,7 +103,7 @@ class BrokerClientTest {
         BrokerRequest asked = BrokerRequest.get(PLOT, "/v2/entities");
 
         assertThat(new BrokerClient(settings(Duration.ofSeconds(5)).withMaxAnswerBytes(99_999)).send(asked))
-                .isEqualTo(new Outcome.Refused(200, "200, but the answer is larger than 99999 bytes"));
+                .isEqualTo(new Outcome.Rejected(200, "200, but the answer is larger than 99999 bytes"));
         assertThat(new BrokerClient(settings(Duration.ofSeconds(5)).withMaxAnswerBytes(100_000)).send(asked))
                 .isInstanceOf(Outcome.Done.class);
     }
@@ -127,8 +127,8 @@ class BrokerClientTest {
     void callsABrokerAwayThatSaysToComeAgain(int status) {
         assertThat(answered(status, "later"))
                 .isInstanceOfSatisfying(
-                        Outcome.Away.class,
-                        away -> assertThat(away.retryAfter()).isEmpty());
+                        Outcome.Unavailable.class,
+                        unavailable -> assertThat(unavailable.retryAfter()).isEmpty());
     }
 
     @Test
@@ -158,8 +158,8 @@ class BrokerClientTest {
 
         assertThat(client(Duration.ofMillis(300)).send(BrokerRequest.get(PLOT, "/v2/x")))
                 .isInstanceOfSatisfying(
-                        Outcome.Away.class,
-                        away -> assertThat(away.reason()).contains("does not answer within 300 ms"));
+                        Outcome.Unavailable.class,
+                        unavailable -> assertThat(unavailable.reason()).contains("does not answer within 300 ms"));
     }
 
     @Test
@@ -168,8 +168,8 @@ class BrokerClientTest {
 
         assertThat(client(Duration.ofSeconds(5)).send(BrokerRequest.get(PLOT, "/v2/x")))
                 .isInstanceOfSatisfying(
-                        Outcome.Away.class,
-                        away -> assertThat(away.reason()).contains(url() + "/v2/x does not answer"));
+                        Outcome.Unavailable.class,
+                        unavailable -> assertThat(unavailable.reason()).contains(url() + "/v2/x does not answer"));
     }
 
     @Test
@@ -177,7 +177,7 @@ class BrokerClientTest {
         Thread.currentThread().interrupt();
 
         assertThat(client(Duration.ofSeconds(5)).send(BrokerRequest.get(PLOT, "/v2/x")))
-                .isInstanceOf(Outcome.Away.class);
+                .isInstanceOf(Outcome.Unavailable.class);
         assertThat(Thread.interrupted()).isTrue();
     }
 
@@ -195,7 +195,7 @@ class BrokerClientTest {
             served = hangUpThenAnswer(socket);
             assertThat(client.send(BrokerRequest.create(
                             PLOT, "/v2/subscriptions", NgsiJson.mapper().createObjectNode())))
-                    .isInstanceOf(Outcome.Away.class);
+                    .isInstanceOf(Outcome.Unavailable.class);
             new Socket(socket.getInetAddress(), socket.getLocalPort()).close();
             served.join();
         }
@@ -244,7 +244,7 @@ class BrokerClientTest {
     }
 
     private Optional<Duration> retryAfter(String path) {
-        return ((Outcome.Away) client(Duration.ofSeconds(5)).send(BrokerRequest.get(PLOT, path))).retryAfter();
+        return ((Outcome.Unavailable) client(Duration.ofSeconds(5)).send(BrokerRequest.get(PLOT, path))).retryAfter();
     }
 
     private Outcome answered(int status, String body) {

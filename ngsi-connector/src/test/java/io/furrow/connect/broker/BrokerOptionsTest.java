@@ -122,7 +122,7 @@ class BrokerOptionsTest {
         HttpsServer server = httpsServer(key);
         URI url = URI.create("https://127.0.0.1:" + server.getAddress().getPort());
         try {
-            assertThat(ask(url, Map.of())).isInstanceOf(Outcome.Away.class);
+            assertThat(ask(url, Map.of())).isInstanceOf(Outcome.Unavailable.class);
             assertThat(ask(
                             url,
                             Map.of(

@@ -24,20 +24,20 @@ class LedgerTest {
         ledger.detail("journal", () -> JsonNodeFactory.instance.textNode("j1"));
 
         assertThat(ledger.toJson().toString())
-                .contains("\"received\":3", "\"turnedAway\":0", "\"pending\":7", "\"journal\":\"j1\"");
+                .contains("\"received\":3", "\"rejectedUnavailable\":0", "\"pending\":7", "\"journal\":\"j1\"");
     }
 
     @Test
     void showsEveryNumberToPrometheus() {
-        ledger.turnedAway.add(3);
+        ledger.rejectedUnavailable.add(3);
         ledger.gauge("pendingBytes", "Bytes that wait", () -> 7);
 
         String page = new String(new PrometheusPage(ledger, "a \"b\"", 2).write(), StandardCharsets.UTF_8);
 
         assertThat(page)
-                .contains("# TYPE furrow_ngsi_source_turned_away_total counter\n")
-                .contains("# HELP furrow_ngsi_source_turned_away_total Accepted and dead records")
-                .contains("furrow_ngsi_source_turned_away_total{connector=\"a \\\"b\\\"\",task=\"2\"} 3.0\n")
+                .contains("# TYPE furrow_ngsi_source_rejected_unavailable_total counter\n")
+                .contains("# HELP furrow_ngsi_source_rejected_unavailable_total Accepted and dead records")
+                .contains("furrow_ngsi_source_rejected_unavailable_total{connector=\"a \\\"b\\\"\",task=\"2\"} 3.0\n")
                 .contains("furrow_ngsi_source_pending_bytes{connector=\"a \\\"b\\\"\",task=\"2\"} 7.0\n");
         assertThat(page.lines().filter(line -> line.startsWith("# TYPE")))
                 .hasSize(ledger.all().size());
@@ -45,7 +45,7 @@ class LedgerTest {
 
     @Test
     void showsEveryNumberOverJmxWhileItIsOpen() throws Exception {
-        ledger.turnedAway.add(3);
+        ledger.rejectedUnavailable.add(3);
         ledger.gauge("pendingBytes", "Bytes that wait", () -> 7);
         ObjectName name = new ObjectName("furrow.connect:type=ngsi-source,connector=farm,task=1");
 

@@ -20,7 +20,7 @@ import io.furrow.connect.broker.ScriptedBroker;
 import io.furrow.connect.broker.ScriptedBroker.Exchange;
 import io.furrow.connect.repair.KeysetReader.Page;
 import io.furrow.connect.source.FuzzOutput;
-import io.furrow.connect.subscription.Content;
+import io.furrow.connect.subscription.NotificationContent;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
@@ -36,7 +36,8 @@ public final class FuzzPages {
     private static final FiwareScope EVERYWHERE = new FiwareScope("agri", "/#");
     private static final FiwareScope ROOT = new FiwareScope("agri", "/");
     private static final Instant START = Instant.parse("2026-11-21T12:00:00Z");
-    private static final Content CONTENT = new Content(List.of("*", "dateModified"), "normalized", false);
+    private static final NotificationContent CONTENT =
+            new NotificationContent(List.of("*", "dateModified"), "normalized", false);
     private static final int PAGE = 8;
     private static final long MAX_BYTES = 3000;
     private static final long MAX_ANSWER = 3500;
@@ -96,9 +97,9 @@ public final class FuzzPages {
 
     private static void repair(byte[] input, Path folder) throws IOException, InterruptedException {
         ScriptedBroker broker = broker(input);
-        LiveEvents live = new LiveEvents(1 << 20);
+        RecordTracker live = new RecordTracker(1 << 20);
         FuzzOutput output = new FuzzOutput();
-        try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 1 << 20)) {
+        try (EntityIdSet known = EntityIdSet.open(folder.resolve("known"), 1 << 20)) {
             known.add(ROOT.identity("T", "known"));
             live.restoreStale(List.of(ROOT.identity("T", "stale")));
             Repair repair = new Repair(

@@ -19,9 +19,9 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.connect.broker.AnswerHeaders;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
+import io.furrow.connect.broker.ResponseHeaders;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
@@ -145,7 +145,7 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
     public Outcome apply(BrokerRequest request) {
         meanwhile.run();
         Outcome outcome =
-                isAway ? new Outcome.Away("it is away", java.util.Optional.empty(), null, 0) : answer(request);
+                isAway ? new Outcome.Unavailable("it is away", java.util.Optional.empty(), null, 0) : answer(request);
         meanwhile.run();
         return outcome;
     }
@@ -255,10 +255,10 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
         return new Outcome.Done(200, headers(Map.of("Date", date)), json);
     }
 
-    private static AnswerHeaders headers(Map<String, String> named) {
+    private static ResponseHeaders headers(Map<String, String> named) {
         Map<String, List<String>> all = new HashMap<>();
         named.forEach((name, value) -> all.put(name, List.of(value)));
-        return new AnswerHeaders(HttpHeaders.of(all, (name, value) -> true));
+        return new ResponseHeaders(HttpHeaders.of(all, (name, value) -> true));
     }
 
     private static String time(long millis) {

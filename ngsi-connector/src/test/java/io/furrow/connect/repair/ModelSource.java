@@ -17,9 +17,9 @@ import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.RepairSettings.Deletions;
 import io.furrow.connect.repair.RepairSettings.Reading;
-import io.furrow.connect.subscription.Content;
 import io.furrow.connect.subscription.DesiredSubscription;
-import io.furrow.connect.subscription.IdShare;
+import io.furrow.connect.subscription.IdPartition;
+import io.furrow.connect.subscription.NotificationContent;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.connect.subscription.Target;
 import io.furrow.model.event.EntityDeletion;
@@ -36,11 +36,11 @@ final class ModelSource implements RepairOutput, AutoCloseable {
 
     private static final EventTimeRule TIMES = EventTimeRule.within(Duration.ofMinutes(5));
     private static final DesiredSubscription WANTED = new DesiredSubscription(
-            new DesiredSubscription.Name("furrow farm", IdShare.ALL, "/#"),
+            new DesiredSubscription.Name("furrow farm", IdPartition.ALL, "/#"),
             Subject.ANY,
-            new Content(List.of("*", "dateModified"), "normalized", false),
+            new NotificationContent(List.of("*", "dateModified"), "normalized", false),
             new Target("http://127.0.0.1:1/v2/notify", Map.of(), Optional.empty()),
-            DesiredSubscription.Pace.EVERY_CHANGE);
+            DesiredSubscription.Throttling.EVERY_CHANGE);
 
     /**
      * What is on the topic.
@@ -68,23 +68,23 @@ final class ModelSource implements RepairOutput, AutoCloseable {
 
     private final Topic topic;
     private final Ledger ledger = new Ledger();
-    private final LiveEvents live;
-    private final SubscriptionReconciler caretaker;
+    private final RecordTracker live;
+    private final SubscriptionReconciler reconciler;
     private MissedChange[] last = new MissedChange[0];
 
     ModelSource(Function<BrokerRequest, Outcome> broker, Path folder, Bounds bounds, Topic topic) throws IOException {
         this.topic = topic;
-        live = new LiveEvents(bounds.recent());
+        live = new RecordTracker(bounds.recent());
         RepairSettings settings = new RepairSettings(
                 folder,
                 Duration.ofSeconds(2),
                 RepairSettings.Mode.INITIAL,
                 new Reading(bounds.page(), bounds.pageBytes(), TIMES, List.of()),
                 new Deletions(1 << 20, bounds.deletions()));
-        SubscriptionReconciler.Target charge =
+        SubscriptionReconciler.Target target =
                 SubscriptionReconciler.Target.of(broker, new FiwareScope("agri", "/#"), WANTED, bounds.pageBytes());
-        caretaker = SubscriptionReconciler.open(
-                charge, settings, new SubscriptionReconciler.SharedServices(live, this, ledger));
+        reconciler = SubscriptionReconciler.open(
+                target, settings, new SubscriptionReconciler.SharedServices(live, this, ledger));
         live.onStale(this::markStale);
         live.onOverflow(this::noteLate);
     }
@@ -93,12 +93,12 @@ final class ModelSource implements RepairOutput, AutoCloseable {
     record Bounds(int page, long pageBytes, long recent, Duration deletions) {}
 
     void look() throws BrokerException, IOException, InterruptedException {
-        caretaker.look();
+        reconciler.poll();
     }
 
     private void markStale(String identity) {
         try {
-            caretaker.markStale(identity);
+            reconciler.markStale(identity);
         } catch (IOException e) {
             throw new AssertionError(e);
         }
@@ -106,7 +106,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
 
     private void noteLate(Instant from) {
         try {
-            caretaker.noteLate(from);
+            reconciler.noteLate(from);
         } catch (IOException e) {
             throw new AssertionError(e);
         }
@@ -119,7 +119,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
     /** There is no room for it. */
     void turnAway(ModelBroker.Told told) {
         live.arrived(told.subscription());
-        ledger.turnedAway.increment();
+        ledger.rejectedUnavailable.increment();
     }
 
     void take(ModelBroker.Told told) {
@@ -136,7 +136,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
             live.arrived(told.subscription());
             live.append(
                     told.subscription(),
-                    List.of(new EntityRecord(identity, eventId, version.modified(), told.gone())),
+                    List.of(new TrackedRecord(identity, eventId, version.modified(), told.gone())),
                     () -> {
                         if (told.gone()) {
                             topic.deleted(entity.type(), entity.id());
@@ -145,7 +145,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
                         }
                         return Optional.of(CompletableFuture.completedFuture(null));
                     });
-            caretaker.note(identity, told.gone());
+            reconciler.note(identity, told.gone());
         } catch (UnreadableException | IOException e) {
             throw new AssertionError(e);
         }
@@ -179,6 +179,6 @@ final class ModelSource implements RepairOutput, AutoCloseable {
 
     @Override
     public void close() throws IOException {
-        caretaker.close();
+        reconciler.close();
     }
 }

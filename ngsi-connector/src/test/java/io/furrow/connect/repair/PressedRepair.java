@@ -25,9 +25,9 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.RepairSettings.Deletions;
 import io.furrow.connect.repair.RepairSettings.Mode;
 import io.furrow.connect.repair.RepairSettings.Reading;
-import io.furrow.connect.subscription.Content;
 import io.furrow.connect.subscription.DesiredSubscription;
-import io.furrow.connect.subscription.IdShare;
+import io.furrow.connect.subscription.IdPartition;
+import io.furrow.connect.subscription.NotificationContent;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.connect.subscription.Target;
 import io.furrow.model.event.EventTimeRule;
@@ -55,7 +55,7 @@ final class PressedRepair {
         BrokerClient client = new BrokerClient(BrokerSettings.of(
                         URI.create("http://127.0.0.1:" + server.getAddress().getPort()), Duration.ofSeconds(60))
                 .withMaxAnswerBytes(16L * MIB));
-        LiveEvents live = new LiveEvents(BOUND);
+        RecordTracker live = new RecordTracker(BOUND);
         int[] counts = new int[2];
         RepairOutput output = new RepairOutput() {
             @Override
@@ -72,41 +72,41 @@ final class PressedRepair {
             }
         };
         DesiredSubscription desired = new DesiredSubscription(
-                new DesiredSubscription.Name("furrow farm", IdShare.ALL, "/#"),
+                new DesiredSubscription.Name("furrow farm", IdPartition.ALL, "/#"),
                 Subject.ANY,
-                new Content(List.of("*", "dateModified"), "normalized", false),
+                new NotificationContent(List.of("*", "dateModified"), "normalized", false),
                 new Target("http://127.0.0.1:1/", Map.of(), Optional.empty()),
-                DesiredSubscription.Pace.EVERY_CHANGE);
+                DesiredSubscription.Throttling.EVERY_CHANGE);
         RepairSettings settings = new RepairSettings(
                 Path.of(args[0]),
                 Duration.ofSeconds(1),
                 Mode.INITIAL,
                 new Reading(500, 16L * MIB, EventTimeRule.within(Duration.ofDays(10_000)), List.of()),
                 new Deletions(BOUND, Duration.ofHours(1)));
-        try (SubscriptionReconciler caretaker = SubscriptionReconciler.open(
+        try (SubscriptionReconciler reconciler = SubscriptionReconciler.open(
                 SubscriptionReconciler.Target.of(client::send, EVERYWHERE, desired, 16L * MIB),
                 settings,
                 new SubscriptionReconciler.SharedServices(live, output, new Ledger()))) {
-            caretaker.look();
+            reconciler.poll();
             System.out.printf("repaired %d dead %d%n", counts[0], counts[1]);
             for (int i = 0; i < 400_000; i++) {
-                note(live, caretaker, "urn:ngsi-ld:Device:" + i);
+                note(live, reconciler, "urn:ngsi-ld:Device:" + i);
                 live.arrived("forged".repeat(20) + i);
             }
             live.arrived("ffffffffffffffffffffffff");
             System.out.printf(
-                    "known %d arrived %d%n", caretaker.knownEntities(), live.arrivedOf("ffffffffffffffffffffffff"));
+                    "known %d arrived %d%n", reconciler.knownEntities(), live.arrivedOf("ffffffffffffffffffffffff"));
         }
         server.stop(0);
     }
 
-    private static void note(LiveEvents live, SubscriptionReconciler caretaker, String id) throws IOException {
+    private static void note(RecordTracker live, SubscriptionReconciler reconciler, String id) throws IOException {
         FiwareScope place = new FiwareScope("agri", "/");
         live.append(
                 "s",
-                List.of(new EntityRecord(place.identity("T", id), "id" + id, Optional.of(T), false)),
+                List.of(new TrackedRecord(place.identity("T", id), "id" + id, Optional.of(T), false)),
                 () -> Optional.of(CompletableFuture.completedFuture(null)));
-        caretaker.note(place.identity("T", id), false);
+        reconciler.note(place.identity("T", id), false);
     }
 
     private static void answer(HttpExchange exchange) throws IOException {

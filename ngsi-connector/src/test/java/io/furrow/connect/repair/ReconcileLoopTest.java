@@ -24,11 +24,11 @@ import io.furrow.connect.broker.BrokerSettings;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.ReconcileLoop.Assignment;
 import io.furrow.connect.repair.RepairSettings.Mode;
-import io.furrow.connect.subscription.Content;
 import io.furrow.connect.subscription.DesiredSubscription;
 import io.furrow.connect.subscription.DesiredSubscription.Name;
-import io.furrow.connect.subscription.DesiredSubscription.Pace;
-import io.furrow.connect.subscription.IdShare;
+import io.furrow.connect.subscription.DesiredSubscription.Throttling;
+import io.furrow.connect.subscription.IdPartition;
+import io.furrow.connect.subscription.NotificationContent;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.connect.subscription.Target;
 import io.furrow.fiware.FiwareSettings;
@@ -41,7 +41,8 @@ import static org.awaitility.Awaitility.await;
 /** Against the context broker of the simulators. Nothing listens where it notifies: each notification fails. */
 class ReconcileLoopTest {
     private static final String NOBODY = "http://127.0.0.1:1/v2/notify";
-    private static final Content CONTENT = new Content(List.of("*", "dateModified"), "normalized", false);
+    private static final NotificationContent CONTENT =
+            new NotificationContent(List.of("*", "dateModified"), "normalized", false);
 
     @TempDir
     private Path folder;
@@ -49,15 +50,15 @@ class ReconcileLoopTest {
     private final Broker broker = new Broker(FiwareSettings.httpOnly(), "agri");
     private final List<String> emitted = new CopyOnWriteArrayList<>();
     private final Ledger ledger = new Ledger();
-    private final LiveEvents live = new LiveEvents(1 << 20);
+    private final RecordTracker live = new RecordTracker(1 << 20);
     private volatile boolean room = true;
     private volatile Runnable failing = () -> {};
-    private ReconcileLoop caretakers;
+    private ReconcileLoop loop;
 
     @AfterEach
     void stop() {
-        if (caretakers != null) {
-            caretakers.close();
+        if (loop != null) {
+            loop.close();
         }
         broker.close();
     }
@@ -66,7 +67,7 @@ class ReconcileLoopTest {
     void makesOneSubscriptionHoweverOftenItStarts() {
         start(Mode.OFF);
         String id = subscription().path("id").asText();
-        caretakers.close();
+        loop.close();
 
         start(Mode.OFF);
 
@@ -102,7 +103,7 @@ class ReconcileLoopTest {
     @Test
     void leavesTheSubscriptionToOthersWhileItRests() {
         start(Mode.CHANGES);
-        caretakers.rest(true);
+        loop.rest(true);
         await().until(() -> {
             broker.subscriptions()
                     .forEach(each -> broker.send(
@@ -112,7 +113,7 @@ class ReconcileLoopTest {
         // A look that was under way may have made it once more; the next would again.
         await().during(Duration.ofSeconds(1)).until(() -> broker.subscriptions().isEmpty());
 
-        caretakers.rest(false);
+        loop.rest(false);
 
         await().until(() -> broker.subscriptions().size() == 1);
     }
@@ -123,11 +124,11 @@ class ReconcileLoopTest {
         start(Mode.OFF);
 
         failing = error;
-        await().until(() -> gauge("subscriptionsUnkept") == 1);
+        await().until(() -> gauge("subscriptionsOutOfSync") == 1);
         assertThat(ledger.toJson().get("subscriptions").toString()).contains("none of its business");
         failing = () -> {};
 
-        await().until(() -> gauge("subscriptionsUnkept") == 0);
+        await().until(() -> gauge("subscriptionsOutOfSync") == 0);
     }
 
     static Stream<Runnable> errors() {
@@ -172,7 +173,7 @@ class ReconcileLoopTest {
         broker.put("/", "stays", "Probe", 1);
         broker.put("/a", "goes", "Probe", 1);
         await().until(() -> emitted.size() == 2);
-        caretakers.close();
+        loop.close();
         broker.delete("/a", "goes");
         broker.put("/", "stays", "Probe", 2);
         broker.put("/", "new", "Probe", 3);
@@ -213,7 +214,7 @@ class ReconcileLoopTest {
         start(Mode.INITIAL);
         await().during(Duration.ofMillis(300)).until(emitted::isEmpty);
 
-        caretakers.close();
+        loop.close();
         await("the end of its thread")
                 .until(() -> Thread.getAllStackTraces().keySet().stream()
                         .noneMatch(thread -> thread.getName().equals("furrow-reconcile")));
@@ -228,20 +229,20 @@ class ReconcileLoopTest {
         URI uri = broker.uri();
         start(Mode.CHANGES);
         broker.close();
-        await().until(() -> gauge("subscriptionsUnkept") == 1);
+        await().until(() -> gauge("subscriptionsOutOfSync") == 1);
 
         try (Broker again = new Broker(FiwareSettings.httpOnly().withContextBrokerPort(uri.getPort()), "agri")) {
-            await().until(() -> again.subscriptions().size() == 1 && gauge("subscriptionsKept") == 1);
+            await().until(() -> again.subscriptions().size() == 1 && gauge("subscriptionsInSync") == 1);
         }
     }
 
     private void start(Mode mode) {
         DesiredSubscription desired = new DesiredSubscription(
-                new Name("furrow farm", IdShare.ALL, "/#"),
+                new Name("furrow farm", IdPartition.ALL, "/#"),
                 Subject.ANY,
                 CONTENT,
                 new Target(NOBODY, Map.of(), Optional.empty()),
-                Pace.EVERY_CHANGE);
+                Throttling.EVERY_CHANGE);
         RepairSettings settings = new RepairSettings(
                 folder,
                 Duration.ofSeconds(1),
@@ -254,7 +255,7 @@ class ReconcileLoopTest {
                 new RepairSettings.Deletions(1 << 20, Duration.ofMinutes(10)));
         BrokerClient client = new BrokerClient(BrokerSettings.of(broker.uri(), Duration.ofSeconds(5)));
         try {
-            caretakers = ReconcileLoop.start(
+            loop = ReconcileLoop.start(
                     request -> {
                         failing.run();
                         return client.send(request);
@@ -267,7 +268,7 @@ class ReconcileLoopTest {
             throw new java.io.UncheckedIOException(e);
         }
         if (room) {
-            await().until(() -> gauge("subscriptionsKept") > 0);
+            await().until(() -> gauge("subscriptionsInSync") > 0);
         }
     }
 

@@ -93,7 +93,7 @@ class RepairModelTest {
         if (!tellsDeletions) {
             restartSource();
         }
-        for (int looks = DeliveryBalance.MAX_UNBALANCED + 5; looks > 0; looks--) {
+        for (int looks = GapDetector.MAX_UNBALANCED + 5; looks > 0; looks--) {
             broker.pass(1000);
             source.look();
         }

@@ -29,14 +29,14 @@ class RepairPublisherTest {
     @TempDir
     private Path folder;
 
-    private final LiveEvents live = new LiveEvents(1 << 20);
+    private final RecordTracker live = new RecordTracker(1 << 20);
     private final List<String> emitted = new ArrayList<>();
-    private KnownEntities known;
+    private EntityIdSet known;
     private int refusals;
 
     @BeforeEach
     void open() throws Exception {
-        known = KnownEntities.open(folder.resolve("known"), 1 << 20);
+        known = EntityIdSet.open(folder.resolve("known"), 1 << 20);
     }
 
     @Test
@@ -110,7 +110,7 @@ class RepairPublisherTest {
             @Override
             public byte[] serialize(String subscription, MissedChange finding) {
                 assertThat(Thread.holdsLock(live)).isFalse();
-                return Identities.id(finding.identity()).getBytes(StandardCharsets.UTF_8);
+                return EntityKeys.id(finding.identity()).getBytes(StandardCharsets.UTF_8);
             }
 
             @Override
@@ -134,7 +134,7 @@ class RepairPublisherTest {
     private void append(String id, String eventId, Optional<Instant> modified) {
         live.append(
                 "s",
-                List.of(new EntityRecord(identity(id), eventId, modified, false)),
+                List.of(new TrackedRecord(identity(id), eventId, modified, false)),
                 () -> Optional.of(CompletableFuture.completedFuture(null)));
     }
 

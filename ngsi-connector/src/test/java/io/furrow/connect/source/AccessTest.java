@@ -20,19 +20,19 @@ class AccessTest {
     /** As an Orion posts to the URL of a subscription: with its host and port, without an origin. */
     @Test
     void hearsTheContextBrokerAtThePublicHostThoughItListensElsewhere() throws IOException {
-        try (ReceptionRig rig = new ReceptionRig("public.url", PUBLIC_URL)) {
+        try (NotificationRig rig = new NotificationRig("public.url", PUBLIC_URL)) {
             assertThat(post(rig, "Host: notify.example.org:" + rig.port())).startsWith("HTTP/1.1 200 ");
             assertThat(post(rig, "Host: NOTIFY.example.org.")).startsWith("HTTP/1.1 200 ");
             assertThat(post(rig, "Host: 127.0.0.1:" + rig.port())).startsWith("HTTP/1.1 200 ");
 
-            assertThat(rig.intake.taken).hasSize(3);
+            assertThat(rig.recordLog.taken).hasSize(3);
             assertThat(rig.ledger.foreign.sum()).isZero();
         }
     }
 
     @Test
     void hearsItAtTheHostsThatAreNamed() throws IOException {
-        try (ReceptionRig rig = new ReceptionRig("allowed.hosts", "furrow, furrow.farm.svc")) {
+        try (NotificationRig rig = new NotificationRig("allowed.hosts", "furrow, furrow.farm.svc")) {
             assertThat(post(rig, "Host: furrow:8090")).startsWith("HTTP/1.1 200 ");
             assertThat(post(rig, "Host: furrow.farm.svc:8090")).startsWith("HTTP/1.1 200 ");
             assertThat(post(rig, "Host: furrow.farm")).startsWith("HTTP/1.1 403 ");
@@ -41,8 +41,8 @@ class AccessTest {
 
     @Test
     void refusesOtherHostsAndPagesCountsThemAndSaysWhatToSet() throws IOException {
-        try (ReceptionRig rig =
-                new ReceptionRig("public.url", PUBLIC_URL, "allowed.origins", "https://map.example.org")) {
+        try (NotificationRig rig =
+                new NotificationRig("public.url", PUBLIC_URL, "allowed.origins", "https://map.example.org")) {
             assertThat(post(rig, "Host: evil.example:8090"))
                     .startsWith("HTTP/1.1 403 ")
                     .endsWith(
@@ -57,13 +57,13 @@ class AccessTest {
                     .startsWith("HTTP/1.1 200 ");
 
             assertThat(rig.ledger.foreign.sum()).isEqualTo(2);
-            assertThat(rig.intake.taken).hasSize(1);
+            assertThat(rig.recordLog.taken).hasSize(1);
         }
     }
 
     @Test
     void showsItsHealthToProbesAndItsNumbersToThoseWhoKnowItsName() throws IOException {
-        try (ReceptionRig rig = new ReceptionRig()) {
+        try (NotificationRig rig = new NotificationRig()) {
             assertThat(ask(rig, "GET /health HTTP/1.1\r\nHost: 10.1.2.3:8090\r\n"))
                     .startsWith("HTTP/1.1 200 ");
             assertThat(ask(rig, "GET /health HTTP/1.0\r\n")).startsWith("HTTP/1.1 200 ");
@@ -87,11 +87,11 @@ class AccessTest {
                 .hasMessageContaining("'" + value + "' " + why);
     }
 
-    private static String post(ReceptionRig rig, String headers) throws IOException {
+    private static String post(NotificationRig rig, String headers) throws IOException {
         return post(rig, "/v2/notify", headers);
     }
 
-    private static String post(ReceptionRig rig, String path, String headers) throws IOException {
+    private static String post(NotificationRig rig, String path, String headers) throws IOException {
         RecordedRequest recorded = RecordedRequest.of("normalized-05");
         return ask(
                 rig,
@@ -100,13 +100,13 @@ class AccessTest {
                 recorded.body());
     }
 
-    private static String ask(ReceptionRig rig, String head) throws IOException {
+    private static String ask(NotificationRig rig, String head) throws IOException {
         return ask(rig, head, "");
     }
 
-    private static String ask(ReceptionRig rig, String head, String body) throws IOException {
+    private static String ask(NotificationRig rig, String head, String body) throws IOException {
         try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), rig.port())) {
-            socket.setSoTimeout((int) ReceptionRig.TIMEOUT.toMillis());
+            socket.setSoTimeout((int) NotificationRig.TIMEOUT.toMillis());
             socket.getOutputStream()
                     .write((head + "Connection: close\r\n\r\n" + body).getBytes(StandardCharsets.UTF_8));
             socket.getOutputStream().flush();

@@ -13,7 +13,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.model.event.DeadLetter;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -25,10 +25,10 @@ class EncodedBodiesTest {
     @ValueSource(ints = {0, 1000, 60_000})
     void areInflated(int length) {
         String body = "{\"id\": \"a\", \"x\": \"" + "x".repeat(length) + "\"}";
-        try (ReceptionRig rig = new ReceptionRig("max.body.bytes", Integer.toString(LIMIT))) {
+        try (NotificationRig rig = new NotificationRig("max.body.bytes", Integer.toString(LIMIT))) {
             assertThat(post(rig, gzip(body), "gzip").statusCode()).isEqualTo(200);
 
-            OutgoingRecord record = rig.intake.taken.remove().get(0);
+            KafkaRecord record = rig.recordLog.taken.remove().get(0);
             assertThat(record.key()).isEqualTo("a");
             assertThat(new String(record.value(), StandardCharsets.UTF_8)).contains("x".repeat(length));
         }
@@ -37,13 +37,13 @@ class EncodedBodiesTest {
     @Test
     void areAsLongAsTheyAreInflated() {
         byte[] bomb = gzip("x".repeat(50_000_000));
-        try (ReceptionRig rig = new ReceptionRig("max.body.bytes", Integer.toString(LIMIT))) {
+        try (NotificationRig rig = new NotificationRig("max.body.bytes", Integer.toString(LIMIT))) {
             HttpResponse<String> answer = post(rig, bomb, "gzip");
 
             assertThat(bomb.length).isLessThan(LIMIT);
             assertThat(answer.statusCode()).isEqualTo(413);
             assertThat(answer.headers().firstValue("Connection")).contains("close");
-            OutgoingRecord dead = rig.intake.taken.remove().get(0);
+            KafkaRecord dead = rig.recordLog.taken.remove().get(0);
             assertThat(dead.headers()).containsEntry(DeadLetter.REASON, "too-large");
             assertThat(dead.value()).hasSize(LIMIT);
         }
@@ -51,12 +51,12 @@ class EncodedBodiesTest {
 
     @Test
     void areRefusedWhereTheyAreNoGzip() {
-        try (ReceptionRig rig = new ReceptionRig()) {
+        try (NotificationRig rig = new NotificationRig()) {
             HttpResponse<String> answer = post(rig, "{\"id\": \"a\"}".getBytes(StandardCharsets.UTF_8), "gzip");
 
             assertThat(answer.statusCode()).isEqualTo(400);
             assertThat(answer.body()).contains("gzip");
-            assertThat(rig.intake.taken).isEmpty();
+            assertThat(rig.recordLog.taken).isEmpty();
             assertThat(rig.post("{\"id\": \"a\"}").join().statusCode()).isEqualTo(200);
         }
     }
@@ -64,7 +64,7 @@ class EncodedBodiesTest {
     @Test
     void areNoEntityWhereTheirEndIsMissing() {
         byte[] whole = gzip("{\"id\": \"a\", \"x\": \"" + "xyz".repeat(1000) + "\"}");
-        try (ReceptionRig rig = new ReceptionRig()) {
+        try (NotificationRig rig = new NotificationRig()) {
             HttpResponse<String> answer = post(rig, Arrays.copyOf(whole, whole.length / 2), "gzip");
 
             assertThat(answer.statusCode()).isEqualTo(400);
@@ -74,24 +74,24 @@ class EncodedBodiesTest {
     @ParameterizedTest
     @ValueSource(strings = {"br", "deflate", "gzip, gzip"})
     void areRefusedInOtherEncodings(String encoding) {
-        try (ReceptionRig rig = new ReceptionRig()) {
+        try (NotificationRig rig = new NotificationRig()) {
             HttpResponse<String> answer = post(rig, gzip("{\"id\": \"a\"}"), encoding);
 
             assertThat(answer.statusCode()).isEqualTo(415);
             assertThat(answer.headers().firstValue("Accept-Encoding")).contains("gzip");
             assertThat(answer.body()).contains("Content-Encoding");
-            assertThat(rig.intake.taken).isEmpty();
+            assertThat(rig.recordLog.taken).isEmpty();
         }
     }
 
     @Test
     void areNotInflatedForWhoeverMayNotSend() {
-        try (ReceptionRig rig = new ReceptionRig("secret", "s3cret")) {
+        try (NotificationRig rig = new NotificationRig("secret", "s3cret")) {
             assertThat(post(rig, new byte[] {1, 2, 3}, "gzip").statusCode()).isEqualTo(401);
         }
     }
 
-    private static HttpResponse<String> post(ReceptionRig rig, byte[] body, String encoding) {
+    private static HttpResponse<String> post(NotificationRig rig, byte[] body, String encoding) {
         return rig.post("/v2/notify", BodyPublishers.ofByteArray(body), "Content-Encoding", encoding)
                 .join();
     }

@@ -7,8 +7,8 @@ import java.util.List;
 import java.util.Map;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.record.OutgoingRecord;
-import io.furrow.connect.source.http.Answer;
+import io.furrow.connect.record.KafkaRecord;
+import io.furrow.connect.source.http.NotificationResponse;
 import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.notification.ReceivedNotification;
@@ -46,10 +46,10 @@ public final class FuzzBodies {
         Ledger ledger = new Ledger();
         Translation translation = new NotificationTranslator(SETTINGS, ledger)
                 .translate(new ReceivedNotification(body, true, form, FiwareScope.DEFAULT, NOW, "fuzzer /"));
-        for (OutgoingRecord record : translation.records()) {
+        for (KafkaRecord record : translation.records()) {
             check(record);
         }
-        require(Answer.taken(translation.refusal()).status() >= 200, "there is no answer");
+        require(NotificationResponse.taken(translation.refusal()).status() >= 200, "there is no answer");
         require(
                 ledger.received.sum() == ledger.accepted.sum() + ledger.dead.sum() + ledger.excluded.sum(),
                 "the ledger does not add up");
@@ -59,8 +59,8 @@ public final class FuzzBodies {
                 "a record is not counted");
     }
 
-    private static void check(OutgoingRecord record) throws UnreadableException {
-        OutgoingRecord kept = JournalRecordCodec.read(JournalRecordCodec.write(record));
+    private static void check(KafkaRecord record) throws UnreadableException {
+        KafkaRecord kept = JournalRecordCodec.read(JournalRecordCodec.write(record));
         require(Arrays.equals(kept.value(), record.value()), "the value changed in the journal");
         require(java.util.Objects.equals(kept.key(), record.key()), "the key changed in the journal");
         require(kept.headers().equals(record.headers()), "the headers changed in the journal");

@@ -9,7 +9,7 @@ import java.util.Set;
 import java.util.concurrent.CompletableFuture;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.repair.MissedChange;
 import io.furrow.connect.repair.RepairOutput;
 import io.furrow.connect.source.journal.JournalRecordCodec;
@@ -27,7 +27,7 @@ public final class FuzzOutput implements RepairOutput {
     /** Entities of which there is a record without a value. */
     public final Set<String> deleted = new HashSet<>();
 
-    private final RepairedRecords records = new RepairedRecords(SETTINGS, null, new Ledger());
+    private final RepairRecordWriter records = new RepairRecordWriter(SETTINGS, null, new Ledger());
 
     @Override
     public byte[] serialize(String subscription, MissedChange finding) {
@@ -40,7 +40,7 @@ public final class FuzzOutput implements RepairOutput {
         return Optional.of(CompletableFuture.completedFuture(null));
     }
 
-    private void note(OutgoingRecord record) {
+    private void note(KafkaRecord record) {
         if (record.bytes() > SETTINGS.maxRecordBytes()) {
             throw new IllegalStateException("a record of " + record.bytes() + " bytes");
         }

@@ -19,7 +19,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.notification.ReceivedNotification;
 
@@ -58,7 +58,7 @@ class GoldenRecordsTest {
         assertThat(records).isEqualTo(Files.readString(golden));
     }
 
-    private static List<OutgoingRecord> translate(String request) {
+    private static List<KafkaRecord> translate(String request) {
         String[] headAndBody = request.split("\r?\n\r?\n", 2);
         Map<String, String> headers = headAndBody[0]
                 .lines()
@@ -75,7 +75,7 @@ class GoldenRecordsTest {
                 .records();
     }
 
-    private static String toJson(OutgoingRecord record) {
+    private static String toJson(KafkaRecord record) {
         ObjectNode json = JsonNodeFactory.instance.objectNode();
         json.put("topic", record.topic()).put("key", record.key());
         json.put("timestamp", record.time().toEpochMilli());

@@ -17,7 +17,7 @@ class HealthPagesTest {
     @ParameterizedTest
     @ValueSource(strings = {"/health", "/metrics"})
     void answerHeadAsGetWithoutABody(String path) {
-        try (ReceptionRig rig = new ReceptionRig()) {
+        try (NotificationRig rig = new NotificationRig()) {
             HttpResponse<String> get = rig.get(path).join();
 
             HttpResponse<String> head = send(rig, rig.uri(path), "HEAD");
@@ -33,7 +33,7 @@ class HealthPagesTest {
 
     @Test
     void areOnAPortOfTheirOwnThatTakesNoNotifications() {
-        try (ReceptionRig rig = new ReceptionRig("health.port", "0")) {
+        try (NotificationRig rig = new NotificationRig("health.port", "0")) {
             URI health = URI.create("http://127.0.0.1:" + rig.healthPort() + "/health");
 
             assertThat(rig.healthPort()).isNotEqualTo(rig.port());
@@ -42,13 +42,13 @@ class HealthPagesTest {
             HttpResponse<String> refused = send(rig, health.resolve("/v2/notify"), "POST");
 
             assertThat(refused.statusCode()).isEqualTo(405);
-            assertThat(rig.intake.taken).isEmpty();
+            assertThat(rig.recordLog.taken).isEmpty();
         }
     }
 
     @Test
     void areGuardedByTheAccessRuleOnThatPortToo() {
-        try (ReceptionRig rig = new ReceptionRig("health.port", "0")) {
+        try (NotificationRig rig = new NotificationRig("health.port", "0")) {
             URI metrics = URI.create("http://127.0.0.1:" + rig.healthPort() + "/metrics");
             HttpRequest fromAPage = HttpRequest.newBuilder(metrics)
                     .header("Origin", "http://evil.example")
@@ -61,11 +61,11 @@ class HealthPagesTest {
 
     @Test
     void giveTheirPortBack() {
-        ReceptionRig rig = new ReceptionRig("health.port", "0");
+        NotificationRig rig = new NotificationRig("health.port", "0");
         int port = rig.healthPort();
         rig.close();
 
-        try (ReceptionRig next = new ReceptionRig("health.port", Integer.toString(port))) {
+        try (NotificationRig next = new NotificationRig("health.port", Integer.toString(port))) {
             assertThat(next.healthPort()).isEqualTo(port);
         }
     }
@@ -79,7 +79,7 @@ class HealthPagesTest {
                 .hasMessageContaining("health.port");
     }
 
-    private static HttpResponse<String> send(ReceptionRig rig, URI uri, String method) {
+    private static HttpResponse<String> send(NotificationRig rig, URI uri, String method) {
         return rig.send(HttpRequest.newBuilder(uri)
                         .method(
                                 method,

@@ -89,7 +89,7 @@ class LedgerEquationsTest {
 
         JsonNode health = quiet(full);
         assertThat(health.get("durable").asLong()).isZero();
-        assertThat(health.get("turnedAway").asLong()).isPositive();
+        assertThat(health.get("rejectedUnavailable").asLong()).isPositive();
         assertThat(health.get("overload").asLong()).isPositive();
         full.stop();
     }
@@ -101,7 +101,7 @@ class LedgerEquationsTest {
             assertThat(sum(now, "accepted", "dead", "excluded"))
                     .as("received: %s", now)
                     .isEqualTo(sum(now, "received"));
-            assertThat(sum(now, "durable", "turnedAway"))
+            assertThat(sum(now, "durable", "rejectedUnavailable"))
                     .as("durable: %s", now)
                     .isEqualTo(sum(now, "accepted", "dead", "repaired"));
             assertThat(sum(now, "produced", "skipped", "lost", "pending"))

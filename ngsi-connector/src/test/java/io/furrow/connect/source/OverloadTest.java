@@ -28,47 +28,47 @@ class OverloadTest {
 
     @Test
     void resetsTheConnectionWhenThereIsNoRoomInTime() {
-        try (ReceptionRig rig = new ReceptionRig("overload.hold.ms", "200")) {
-            rig.intake.answer = Optional.empty();
+        try (NotificationRig rig = new NotificationRig("overload.hold.ms", "200")) {
+            rig.recordLog.answer = Optional.empty();
 
             assertThatThrownBy(() -> rig.post(ENTITY).join()).hasCauseInstanceOf(IOException.class);
 
             assertThat(rig.ledger.overload.sum()).isEqualTo(1);
-            assertThat(rig.ledger.held.sum()).isEqualTo(1);
-            assertThat(rig.ledger.turnedAway.sum()).isEqualTo(1);
+            assertThat(rig.ledger.delayed.sum()).isEqualTo(1);
+            assertThat(rig.ledger.rejectedUnavailable.sum()).isEqualTo(1);
             assertThat(rig.ledger.late.sum()).isZero();
         }
     }
 
     @Test
     void resetsTheConnectionWhenTheRecordsAreNotDurableInTime() {
-        try (ReceptionRig rig = new ReceptionRig("overload.hold.ms", "200")) {
+        try (NotificationRig rig = new NotificationRig("overload.hold.ms", "200")) {
             CompletableFuture<Void> durable = new CompletableFuture<>();
-            rig.intake.answer = Optional.of(durable);
+            rig.recordLog.answer = Optional.of(durable);
 
             assertThatThrownBy(() -> rig.post(ENTITY).join()).hasCauseInstanceOf(IOException.class);
 
             assertThat(rig.ledger.late.sum()).isEqualTo(1);
-            assertThat(rig.ledger.turnedAway.sum()).isZero();
+            assertThat(rig.ledger.rejectedUnavailable.sum()).isZero();
             durable.completeExceptionally(new RecordLog.ClosedException());
-            assertThat(rig.ledger.turnedAway.sum()).isEqualTo(1);
+            assertThat(rig.ledger.rejectedUnavailable.sum()).isEqualTo(1);
         }
     }
 
     @Test
     void countsTheHoldFromTheEndOfTheBody() throws IOException {
-        try (ReceptionRig rig = new ReceptionRig("overload.hold.ms", "2000");
+        try (NotificationRig rig = new NotificationRig("overload.hold.ms", "2000");
                 Socket slow = new Socket("127.0.0.1", rig.port())) {
-            slow.setSoTimeout((int) ReceptionRig.TIMEOUT.toMillis());
+            slow.setSoTimeout((int) NotificationRig.TIMEOUT.toMillis());
             slow.getOutputStream()
                     .write("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 11\r\n\r\n{".getBytes());
             // The rest takes longer than the sender may be held, and the records then take a moment.
             await().pollDelay(Duration.ofMillis(2500)).until(() -> true);
             CompletableFuture<Void> durable = new CompletableFuture<>();
-            rig.intake.answer = Optional.of(durable);
+            rig.recordLog.answer = Optional.of(durable);
 
             slow.getOutputStream().write("\"id\": \"a\"}".getBytes());
-            await().until(() -> rig.intake.taken.size() == 1);
+            await().until(() -> rig.recordLog.taken.size() == 1);
             durable.complete(null);
 
             byte[] status = slow.getInputStream().readNBytes("HTTP/1.1 200".length());
@@ -79,8 +79,8 @@ class OverloadTest {
 
     @Test
     void answersUnavailableWhereThatIsDesired() {
-        try (ReceptionRig rig = new ReceptionRig("overload.hold.ms", "200", "overload.answer", "503")) {
-            rig.intake.answer = Optional.empty();
+        try (NotificationRig rig = new NotificationRig("overload.hold.ms", "200", "overload.answer", "503")) {
+            rig.recordLog.answer = Optional.empty();
 
             HttpResponse<String> answer = rig.post(ENTITY).join();
 
@@ -93,8 +93,8 @@ class OverloadTest {
 
     @Test
     void answersUnavailableWhenTheSourceStops() {
-        try (ReceptionRig rig = new ReceptionRig("overload.answer", "503")) {
-            rig.intake.answer = Optional.of(CompletableFuture.failedFuture(new RecordLog.ClosedException()));
+        try (NotificationRig rig = new NotificationRig("overload.answer", "503")) {
+            rig.recordLog.answer = Optional.of(CompletableFuture.failedFuture(new RecordLog.ClosedException()));
 
             assertThat(rig.post(ENTITY).join().statusCode()).isEqualTo(503);
         }
@@ -102,13 +102,13 @@ class OverloadTest {
 
     @Test
     void resetsAConnectionThatSendsWhileTheSourceStops() throws Exception {
-        ReceptionRig rig = new ReceptionRig();
+        NotificationRig rig = new NotificationRig();
         try (Socket kept = new Socket("127.0.0.1", rig.port())) {
-            kept.setSoTimeout((int) ReceptionRig.TIMEOUT.toMillis());
+            kept.setSoTimeout((int) NotificationRig.TIMEOUT.toMillis());
             // One request without an answer keeps the server from its end.
-            rig.intake.answer = Optional.of(new CompletableFuture<>());
+            rig.recordLog.answer = Optional.of(new CompletableFuture<>());
             CompletableFuture<HttpResponse<String>> pending = rig.post(ENTITY);
-            await().until(() -> rig.intake.taken.size() == 1);
+            await().until(() -> rig.recordLog.taken.size() == 1);
             int port = rig.port();
             kept.getOutputStream().write("POST / HTTP/1.1\r\nHost: localhost\r\nX: ".getBytes());
 
@@ -120,9 +120,9 @@ class OverloadTest {
 
             assertThat(isAnswered(kept, "\r\nContent-Length: 10\r\n\r\n{\"id\":\"a\"}"))
                     .isFalse();
-            assertThat(rig.intake.taken).hasSize(1);
-            assertThat(stopped).succeedsWithin(ReceptionRig.TIMEOUT);
-            assertThat(pending).failsWithin(ReceptionRig.TIMEOUT);
+            assertThat(rig.recordLog.taken).hasSize(1);
+            assertThat(stopped).succeedsWithin(NotificationRig.TIMEOUT);
+            assertThat(pending).failsWithin(NotificationRig.TIMEOUT);
         }
     }
 
@@ -146,20 +146,20 @@ class OverloadTest {
 
     @Test
     void takesWhatWaitedInItsOrderWhenThereIsRoomAgain() {
-        try (ReceptionRig rig = new ReceptionRig()) {
-            rig.intake.answer = Optional.empty();
+        try (NotificationRig rig = new NotificationRig()) {
+            rig.recordLog.answer = Optional.empty();
             List<CompletableFuture<HttpResponse<String>>> answers = new ArrayList<>();
             for (int i = 0; i < 5; i++) {
-                long before = rig.ledger.held.sum();
+                long before = rig.ledger.delayed.sum();
                 answers.add(rig.post("{\"id\": \"" + i + "\"}"));
-                await().until(() -> rig.ledger.held.sum() == before + 1);
+                await().until(() -> rig.ledger.delayed.sum() == before + 1);
             }
 
-            rig.intake.answer = Optional.of(CompletableFuture.completedFuture(null));
+            rig.recordLog.answer = Optional.of(CompletableFuture.completedFuture(null));
 
             assertThat(answers)
                     .allSatisfy(answer -> assertThat(answer.join().statusCode()).isEqualTo(200));
-            assertThat(rig.intake.taken)
+            assertThat(rig.recordLog.taken)
                     .extracting(records -> records.get(0).key())
                     .containsExactly("0", "1", "2", "3", "4");
             assertThat(rig.ledger.overload.sum()).isZero();
@@ -168,30 +168,30 @@ class OverloadTest {
 
     @Test
     void leavesBodiesInTheNetworkThatItHasNoMemoryFor() {
-        try (ReceptionRig rig = new ReceptionRig(
+        try (NotificationRig rig = new NotificationRig(
                 "max.body.bytes", "100000", "overload.memory.bytes", "200000", "overload.hold.ms", "9000")) {
             CompletableFuture<Void> durable = new CompletableFuture<>();
-            rig.intake.answer = Optional.of(durable);
+            rig.recordLog.answer = Optional.of(durable);
             byte[] half = new byte[100_000];
             List<CompletableFuture<HttpResponse<String>>> answers = new ArrayList<>();
             for (int i = 0; i < 6; i++) {
                 answers.add(rig.post("/", BodyPublishers.ofByteArray(half)));
             }
-            await().until(() -> rig.intake.taken.size() == 2);
+            await().until(() -> rig.recordLog.taken.size() == 2);
             assertThat(rig.ledger.requests.sum()).isEqualTo(2);
 
-            rig.intake.answer = Optional.of(CompletableFuture.completedFuture(null));
+            rig.recordLog.answer = Optional.of(CompletableFuture.completedFuture(null));
             durable.complete(null);
 
             assertThat(answers)
                     .allSatisfy(answer -> assertThat(answer.join().statusCode()).isEqualTo(400));
-            assertThat(rig.intake.taken).hasSize(6);
+            assertThat(rig.recordLog.taken).hasSize(6);
         }
     }
 
     @Test
     void turnsAwayABodyThatFindsNoMemoryInTime() {
-        try (ReceptionRig rig = new ReceptionRig(
+        try (NotificationRig rig = new NotificationRig(
                 "max.body.bytes",
                 "100000",
                 "overload.memory.bytes",
@@ -200,7 +200,7 @@ class OverloadTest {
                 "300",
                 "overload.answer",
                 "503")) {
-            rig.intake.answer = Optional.of(new CompletableFuture<>());
+            rig.recordLog.answer = Optional.of(new CompletableFuture<>());
             byte[] all = new byte[100_000];
 
             List<CompletableFuture<HttpResponse<String>>> answers = new ArrayList<>();
@@ -210,35 +210,35 @@ class OverloadTest {
 
             assertThat(answers)
                     .allSatisfy(answer -> assertThat(answer.join().statusCode()).isEqualTo(503));
-            rig.intake.answer = Optional.of(CompletableFuture.completedFuture(null));
+            rig.recordLog.answer = Optional.of(CompletableFuture.completedFuture(null));
             assertThat(rig.post(ENTITY).join().statusCode()).isEqualTo(200);
         }
     }
 
     @Test
     void cutsASenderThatTricklesItsHeaders() throws IOException {
-        try (ReceptionRig rig = new ReceptionRig("listen.request.timeout.ms", "400", "overload.hold.ms", "100");
+        try (NotificationRig rig = new NotificationRig("listen.request.timeout.ms", "400", "overload.hold.ms", "100");
                 Socket slow = new Socket("127.0.0.1", rig.port())) {
             trickle(slow, "POST /v2/notify HTTP/1.1\r\nHost: localhost\r\nX: ");
 
-            assertThat(rig.ledger.cut.sum()).isEqualTo(1);
+            assertThat(rig.ledger.timedOut.sum()).isEqualTo(1);
         }
     }
 
     @Test
     void cutsASenderThatTricklesItsBody() throws IOException {
-        try (ReceptionRig rig = new ReceptionRig("listen.request.timeout.ms", "400", "overload.hold.ms", "100");
+        try (NotificationRig rig = new NotificationRig("listen.request.timeout.ms", "400", "overload.hold.ms", "100");
                 Socket slow = new Socket("127.0.0.1", rig.port())) {
             trickle(slow, "POST /v2/notify HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000\r\n\r\n{");
 
-            await().until(() -> rig.ledger.cut.sum() == 1);
-            assertThat(rig.intake.taken).isEmpty();
+            await().until(() -> rig.ledger.timedOut.sum() == 1);
+            assertThat(rig.recordLog.taken).isEmpty();
         }
     }
 
     @Test
     void cutsASilentSender() throws IOException {
-        try (ReceptionRig rig = new ReceptionRig("listen.idle.timeout.ms", "200");
+        try (NotificationRig rig = new NotificationRig("listen.idle.timeout.ms", "200");
                 Socket silent = new Socket("127.0.0.1", rig.port())) {
             silent.getOutputStream()
                     .write("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{".getBytes());
@@ -247,41 +247,41 @@ class OverloadTest {
             String answer = new String(silent.getInputStream().readAllBytes(), StandardCharsets.US_ASCII);
 
             assertThat(answer).doesNotContain("200 OK");
-            assertThat(rig.ledger.cut.sum()).isEqualTo(1);
+            assertThat(rig.ledger.timedOut.sum()).isEqualTo(1);
         }
     }
 
     @Test
     void letsAConnectionBeIdleBetweenRequestsForLongerThanARequestMayTake() throws Exception {
-        try (ReceptionRig rig = new ReceptionRig("listen.request.timeout.ms", "5000", "overload.hold.ms", "100");
+        try (NotificationRig rig = new NotificationRig("listen.request.timeout.ms", "5000", "overload.hold.ms", "100");
                 Socket kept = new Socket("127.0.0.1", rig.port())) {
             byte[] request =
                     "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{\"id\":\"a\"}".getBytes();
             kept.getOutputStream().write(request);
-            await().until(() -> rig.intake.taken.size() == 1);
+            await().until(() -> rig.recordLog.taken.size() == 1);
 
             await().pollDelay(Duration.ofMillis(5500)).until(() -> true);
             kept.getOutputStream().write(request);
 
-            await().until(() -> rig.intake.taken.size() == 2);
-            assertThat(rig.ledger.cut.sum()).isZero();
+            await().until(() -> rig.recordLog.taken.size() == 2);
+            assertThat(rig.ledger.timedOut.sum()).isZero();
         }
     }
 
     @Test
     void letsFurtherConnectionsWaitUntilOneIsClosed() throws IOException {
-        try (ReceptionRig rig = new ReceptionRig("listen.max.connections", "1");
+        try (NotificationRig rig = new NotificationRig("listen.max.connections", "1");
                 Socket second = new Socket()) {
             try (Socket first = new Socket("127.0.0.1", rig.port())) {
                 first.getOutputStream().write(request("first"));
-                await().until(() -> rig.intake.taken.size() == 1);
+                await().until(() -> rig.recordLog.taken.size() == 1);
                 second.connect(new java.net.InetSocketAddress("127.0.0.1", rig.port()));
                 second.getOutputStream().write(request("second"));
 
-                await().during(Duration.ofMillis(300)).until(() -> rig.intake.taken.size() == 1);
+                await().during(Duration.ofMillis(300)).until(() -> rig.recordLog.taken.size() == 1);
             }
 
-            await().until(() -> rig.intake.taken.size() == 2);
+            await().until(() -> rig.recordLog.taken.size() == 2);
         }
     }
 

@@ -16,7 +16,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.connect.journal.JournalRecord;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.source.journal.TaskJournals;
 import io.furrow.model.event.DeadLetter;
@@ -30,10 +30,10 @@ import static org.assertj.core.api.Assertions.assertThat;
 class RecordModesTest {
     private static final Entity ENTITY =
             Entity.builder("urn:x:1", "T").integer("x", 5).build();
-    private static final OutgoingRecord CHANGE =
-            new OutgoingRecord("t", "urn:x:1", ENTITY.toBytes(), Instant.ofEpochMilli(7), Map.of("ce_id", "1"));
-    private static final OutgoingRecord DELETION =
-            new OutgoingRecord("t", "urn:x:1", null, Instant.ofEpochMilli(7), Map.of("ce_id", "2"));
+    private static final KafkaRecord CHANGE =
+            new KafkaRecord("t", "urn:x:1", ENTITY.toBytes(), Instant.ofEpochMilli(7), Map.of("ce_id", "1"));
+    private static final KafkaRecord DELETION =
+            new KafkaRecord("t", "urn:x:1", null, Instant.ofEpochMilli(7), Map.of("ce_id", "2"));
     private static final byte[] NOT_UTF8 = {'{', (byte) 0xc3, '}'};
 
     @Test
@@ -81,7 +81,7 @@ class RecordModesTest {
     @Test
     void keepsDeadLettersToTheByte() throws Exception {
         DeadLetter why = new DeadLetter(Reason.NOT_JSON, "byte 1", "ngsi-source", "here");
-        OutgoingRecord letter = new OutgoingRecord("t.dead", null, NOT_UTF8, Instant.EPOCH, why.headers());
+        KafkaRecord letter = new KafkaRecord("t.dead", null, NOT_UTF8, Instant.EPOCH, why.headers());
 
         assertThat(written(new ByteArrayConverter(), record("text", "bytes", letter)))
                 .isEqualTo(NOT_UTF8);
@@ -103,7 +103,7 @@ class RecordModesTest {
         assertThat(new ByteArrayConverter().fromConnectData("t", bytes.keySchema(), bytes.key()))
                 .asString()
                 .isEqualTo("urn:x:1");
-        assertThat(record("bytes", "bytes", new OutgoingRecord("t", null, NOT_UTF8, Instant.EPOCH, Map.of()))
+        assertThat(record("bytes", "bytes", new KafkaRecord("t", null, NOT_UTF8, Instant.EPOCH, Map.of()))
                         .key())
                 .isNull();
     }
@@ -119,7 +119,7 @@ class RecordModesTest {
         }
     }
 
-    private static SourceRecord record(String keyMode, String valueMode, OutgoingRecord record) {
+    private static SourceRecord record(String keyMode, String valueMode, KafkaRecord record) {
         SourceRecords records = new NgsiSourceConfig(
                         Map.of("journal.dir", "/tmp/journal", "key.mode", keyMode, "value.mode", valueMode))
                 .records();

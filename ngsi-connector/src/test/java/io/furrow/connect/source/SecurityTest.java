@@ -33,7 +33,7 @@ class SecurityTest {
 
     @Test
     void takesEitherSecretAndNothingElse() {
-        try (ReceptionRig rig = new ReceptionRig("secret", NEW, "secret.previous", OLD)) {
+        try (NotificationRig rig = new NotificationRig("secret", NEW, "secret.previous", OLD)) {
             assertThat(status(rig, "X-Furrow-Secret", NEW)).isEqualTo(200);
             assertThat(status(rig, "x-furrow-secret", OLD)).isEqualTo(200);
             assertThat(status(rig, "X-Furrow-Secret", NEW + "x")).isEqualTo(401);
@@ -42,16 +42,16 @@ class SecurityTest {
             assertThat(rig.post("/", ENTITY).join().statusCode()).isEqualTo(401);
 
             assertThat(rig.ledger.unauthorized.sum()).isEqualTo(4);
-            assertThat(rig.intake.taken).hasSize(2);
+            assertThat(rig.recordLog.taken).hasSize(2);
             assertThat(rig.ledger.received.sum()).isEqualTo(2);
         }
     }
 
     @Test
     void refusesOnceTheBodyIsThereAndKeepsTheConnection() throws IOException {
-        try (ReceptionRig rig = new ReceptionRig("secret", NEW);
+        try (NotificationRig rig = new NotificationRig("secret", NEW);
                 Socket socket = new Socket("127.0.0.1", rig.port())) {
-            socket.setSoTimeout((int) ReceptionRig.TIMEOUT.toMillis());
+            socket.setSoTimeout((int) NotificationRig.TIMEOUT.toMillis());
             String head = "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 11\r\n";
             write(socket, head + "\r\n");
             await().during(Duration.ofMillis(300))
@@ -61,7 +61,7 @@ class SecurityTest {
 
             write(socket, head + "X-Furrow-Secret: " + NEW + "\r\n\r\n{\"id\": \"a\"}");
 
-            await().until(() -> rig.intake.taken.size() == 1);
+            await().until(() -> rig.recordLog.taken.size() == 1);
         }
     }
 
@@ -82,7 +82,7 @@ class SecurityTest {
 
     @Test
     void takesTheSecretFromAnyHeader() {
-        try (ReceptionRig rig = new ReceptionRig("secret.header", "Authorization", "secret", "Bearer " + NEW)) {
+        try (NotificationRig rig = new NotificationRig("secret.header", "Authorization", "secret", "Bearer " + NEW)) {
             assertThat(status(rig, "Authorization", "Bearer " + NEW)).isEqualTo(200);
             assertThat(status(rig, "Authorization", NEW)).isEqualTo(401);
         }
@@ -90,7 +90,7 @@ class SecurityTest {
 
     @Test
     void takesAllowedTenantsOnlyAndKeepsNothingOfTheOthers() {
-        try (ReceptionRig rig = new ReceptionRig("allowed.tenants", "Farm, -")) {
+        try (NotificationRig rig = new NotificationRig("allowed.tenants", "Farm, -")) {
             assertThat(status(rig, "Fiware-Service", "fArm")).isEqualTo(200);
             assertThat(status(rig, "NGSILD-Tenant", "farm")).isEqualTo(200);
             assertThat(rig.post("/", ENTITY).join().statusCode()).isEqualTo(200);
@@ -101,13 +101,13 @@ class SecurityTest {
                     .isEqualTo(403);
 
             assertThat(rig.ledger.foreignTenant.sum()).isEqualTo(2);
-            assertThat(rig.intake.taken).hasSize(3);
+            assertThat(rig.recordLog.taken).hasSize(3);
         }
     }
 
     @Test
     void asksForTheTenantByNameWhereNoneIsNotAllowed() {
-        try (ReceptionRig rig = new ReceptionRig("allowed.tenants", "farm")) {
+        try (NotificationRig rig = new NotificationRig("allowed.tenants", "farm")) {
             assertThat(rig.post("/", ENTITY).join().statusCode()).isEqualTo(403);
         }
     }
@@ -125,7 +125,7 @@ class SecurityTest {
         root.setLevel(Level.TRACE);
         logging.updateLoggers();
         StringBuilder seen = new StringBuilder();
-        try (ReceptionRig rig = new ReceptionRig("secret", NEW, "secret.previous", OLD)) {
+        try (NotificationRig rig = new NotificationRig("secret", NEW, "secret.previous", OLD)) {
             for (String given : List.of(NEW, OLD, "wr0ng-guess")) {
                 HttpResponse<String> answer =
                         post(rig, "X-Furrow-Secret", given).join();
@@ -133,7 +133,7 @@ class SecurityTest {
             }
             seen.append(rig.get("/health").join().body());
             seen.append(rig.get("/metrics").join().body());
-            rig.intake.taken.forEach(records ->
+            rig.recordLog.taken.forEach(records ->
                     records.forEach(record -> seen.append(record.headers()).append(new String(record.value()))));
         } finally {
             root.removeAppender("recorder");
@@ -159,11 +159,11 @@ class SecurityTest {
                 .hasMessageNotContaining(OLD);
     }
 
-    private static int status(ReceptionRig rig, String header, String value) {
+    private static int status(NotificationRig rig, String header, String value) {
         return post(rig, header, value).join().statusCode();
     }
 
-    private static CompletableFuture<HttpResponse<String>> post(ReceptionRig rig, String header, String value) {
+    private static CompletableFuture<HttpResponse<String>> post(NotificationRig rig, String header, String value) {
         return rig.post("/v2/notify", ENTITY, header, value);
     }
 

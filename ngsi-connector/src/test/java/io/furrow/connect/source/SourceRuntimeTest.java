@@ -114,7 +114,7 @@ class SourceRuntimeTest {
             AtomicInteger asked = new AtomicInteger();
             AtomicBoolean away = new AtomicBoolean();
             try (TaskJournals journals = journals(away, asked)) {
-                JournalMaintenance keeper = JournalMaintenance.start(journals, true, nanoTime::get);
+                JournalMaintenance maintenance = JournalMaintenance.start(journals, true, nanoTime::get);
                 nanoTime.addAndGet(Duration.ofMinutes(1).toNanos());
                 SourceOnConnect.await().until(() -> asked.get() > 2);
                 away.set(true);
@@ -122,8 +122,10 @@ class SourceRuntimeTest {
                 SourceOnConnect.await().until(() -> asked.get() > before);
                 nanoTime.addAndGet(Duration.ofMillis(silence).toNanos());
 
-                assertThat(keeper.isKafkaAway()).as("after %d ms", silence).isEqualTo(silence > 2500);
-                keeper.close();
+                assertThat(maintenance.isKafkaUnavailable())
+                        .as("after %d ms", silence)
+                        .isEqualTo(silence > 2500);
+                maintenance.close();
             }
         }
     }

@@ -51,9 +51,9 @@ class TlsTest {
         if (!typeAndFile[0].equals("PEM")) {
             options.addAll(List.of("ssl.keystore.password", TlsKeys.PASSWORD));
         }
-        try (ReceptionRig rig = new ReceptionRig(options.toArray(String[]::new))) {
+        try (NotificationRig rig = new NotificationRig(options.toArray(String[]::new))) {
             assertThat(post(rig, keys.client(name, null)).statusCode()).isEqualTo(200);
-            assertThat(rig.intake.taken).hasSize(1);
+            assertThat(rig.recordLog.taken).hasSize(1);
             assertThatThrownBy(() -> rig.post("{\"id\": \"in plain text\"}").join())
                     .hasRootCauseInstanceOf(IOException.class);
         }
@@ -63,7 +63,7 @@ class TlsTest {
     void takesAKeyThatIsGivenAsAnOption() throws Exception {
         String pem = Files.readString(directory.resolve("server-ec.pem"));
         int certificate = pem.indexOf("-----BEGIN CERTIFICATE-----");
-        try (ReceptionRig rig = new ReceptionRig(
+        try (NotificationRig rig = new NotificationRig(
                 "ssl.keystore.type",
                 "PEM",
                 "ssl.keystore.key",
@@ -76,7 +76,7 @@ class TlsTest {
 
     @Test
     void takesNotificationsOfKnownClientsOnlyWhereThatIsDesired() throws Exception {
-        try (ReceptionRig rig = new ReceptionRig(withClientAuth("client.p12"))) {
+        try (NotificationRig rig = new NotificationRig(withClientAuth("client.p12"))) {
             assertThat(post(rig, keys.client("server", "client")).statusCode()).isEqualTo(200);
             assertThatThrownBy(() -> post(rig, keys.client("server", null))).isInstanceOf(IOException.class);
             assertThatThrownBy(() -> post(rig, keys.client("server", "server-ec")))
@@ -88,7 +88,7 @@ class TlsTest {
     void showsTheHealthToProbesWithoutACertificateOnItsOwnPort() throws Exception {
         List<String> options = new ArrayList<>(List.of(withClientAuth("client.p12")));
         options.addAll(List.of("health.port", "0"));
-        try (ReceptionRig rig = new ReceptionRig(options.toArray(String[]::new))) {
+        try (NotificationRig rig = new NotificationRig(options.toArray(String[]::new))) {
             URI health = URI.create("http://127.0.0.1:" + rig.healthPort() + "/health");
 
             assertThat(rig.send(HttpRequest.newBuilder(health).build()).join().statusCode())
@@ -100,7 +100,7 @@ class TlsTest {
     void speaksOnlyTheProtocolsThatAreEnabled() throws Exception {
         List<String> options = new ArrayList<>(List.of(withKeys("server.p12")));
         options.addAll(List.of("ssl.enabled.protocols", "TLSv1.3"));
-        try (ReceptionRig rig = new ReceptionRig(options.toArray(String[]::new))) {
+        try (NotificationRig rig = new NotificationRig(options.toArray(String[]::new))) {
             SSLParameters old = new SSLParameters();
             old.setProtocols(new String[] {"TLSv1.2"});
             HttpClient client = HttpClient.newBuilder()
@@ -119,7 +119,7 @@ class TlsTest {
         keys.copy("client.p12", "trusted.p12");
         List<String> options = new ArrayList<>(List.of(withClientAuth("trusted.p12")));
         options.set(options.indexOf(keys.file("server.p12")), keys.file("renewed.p12"));
-        try (ReceptionRig rig = new ReceptionRig(options.toArray(String[]::new))) {
+        try (NotificationRig rig = new NotificationRig(options.toArray(String[]::new))) {
             assertThat(post(rig, keys.client("server", "client")).statusCode()).isEqualTo(200);
 
             keys.copy("other.p12", "renewed.p12");
@@ -140,7 +140,7 @@ class TlsTest {
     @Test
     void goesOnWithTheKeysFromBeforeWhereNewOnesCannotBeUsed() throws Exception {
         keys.copy("server.p12", "broken.p12");
-        try (ReceptionRig rig = new ReceptionRig(withKeys("broken.p12"))) {
+        try (NotificationRig rig = new NotificationRig(withKeys("broken.p12"))) {
             Files.writeString(directory.resolve("broken.p12"), "no key store");
 
             await().during(Duration.ofMillis(1500))
@@ -160,13 +160,13 @@ class TlsTest {
                 .getNotAfter()
                 .toInstant()
                 .getEpochSecond();
-        try (ReceptionRig rig = new ReceptionRig(withKeys("server.p12"))) {
+        try (NotificationRig rig = new NotificationRig(withKeys("server.p12"))) {
             assertThat(rig.ledger.all())
                     .filteredOn(gauge -> gauge.name().equals("certificateExpirySeconds"))
                     .singleElement()
                     .satisfies(gauge -> assertThat(gauge.now()).isEqualTo(expiry));
         }
-        try (ReceptionRig rig = new ReceptionRig()) {
+        try (NotificationRig rig = new NotificationRig()) {
             assertThat(rig.ledger.all()).extracting(Metric::name).doesNotContain("certificateExpirySeconds");
         }
     }
@@ -175,8 +175,8 @@ class TlsTest {
     void resetsATlsConnectionUnderOverload() throws Exception {
         List<String> options = new ArrayList<>(List.of(withKeys("server.p12")));
         options.addAll(List.of("overload.hold.ms", "100"));
-        try (ReceptionRig rig = new ReceptionRig(options.toArray(String[]::new))) {
-            rig.intake.answer = java.util.Optional.empty();
+        try (NotificationRig rig = new NotificationRig(options.toArray(String[]::new))) {
+            rig.recordLog.answer = java.util.Optional.empty();
 
             assertThatThrownBy(() -> post(rig, keys.client("server", null))).isInstanceOf(IOException.class);
             assertThat(rig.ledger.overload.sum()).isEqualTo(1);
@@ -186,7 +186,7 @@ class TlsTest {
     @ParameterizedTest
     @ValueSource(strings = {"absent.p12", "server.pem"})
     void saysWhichFileCannotBeRead(String file) {
-        assertThatThrownBy(() -> new ReceptionRig(withKeys(file)).close())
+        assertThatThrownBy(() -> new NotificationRig(withKeys(file)).close())
                 .isInstanceOf(ConfigException.class)
                 .hasMessageContaining("ssl.keystore.location")
                 .hasMessageContaining(file)
@@ -222,10 +222,10 @@ class TlsTest {
         return options.toArray(String[]::new);
     }
 
-    private static HttpResponse<String> post(ReceptionRig rig, HttpClient client) throws Exception {
+    private static HttpResponse<String> post(NotificationRig rig, HttpClient client) throws Exception {
         URI uri = URI.create("https://127.0.0.1:" + rig.port() + "/v2/notify");
         HttpRequest request = HttpRequest.newBuilder(uri)
-                .timeout(ReceptionRig.TIMEOUT)
+                .timeout(NotificationRig.TIMEOUT)
                 .POST(BodyPublishers.ofString("{\"id\": \"a\"}"))
                 .build();
         return client.send(request, HttpResponse.BodyHandlers.ofString());

@@ -88,7 +88,7 @@ class TranslationMemoryTest {
 
     private static CompletableFuture<Integer> post(URI uri, String body) {
         HttpRequest request = HttpRequest.newBuilder(uri)
-                .timeout(ReceptionRig.TIMEOUT)
+                .timeout(NotificationRig.TIMEOUT)
                 .POST(BodyPublishers.ofString(body, StandardCharsets.US_ASCII))
                 .build();
         return CLIENT.sendAsync(request, BodyHandlers.discarding())

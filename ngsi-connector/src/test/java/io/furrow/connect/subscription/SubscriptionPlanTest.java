@@ -17,16 +17,17 @@ import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.connect.subscription.DesiredSubscription.Name;
-import io.furrow.connect.subscription.DesiredSubscription.Pace;
+import io.furrow.connect.subscription.DesiredSubscription.Throttling;
 import io.furrow.connect.subscription.SubscriptionPlan.Step;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class SubscriptionPlanTest {
     private static final Instant NOW = Instant.parse("2026-11-21T12:00:00Z");
-    private static final Content CONTENT = new Content(List.of("*", "dateModified"), "normalized", false);
+    private static final NotificationContent CONTENT =
+            new NotificationContent(List.of("*", "dateModified"), "normalized", false);
     private static final Target TARGET = new Target("http://here:8090/v2/notify", Map.of(), Optional.empty());
-    private static final DesiredSubscription WANTED = desired(IdShare.ALL, TARGET, Pace.EVERY_CHANGE);
+    private static final DesiredSubscription WANTED = desired(IdPartition.ALL, TARGET, Throttling.EVERY_CHANGE);
 
     @Test
     void makesWhatIsNotThere() {
@@ -44,9 +45,10 @@ class SubscriptionPlanTest {
 
     @Test
     void changesOneThatTellsOtherMetadata() {
-        Content content = new Content(List.of("*", "dateModified"), List.of("*", "dateModified"), "normalized", false);
-        DesiredSubscription desired =
-                new DesiredSubscription(WANTED.name(), WANTED.subject(), content, TARGET, Pace.EVERY_CHANGE);
+        NotificationContent notificationContent = new NotificationContent(
+                List.of("*", "dateModified"), List.of("*", "dateModified"), "normalized", false);
+        DesiredSubscription desired = new DesiredSubscription(
+                WANTED.name(), WANTED.subject(), notificationContent, TARGET, Throttling.EVERY_CHANGE);
 
         assertThat(SubscriptionPlan.of(desired, List.of(ours()), NOW).steps())
                 .singleElement()
@@ -100,7 +102,7 @@ class SubscriptionPlanTest {
     @Test
     void tellsOfASecretThatIsNotTheSameAndDoesNotShowIt() {
         Target secret = new Target(TARGET.url(), Map.of("X-Secret", "s3cret"), Optional.of(3));
-        DesiredSubscription guarded = desired(IdShare.ALL, secret, Pace.EVERY_CHANGE);
+        DesiredSubscription guarded = desired(IdPartition.ALL, secret, Throttling.EVERY_CHANGE);
 
         SubscriptionPlan plan = SubscriptionPlan.of(guarded, List.of(ours()), NOW);
 
@@ -115,7 +117,7 @@ class SubscriptionPlanTest {
     @CsvSource({"2026-11-21T12:10:00Z, true", "2026-11-21T12:50:00Z, false", "2026-11-21T15:00:00Z, true", "'', true"})
     void renewsTheEndWhenHalfOfItsLifeIsGone(String end, boolean renewed) {
         DesiredSubscription mortal =
-                desired(IdShare.ALL, TARGET, new Pace(Duration.ZERO, Optional.of(Duration.ofHours(1))));
+                desired(IdPartition.ALL, TARGET, new Throttling(Duration.ZERO, Optional.of(Duration.ofHours(1))));
         ObjectNode ours = end.isEmpty() ? ours() : ours().put("expires", end);
 
         SubscriptionPlan plan = SubscriptionPlan.of(mortal, List.of(ours), NOW);
@@ -141,8 +143,8 @@ class SubscriptionPlanTest {
     @Test
     void removesThoseOfAnotherNumberOfTasksWhenAllOfThisNumberAreThere() {
         ObjectNode former = shown("9", "furrow farm 1/1", TARGET.url());
-        DesiredSubscription first = desired(new IdShare(0, 2), TARGET, Pace.EVERY_CHANGE);
-        DesiredSubscription second = desired(new IdShare(1, 2), TARGET, Pace.EVERY_CHANGE);
+        DesiredSubscription first = desired(new IdPartition(0, 2), TARGET, Throttling.EVERY_CHANGE);
+        DesiredSubscription second = desired(new IdPartition(1, 2), TARGET, Throttling.EVERY_CHANGE);
         JsonNode one = first.json(NOW).put("id", "1").put("status", "active");
         JsonNode two = second.json(NOW).put("id", "2").put("status", "active");
         JsonNode foreign = shown("3", "furrow farm elsewhere 1/1", TARGET.url());
@@ -158,9 +160,9 @@ class SubscriptionPlanTest {
                 .containsExactly(former);
     }
 
-    private static DesiredSubscription desired(IdShare share, Target target, Pace pace) {
-        Subject subject = new Subject(share.pattern(), List.of(), Optional.empty(), List.of());
-        return new DesiredSubscription(new Name("furrow farm", share, "/#"), subject, CONTENT, target, pace);
+    private static DesiredSubscription desired(IdPartition partition, Target target, Throttling throttling) {
+        Subject subject = new Subject(partition.pattern(), List.of(), Optional.empty(), List.of());
+        return new DesiredSubscription(new Name("furrow farm", partition, "/#"), subject, CONTENT, target, throttling);
     }
 
     private static ObjectNode ours() {
@@ -169,7 +171,8 @@ class SubscriptionPlanTest {
 
     /** As Orion shows it, with what it adds. */
     private static ObjectNode shown(String id, String description, String url) {
-        ObjectNode shown = desired(IdShare.ALL, new Target(url, Map.of(), Optional.empty()), Pace.EVERY_CHANGE)
+        ObjectNode shown = desired(
+                        IdPartition.ALL, new Target(url, Map.of(), Optional.empty()), Throttling.EVERY_CHANGE)
                 .json(NOW)
                 .put("id", id)
                 .put("status", "active")

@@ -51,14 +51,14 @@ public final class Playback {
         this.passBegan = fresh ? now : now - MIN_PASS;
         Long start =
                 fresh && desired.seek() != null ? Long.valueOf(desired.seek().to()) : state.start();
-        this.at = Moves.of(state, desired.sequence(), start);
+        this.at = PlaybackTransitions.of(state, desired.sequence(), start);
         if (fresh) {
             at = steps().withoutObsolete();
         }
         if (fresh && isStopped()) {
-            at = Moves.over(at, Phase.STOPPED, null);
+            at = PlaybackTransitions.over(at, Phase.STOPPED, null);
         } else if (at.epoch() > Epochs.LAST) {
-            at = Moves.over(at, Phase.FAILED, NO_EPOCH_LEFT);
+            at = PlaybackTransitions.over(at, Phase.FAILED, NO_EPOCH_LEFT);
         }
         startOver(now);
     }
@@ -83,12 +83,12 @@ public final class Playback {
         if (withoutState && at.phase() == Phase.OPENING && at.epoch() <= epoch) {
             begin(at.start(), passBegan);
         } else if (withoutState && at.phase() == Phase.OPENING) {
-            at = Moves.stamped(at, stamp);
+            at = PlaybackTransitions.stamped(at, stamp);
         }
     }
 
-    private Steps steps() {
-        return new Steps(at, desired);
+    private PendingSteps steps() {
+        return new PendingSteps(at, desired);
     }
 
     private boolean isStopped() {
@@ -96,7 +96,7 @@ public final class Playback {
     }
 
     /** Takes what is requested now, unless it is older than what was applied; a record that this ends the epoch with is returned. */
-    public Optional<Played> apply(DesiredReplay next, long now) {
+    public Optional<PlaybackRecord> apply(DesiredReplay next, long now) {
         if (next.sequence() <= at.sequence()) {
             return Optional.empty();
         }
@@ -106,9 +106,9 @@ public final class Playback {
         long rangeEnd = desired.to();
         schedule.follow(next, at.phase() == Phase.PLAYING, now);
         desired = next;
-        at = Moves.of(at, next.sequence(), at.start());
+        at = PlaybackTransitions.of(at, next.sequence(), at.start());
         at = steps().withoutObsolete();
-        at = schedule.isHeld() ? at : Moves.towards(at, null);
+        at = schedule.isHeld() ? at : PlaybackTransitions.towards(at, null);
         schedule.anchor(now, position);
         if (isStopped()) {
             return over(Phase.STOPPED, null, "stopped", now);
@@ -119,25 +119,25 @@ public final class Playback {
         if (!seeks) {
             return Optional.empty();
         }
-        Optional<Played> end = end("seek", now);
+        Optional<PlaybackRecord> end = end("seek", now);
         begin(next.seek().to(), now);
         return end;
     }
 
     /** Ends it for good. */
-    public Optional<Played> fail(String reason, long now) {
+    public Optional<PlaybackRecord> fail(String reason, long now) {
         return over(Phase.FAILED, reason, reason, now);
     }
 
     /** Ends it because of a record that cannot be read. @param sequence of the record */
-    public Optional<Played> refuse(long sequence, String reason, long now) {
-        at = Moves.of(at, Math.max(at.sequence(), sequence), at.start());
+    public Optional<PlaybackRecord> refuse(long sequence, String reason, long now) {
+        at = PlaybackTransitions.of(at, Math.max(at.sequence(), sequence), at.start());
         return fail(reason, now);
     }
 
-    private Optional<Played> over(Phase how, String reason, String said, long now) {
-        Optional<Played> end = end(said, now);
-        at = Moves.over(at, how, reason);
+    private Optional<PlaybackRecord> over(Phase how, String reason, String said, long now) {
+        Optional<PlaybackRecord> end = end(said, now);
+        at = PlaybackTransitions.over(at, how, reason);
         ahead.setPrimes(null);
         waiting = null;
         return end;
@@ -149,18 +149,20 @@ public final class Playback {
     }
 
     /** Also an epoch that could not begin: who was given the name of its topic waits for an end. */
-    private Optional<Played> closed(Phase how, String reason, long now) {
+    private Optional<PlaybackRecord> closed(Phase how, String reason, long now) {
         if (!hasBegun()) {
-            at = Moves.unopened(at, desired);
-            at = Moves.over(at, how, reason);
-            return Optional.of(played(Played.Kind.END, null, reason, at.position(), now));
+            at = PlaybackTransitions.unopened(at, desired);
+            at = PlaybackTransitions.over(at, how, reason);
+            return Optional.of(played(PlaybackRecord.Kind.END, null, reason, at.position(), now));
         }
         return over(how, reason, reason, now);
     }
 
     /** Of an epoch that has begun. */
-    private Optional<Played> end(String reason, long now) {
-        return hasBegun() ? Optional.of(played(Played.Kind.END, null, reason, at.position(), now)) : Optional.empty();
+    private Optional<PlaybackRecord> end(String reason, long now) {
+        return hasBegun()
+                ? Optional.of(played(PlaybackRecord.Kind.END, null, reason, at.position(), now))
+                : Optional.empty();
     }
 
     /** Whether an epoch is under way, which ends with a record. */
@@ -171,68 +173,68 @@ public final class Playback {
 
     private void begin(Long start, long now) {
         if (Math.max(at.epoch(), used) >= Epochs.LAST) {
-            at = Moves.over(at, Phase.FAILED, NO_EPOCH_LEFT);
+            at = PlaybackTransitions.over(at, Phase.FAILED, NO_EPOCH_LEFT);
             return;
         }
-        at = Moves.stamped(Moves.nextEpoch(at, start, used), usedStamp);
+        at = PlaybackTransitions.stamped(PlaybackTransitions.nextEpoch(at, start, used), usedStamp);
         schedule.beginEpoch();
         passBegan = now;
         startOver(now);
     }
 
     /** What is to be read next; asked for once. */
-    public Optional<Fetch> fetch() {
+    public Optional<ReadRequest> fetch() {
         return ahead.fetch(at, desired);
     }
 
     /** Takes what was read; a record that this ends the epoch with is returned. */
-    public Optional<Played> take(Fetched fetched, long now) {
-        boolean awaited = !isOver() || goesBackFromEnd() && !(fetched instanceof Fetched.More);
-        if (fetched.epoch() != at.epoch() || !awaited) {
+    public Optional<PlaybackRecord> take(ReadResult readResult, long now) {
+        boolean awaited = !isOver() || goesBackFromEnd() && !(readResult instanceof ReadResult.NextPage);
+        if (readResult.epoch() != at.epoch() || !awaited) {
             return Optional.empty();
         }
-        if (fetched instanceof Fetched.Waiting away) {
+        if (readResult instanceof ReadResult.Unavailable away) {
             waiting = away.reason();
             return Optional.empty();
         }
         ahead.answered();
         waiting = null;
-        if (fetched instanceof Fetched.Gone gone) {
-            return closed(Phase.FAILED, gone.reason(), now);
-        } else if (fetched instanceof Fetched.Opened opened) {
+        if (readResult instanceof ReadResult.Failed failed) {
+            return closed(Phase.FAILED, failed.reason(), now);
+        } else if (readResult instanceof ReadResult.Opened opened) {
             if (opened.span().isEmpty()) {
                 return closed(Phase.ENDED, "mission '" + desired.mission() + "' has no event", now);
             }
-            at = Moves.opened(at, opened.span().get(), desired);
+            at = PlaybackTransitions.opened(at, opened.span().get(), desired);
             startOver(now);
-        } else if (fetched instanceof Fetched.Begun begun) {
-            ahead.setPrimes(begun.primes());
+        } else if (readResult instanceof ReadResult.Primed primed) {
+            ahead.setPrimes(primed.primes());
             schedule.anchor(now, at.point());
-            ahead.add(begun.first());
-        } else if (fetched instanceof Fetched.More more) {
+            ahead.add(primed.first());
+        } else if (readResult instanceof ReadResult.NextPage nextPage) {
             boolean stood = ahead.peek() == null;
-            ahead.add(more.page());
+            ahead.add(nextPage.page());
             ReadyEvent next = next();
             if (stood && next != null) {
                 schedule.resumeAfterStall(next, now);
             }
-        } else if (fetched instanceof Fetched.Back back) {
-            return goBack(back, now);
+        } else if (readResult instanceof ReadResult.SteppedBack steppedBack) {
+            return goBack(steppedBack, now);
         }
         return Optional.empty();
     }
 
     /** Unless something else has been asked for meanwhile. */
-    private Optional<Played> goBack(Fetched.Back back, long now) {
-        if (!steps().awaits(back)) {
+    private Optional<PlaybackRecord> goBack(ReadResult.SteppedBack steppedBack, long now) {
+        if (!steps().awaits(steppedBack)) {
             return Optional.empty();
         }
-        boolean within = steps().isWithin(back);
-        at = steps().done(back);
-        Optional<Played> end = end("step", now);
-        begin(within ? Long.valueOf(back.found().time()) : null, now);
+        boolean within = steps().isWithin(steppedBack);
+        at = steps().done(steppedBack);
+        Optional<PlaybackRecord> end = end("step", now);
+        begin(within ? Long.valueOf(steppedBack.found().time()) : null, now);
         if (within && !isOver()) {
-            at = Moves.towards(at, back.found());
+            at = PlaybackTransitions.towards(at, steppedBack.found());
         }
         return end;
     }
@@ -245,21 +247,22 @@ public final class Playback {
     }
 
     /** The next record, if it is due. */
-    public Optional<Played> poll(long now) {
+    public Optional<PlaybackRecord> poll(long now) {
         if (at.phase() == Phase.BETWEEN && now >= passBegan + MIN_PASS) {
             begin(null, now);
         } else if (at.phase() == Phase.PRIMING && ahead.primes() != null && now >= schedule.anchor()) {
             List<ReadyEvent> primes = ahead.primes();
             if (at.primes() < primes.size()) {
-                return Optional.of(played(Played.Kind.PRIME, primes.get((int) at.primes()), null, at.point(), now));
+                return Optional.of(
+                        played(PlaybackRecord.Kind.PRIME, primes.get((int) at.primes()), null, at.point(), now));
             }
-            at = Moves.playing(at);
+            at = PlaybackTransitions.playing(at);
             ahead.setPrimes(null);
         }
         return at.phase() == Phase.PLAYING ? play(now) : Optional.empty();
     }
 
-    private Optional<Played> play(long now) {
+    private Optional<PlaybackRecord> play(long now) {
         boolean atEnd = isAtEnd();
         if (atEnd && now >= schedule.endDue()) {
             return Optional.of(endOfPass(now));
@@ -275,16 +278,16 @@ public final class Playback {
         } else {
             schedule.play(next, now);
         }
-        at = Moves.skipped(at, ahead.remove());
-        return Optional.of(played(Played.Kind.EVENT, next, null, next.time(), now));
+        at = PlaybackTransitions.skipped(at, ahead.remove());
+        return Optional.of(played(PlaybackRecord.Kind.EVENT, next, null, next.time(), now));
     }
 
-    private Played endOfPass(long now) {
-        at = Moves.skipped(at, ahead.skippedOfRest());
+    private PlaybackRecord endOfPass(long now) {
+        at = PlaybackTransitions.skipped(at, ahead.skippedOfRest());
         boolean again = desired.loops() && (schedule.isOfGroup() || hasSomethingToRepeat());
-        Played end = played(Played.Kind.END, null, again ? "loop" : "ended", at.position(), now);
+        PlaybackRecord end = played(PlaybackRecord.Kind.END, null, again ? "loop" : "ended", at.position(), now);
         String reason = desired.loops() && !again ? "there is no event to play over and over" : null;
-        at = Moves.over(at, again ? Phase.BETWEEN : Phase.ENDED, reason);
+        at = PlaybackTransitions.over(at, again ? Phase.BETWEEN : Phase.ENDED, reason);
         if (!again) {
             startOver(now); // holds nothing that was read: what is asked for behind the end reads anew
         }
@@ -300,14 +303,14 @@ public final class Playback {
         return ahead.isOver(desired.to());
     }
 
-    private Played played(Played.Kind kind, ReadyEvent event, String reason, long time, long now) {
+    private PlaybackRecord played(PlaybackRecord.Kind kind, ReadyEvent event, String reason, long time, long now) {
         boolean rebased = desired.plan().stamps() == ReplayPlan.Stamps.NOW;
         long offset = rebased // none is negative
                 ? Math.max(at.stamp(), Math.max(time, schedule.wall(now))) - time
                 : at.offset();
-        Played played = new Played(kind, event, reason, at.epoch(), at.number(), time, offset);
-        at = Moves.played(at, played);
-        return played;
+        PlaybackRecord playbackRecord = new PlaybackRecord(kind, event, reason, at.epoch(), at.number(), time, offset);
+        at = PlaybackTransitions.played(at, playbackRecord);
+        return playbackRecord;
     }
 
     /** When {@link #poll} should be called again, ms of the clock; {@link Long#MAX_VALUE} where something else must happen first. */
@@ -339,8 +342,8 @@ public final class Playback {
     /** With which it continues after a restart. */
     public PlaybackState snapshot(long now) {
         ReadyEvent next = at.phase() == Phase.PLAYING ? next() : null;
-        PlaybackState state = Moves.at(at, position(now));
-        return next == null ? state : Moves.before(state, next.time());
+        PlaybackState state = PlaybackTransitions.at(at, position(now));
+        return next == null ? state : PlaybackTransitions.before(state, next.time());
     }
 
     public DesiredReplay desired() {

@@ -45,22 +45,22 @@ final class ReadAhead {
     }
 
     /** What is to be read next; asked for once. */
-    Optional<Fetch> fetch(PlaybackState at, DesiredReplay desired) {
+    Optional<ReadRequest> fetch(PlaybackState at, DesiredReplay desired) {
         if (fetching) {
             return Optional.empty();
         }
-        Fetch next = null;
-        Steps steps = new Steps(at, desired);
+        ReadRequest next = null;
+        PendingSteps pendingSteps = new PendingSteps(at, desired);
         int page = expected(PAGE * desired.speed());
         if (at.phase() == Phase.OPENING) {
-            next = new Fetch.Open(at.epoch());
+            next = new ReadRequest.Open(at.epoch());
         } else if (at.phase() == Phase.PRIMING && primes == null) {
             Cursor from = at.point() <= at.first() ? Cursor.START : Cursor.before(at.point());
-            next = new Fetch.Begin(at.epoch(), at.point(), from, at.point() > at.first(), desired.loops(), page);
-        } else if (steps.wantsBack()) {
-            next = steps.back();
+            next = new ReadRequest.Begin(at.epoch(), at.point(), from, at.point() > at.first(), desired.loops(), page);
+        } else if (pendingSteps.wantsBack()) {
+            next = pendingSteps.back();
         } else if (at.phase() == Phase.PLAYING && wantsMore(desired.to())) {
-            next = new Fetch.Next(at.epoch(), loaded, page);
+            next = new ReadRequest.Next(at.epoch(), loaded, page);
         }
         fetching = next != null;
         return Optional.ofNullable(next);

@@ -3,10 +3,10 @@ package io.furrow.replay.playback;
 import java.util.List;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
+import io.furrow.mission.EventPage;
 
 /**
- * A {@link Page} of a recording, made ready to be played.
+ * A {@link EventPage} of a recording, made ready to be played.
  *
  * @param events that are played
  * @param read events of the recording, those of other devices among them

@@ -15,11 +15,11 @@ import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.header.internals.RecordHeader;
 
 import io.furrow.flink.record.Epochs;
-import io.furrow.flink.record.HeaderTexts;
+import io.furrow.flink.record.TextHeaders;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
-import io.furrow.mission.Skipped;
+import io.furrow.mission.EventPage;
+import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.event.EventId;
@@ -88,9 +88,10 @@ public final class EventEncoder {
     }
 
     /** Those of the page's events that are chosen and can be played. */
-    public ReadyPage page(Page page) throws IOException, InterruptedException {
-        long skipped = page.skipped().stream().mapToLong(Skipped::count).sum();
-        List<StoredEvent> read = page.events();
+    public ReadyPage page(EventPage eventPage) throws IOException, InterruptedException {
+        long skipped =
+                eventPage.skipped().stream().mapToLong(SkippedRecords::count).sum();
+        List<StoredEvent> read = eventPage.events();
         List<ReadyEvent> events = new ArrayList<>(read.size());
         for (StoredEvent event : read) {
             if (event.time() < 0 || event.time() >= Epochs.SPAN) { // no timestamp of a record could say it
@@ -102,7 +103,7 @@ public final class EventEncoder {
         long span = read.isEmpty()
                 ? 0
                 : read.get(read.size() - 1).time() - read.get(0).time();
-        return new ReadyPage(events, read.size(), span, skipped, page.next(), page.last());
+        return new ReadyPage(events, read.size(), span, skipped, eventPage.next(), eventPage.last());
     }
 
     private boolean isChosen(StoredEvent event) {
@@ -156,7 +157,7 @@ public final class EventEncoder {
         headers.add(header(HeaderNames.REPLAY_CE_ID, event.id()));
         headers.add(header(HeaderNames.CE_ID, EventId.ofReplay(event.id(), replay.replay(), epoch)));
         byte[] value = deleted ? null : NgsiJson.write(event.entity());
-        HeaderTexts texts = HeaderTexts.NONE.plus(headers.toArray(Header[]::new));
+        TextHeaders texts = TextHeaders.NONE.plus(headers.toArray(Header[]::new));
         TopicRecord record = TopicRecord.of(replay.topic(), time, event.entityId(), value, texts);
         return new ReadyEvent(Cursor.after(event), fitting(record));
     }

@@ -4,7 +4,7 @@ import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.Map;
 
-import io.furrow.flink.record.HeaderTexts;
+import io.furrow.flink.record.TextHeaders;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.event.EventId;
@@ -12,7 +12,7 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
-import io.furrow.replay.playback.Played;
+import io.furrow.replay.playback.PlaybackRecord;
 
 /**
  * What is played, as records of the replay's topic: an event as an {@link EventEncoder} has made it ready, with what is known only
@@ -29,18 +29,18 @@ public final class ReplayRecords {
     private ReplayRecords() {}
 
     /** The record of what was played. */
-    public static TopicRecord of(Played played, DesiredReplay replay) {
-        if (played.event() == null) {
-            return end(played, replay);
+    public static TopicRecord of(PlaybackRecord playbackRecord, DesiredReplay replay) {
+        if (playbackRecord.event() == null) {
+            return end(playbackRecord, replay);
         }
-        TopicRecord ready = played.event().record();
+        TopicRecord ready = playbackRecord.event().record();
         return ready.topic().equals(replay.topic())
-                ? numbered(ready, played.stamp(), played.sequence(), played.offset())
-                : deadLetter(ready, played);
+                ? numbered(ready, playbackRecord.stamp(), playbackRecord.sequence(), playbackRecord.offset())
+                : deadLetter(ready, playbackRecord);
     }
 
     static TopicRecord numbered(TopicRecord ready, long stamp, long sequence, long offset) {
-        HeaderTexts headers = HeaderTexts.of(ready.headers())
+        TextHeaders headers = TextHeaders.of(ready.headers())
                 .plus(
                         EventEncoder.header(HeaderNames.REPLAY_SEQUENCE, Long.toString(sequence)),
                         EventEncoder.header(HeaderNames.REPLAY_OFFSET, Long.toString(offset)));
@@ -49,22 +49,22 @@ public final class ReplayRecords {
     }
 
     /** Was made of a record with numbers that are as long as can be, unless it had no room for them. */
-    private static TopicRecord deadLetter(TopicRecord letter, Played played) {
+    private static TopicRecord deadLetter(TopicRecord letter, PlaybackRecord playbackRecord) {
         if (!letter.headers().containsKey(HeaderNames.REPLAY_SEQUENCE)) {
-            return letter.at(played.stamp());
+            return letter.at(playbackRecord.stamp());
         }
-        return letter.at(played.stamp())
+        return letter.at(playbackRecord.stamp())
                 .with(Map.of(
                         HeaderNames.REPLAY_SEQUENCE,
-                        Long.toString(played.sequence()),
+                        Long.toString(playbackRecord.sequence()),
                         HeaderNames.REPLAY_OFFSET,
-                        Long.toString(played.offset())));
+                        Long.toString(playbackRecord.offset())));
     }
 
-    private static TopicRecord end(Played played, DesiredReplay replay) {
-        String time = Instant.ofEpochMilli(played.time()).toString();
+    private static TopicRecord end(PlaybackRecord playbackRecord, DesiredReplay replay) {
+        String time = Instant.ofEpochMilli(playbackRecord.time()).toString();
         Map<String, String> headers = new LinkedHashMap<>();
-        headers.put(HeaderNames.CE_ID, EventId.ofReplay(END, replay.replay(), played.epoch()));
+        headers.put(HeaderNames.CE_ID, EventId.ofReplay(END, replay.replay(), playbackRecord.epoch()));
         headers.put(HeaderNames.CE_SOURCE, SOURCE);
         headers.put(HeaderNames.CE_TIME, time);
         headers.put(HeaderNames.CE_SPECVERSION, HeaderNames.SPECVERSION);
@@ -72,19 +72,19 @@ public final class ReplayRecords {
         headers.put(HeaderNames.SERVICE, FiwareScope.DEFAULT.service());
         headers.put(HeaderNames.SERVICE_PATH, FiwareScope.DEFAULT.servicePath());
         headers.put(HeaderNames.ORIGIN, Origin.REPLAY.code());
-        headers.put(HeaderNames.TS_DEVICE, Long.toString(played.time()));
+        headers.put(HeaderNames.TS_DEVICE, Long.toString(playbackRecord.time()));
         headers.put(HeaderNames.REPLAY_ID, replay.replay());
-        headers.put(HeaderNames.REPLAY_EPOCH, Long.toString(played.epoch()));
+        headers.put(HeaderNames.REPLAY_EPOCH, Long.toString(playbackRecord.epoch()));
         headers.put(HeaderNames.REPLAY_KIND, END);
         headers.put(HeaderNames.REPLAY_TIME, time);
-        headers.put(HeaderNames.REPLAY_SEQUENCE, Long.toString(played.sequence()));
-        headers.put(HeaderNames.REPLAY_OFFSET, Long.toString(played.offset()));
+        headers.put(HeaderNames.REPLAY_SEQUENCE, Long.toString(playbackRecord.sequence()));
+        headers.put(HeaderNames.REPLAY_OFFSET, Long.toString(playbackRecord.offset()));
         String id = "urn:ngsi-ld:Replay:" + replay.replay();
         byte[] value = Entity.builder(id, TYPE)
-                .text("reason", played.reason())
-                .integer("Time", played.time())
+                .text("reason", playbackRecord.reason())
+                .integer("Time", playbackRecord.time())
                 .text("Mission", replay.mission())
                 .toBytes();
-        return TopicRecord.of(replay.topic(), played.stamp(), id, value, headers);
+        return TopicRecord.of(replay.topic(), playbackRecord.stamp(), id, value, headers);
     }
 }

@@ -4,8 +4,8 @@ import java.io.IOException;
 import java.util.Optional;
 
 import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.RecordingGoneException;
 import io.furrow.mission.Recordings;
 import io.furrow.mission.file.FileRecordings;
 import io.furrow.model.control.DesiredReplay;
@@ -30,7 +30,7 @@ public record JobRecordings(Recordings missions, String folder, TopicHistories t
             return topics.open(source.topic(), replay);
         }
         if (folder == null) {
-            throw new RecordingGoneException(
+            throw new RecordingDeletedException(
                     "the file '%s' cannot be played: the job has no folder of recordings; start it with --recordings"
                             .formatted(source.file()));
         }

@@ -21,22 +21,22 @@ public interface DesiredReplays extends Serializable {
      *
      * @param desired value of its record; null if it was removed
      */
-    record Wish(String replay, byte[] desired) {}
+    record ReplayUpdate(String replay, byte[] desired) {}
 
     /**
      * What was reported of a replay before.
      *
      * @param replay its name
      */
-    record Told(String replay, ReplayStatus status) {}
+    record ReportedStatus(String replay, ReplayStatus status) {}
 
     /** Used by one thread at a time. What throws an {@link IOException} cannot be read now and is called again. */
     interface Reading extends AutoCloseable {
         /** What has been notified of replays until now; called until it was read. */
-        List<Told> told() throws IOException;
+        List<ReportedStatus> reportedStatuses() throws IOException;
 
         /** What came since the last call; waits a moment where nothing did. */
-        List<Wish> poll() throws IOException;
+        List<ReplayUpdate> poll() throws IOException;
 
         /** Whether everything was returned that was there at the beginning. */
         boolean isCaughtUp() throws IOException;
@@ -61,18 +61,18 @@ public interface DesiredReplays extends Serializable {
                 private boolean read;
 
                 @Override
-                public List<Told> told() {
+                public List<ReportedStatus> reportedStatuses() {
                     return List.of();
                 }
 
                 @Override
-                public List<Wish> poll() {
+                public List<ReplayUpdate> poll() {
                     if (read) {
                         LockSupport.parkNanos(IDLE.toNanos());
                         return List.of();
                     }
                     read = true;
-                    return List.of(new Wish(replay, desired));
+                    return List.of(new ReplayUpdate(replay, desired));
                 }
 
                 @Override

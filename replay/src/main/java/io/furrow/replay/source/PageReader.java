@@ -14,19 +14,19 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
+import io.furrow.mission.EventPage;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.RecordingGoneException;
 import io.furrow.mission.RecordingInterruptedException;
-import io.furrow.mission.Skipped;
+import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.text.FailureText;
-import io.furrow.replay.playback.Fetch;
-import io.furrow.replay.playback.Fetched;
+import io.furrow.replay.playback.ReadRequest;
+import io.furrow.replay.playback.ReadResult;
 import io.furrow.replay.playback.ReadyEvent;
 import io.furrow.replay.playback.ReadyPage;
 import io.furrow.replay.record.EventEncoder;
@@ -48,10 +48,10 @@ final class PageReader implements AutoCloseable {
     private final DesiredReplay replay;
     private final Preparation preparation;
     private final RunningReplay.Reading shared;
-    private final Consumer<Fetched> out;
+    private final Consumer<ReadResult> out;
     private final PageBudget.Pages pages;
     private final ScheduledThreadPoolExecutor thread;
-    private volatile Fetch newest;
+    private volatile ReadRequest newest;
     /** Under way, or to be tried again. */
     private Future<?> reading;
 
@@ -73,7 +73,7 @@ final class PageReader implements AutoCloseable {
     }
 
     /** @param out takes the answers, in the reading thread */
-    PageReader(DesiredReplay replay, Preparation preparation, RunningReplay.Reading shared, Consumer<Fetched> out) {
+    PageReader(DesiredReplay replay, Preparation preparation, RunningReplay.Reading shared, Consumer<ReadResult> out) {
         this.replay = replay;
         this.preparation = preparation;
         this.shared = shared;
@@ -89,10 +89,10 @@ final class PageReader implements AutoCloseable {
     }
 
     /** Reads in place of what it was still asked for, which is interrupted. */
-    synchronized void read(Fetch fetch) {
-        newest = fetch;
+    synchronized void read(ReadRequest readRequest) {
+        newest = readRequest;
         interrupt();
-        reading = thread.submit(() -> attempt(fetch, FIRST_RETRY_MILLIS));
+        reading = thread.submit(() -> attempt(readRequest, FIRST_RETRY_MILLIS));
     }
 
     private void interrupt() {
@@ -120,34 +120,35 @@ final class PageReader implements AutoCloseable {
         }
     }
 
-    private void attempt(Fetch fetch, long retryMillis) {
-        if (fetch != newest) {
+    private void attempt(ReadRequest readRequest, long retryMillis) {
+        if (readRequest != newest) {
             return;
         }
         try {
             prepare();
-            out.accept(answer(fetch));
+            out.accept(answer(readRequest));
         } catch (InterruptedException | RecordingInterruptedException e) { // the recording can still be read
-            LOG.debug("Nobody waits for {} of replay {} any more", fetch, replay.replay(), e);
-        } catch (RecordingGoneException e) {
+            LOG.debug("Nobody waits for {} of replay {} any more", readRequest, replay.replay(), e);
+        } catch (RecordingDeletedException e) {
             release();
-            out.accept(new Fetched.Gone(fetch.epoch(), e.getMessage()));
+            out.accept(new ReadResult.Failed(readRequest.epoch(), e.getMessage()));
         } catch (IOException e) { // of the recording or the topic
             release();
             LOG.info("Replay {} waits", replay.replay(), e);
-            out.accept(new Fetched.Waiting(fetch.epoch(), e.getMessage()));
+            out.accept(new ReadResult.Unavailable(readRequest.epoch(), e.getMessage()));
             long longer = Math.min(2 * retryMillis, MAX_RETRY_MILLIS);
-            retry(fetch, longer, retryMillis);
+            retry(readRequest, longer, retryMillis);
         } catch (RuntimeException | Error e) { // a fault of the reader is this replay's end, and nobody else's
             release();
             LOG.error("Recording of replay {} cannot be read", replay.replay(), e);
-            out.accept(new Fetched.Gone(fetch.epoch(), "the recording cannot be read: " + FailureText.of(e)));
+            out.accept(
+                    new ReadResult.Failed(readRequest.epoch(), "the recording cannot be read: " + FailureText.of(e)));
         }
     }
 
-    private synchronized void retry(Fetch fetch, long longer, long afterMillis) {
-        if (fetch == newest) {
-            reading = thread.schedule(() -> attempt(fetch, longer), afterMillis, TimeUnit.MILLISECONDS);
+    private synchronized void retry(ReadRequest readRequest, long longer, long afterMillis) {
+        if (readRequest == newest) {
+            reading = thread.schedule(() -> attempt(readRequest, longer), afterMillis, TimeUnit.MILLISECONDS);
         }
     }
 
@@ -158,36 +159,36 @@ final class PageReader implements AutoCloseable {
         }
     }
 
-    private Fetched answer(Fetch fetch) throws IOException, InterruptedException {
+    private ReadResult answer(ReadRequest readRequest) throws IOException, InterruptedException {
         if (recording == null) {
             Optional<Recording> opened = shared.recordings().open(replay);
             if (opened.isEmpty()) {
-                return new Fetched.Gone(fetch.epoch(), missing());
+                return new ReadResult.Failed(readRequest.epoch(), missing());
             }
             recording = opened.get();
         }
-        if (fetch instanceof Fetch.Begin begin) {
+        if (readRequest instanceof ReadRequest.Begin begin) {
             if (!begin.primed() || primes == null || primesPoint != begin.point()) {
                 primes = begin.primed() ? recording.stateBefore(begin.point(), devices(), SCANNED) : List.of();
                 primesPoint = begin.point();
             }
             List<ReadyEvent> ready = encoder(begin).primes(primes, begin.point());
             primes = begin.repeats() ? primes : null;
-            return new Fetched.Begun(begin.epoch(), ready, page(begin, begin.first(), begin.events()));
-        } else if (fetch instanceof Fetch.Next next) {
-            return new Fetched.More(next.epoch(), page(next, next.after(), next.events()));
-        } else if (fetch instanceof Fetch.Back back) {
-            return new Fetched.Back(back.epoch(), back.count(), back(back));
+            return new ReadResult.Primed(begin.epoch(), ready, page(begin, begin.first(), begin.events()));
+        } else if (readRequest instanceof ReadRequest.Next next) {
+            return new ReadResult.NextPage(next.epoch(), page(next, next.after(), next.events()));
+        } else if (readRequest instanceof ReadRequest.Back back) {
+            return new ReadResult.SteppedBack(back.epoch(), back.count(), back(back));
         }
         pages.clear();
-        return new Fetched.Opened(fetch.epoch(), recording.span());
+        return new ReadResult.Opened(readRequest.epoch(), recording.span());
     }
 
-    private ReadyPage page(Fetch fetch, Cursor after, int events) throws IOException, InterruptedException {
+    private ReadyPage page(ReadRequest readRequest, Cursor after, int events) throws IOException, InterruptedException {
         try {
-            Page page = recording.read(after, pages.next(events));
-            logSkipped(page);
-            ReadyPage ready = encoder(fetch).page(page);
+            EventPage eventPage = recording.read(after, pages.next(events));
+            logSkipped(eventPage);
+            ReadyPage ready = encoder(readRequest).page(eventPage);
             pages.add(ready);
             return ready;
         } finally {
@@ -195,22 +196,22 @@ final class PageReader implements AutoCloseable {
         }
     }
 
-    private void logSkipped(Page page) {
-        for (Skipped skipped : page.skipped()) {
-            if (leftOut.size() < MAX_LOGGED && leftOut.add(skipped.what() + ": " + skipped.reason())) {
+    private void logSkipped(EventPage eventPage) {
+        for (SkippedRecords skippedRecords : eventPage.skipped()) {
+            if (leftOut.size() < MAX_LOGGED && leftOut.add(skippedRecords.what() + ": " + skippedRecords.reason())) {
                 LOG.info(
                         "Replay {} leaves out {} ({}): {}",
                         replay.replay(),
-                        skipped.what(),
-                        skipped.count(),
-                        skipped.reason());
+                        skippedRecords.what(),
+                        skippedRecords.count(),
+                        skippedRecords.reason());
             }
         }
     }
 
-    private EventEncoder encoder(Fetch fetch) {
-        if (encoder == null || encodedEpoch != fetch.epoch()) {
-            encodedEpoch = fetch.epoch();
+    private EventEncoder encoder(ReadRequest readRequest) {
+        if (encoder == null || encodedEpoch != readRequest.epoch()) {
+            encodedEpoch = readRequest.epoch();
             encoder = new EventEncoder(replay, encodedEpoch, shared.topics()::writable);
         }
         return encoder;
@@ -226,7 +227,7 @@ final class PageReader implements AutoCloseable {
                 : "there is no topic '" + source.topic() + "'";
     }
 
-    private Cursor back(Fetch.Back back) throws RecordingException {
+    private Cursor back(ReadRequest.Back back) throws RecordingException {
         Set<String> devices = devices();
         return recording.back(
                 back.from(),

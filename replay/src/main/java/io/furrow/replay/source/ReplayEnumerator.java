@@ -25,10 +25,10 @@ import io.furrow.replay.playback.PlaybackState;
 
 /**
  * Assigns each desired replay to the reader that has the fewest, and sends that reader its changes. Begins when all
- * readers are there and all wishes are known: readers report the replays that a checkpoint gave them, and whatever
+ * readers are there and all desiredStates are known: readers report the replays that a checkpoint gave them, and whatever
  * nobody wants any more is removed.
  */
-final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedReplays> {
+final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorState> {
     private static final Logger LOG = LoggerFactory.getLogger(ReplayEnumerator.class);
     private static final long PAUSE_MILLIS = 1;
     private static final long RETRY_NANOS = TimeUnit.SECONDS.toNanos(1);
@@ -40,15 +40,18 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
     private final Map<String, ReplaySplit> unassigned = new LinkedHashMap<>();
     private final Map<String, Integer> readers = new HashMap<>();
     private final Counter rejected;
-    private volatile DesiredReplays.Reading wishes;
+    private volatile DesiredReplays.Reading desiredStates;
     private boolean caughtUp;
     /** Of the reading thread. */
-    private boolean knowsTold;
+    private boolean isReportedRead;
 
     /** What one call of the reading thread found. */
-    private record Found(List<DesiredReplays.Told> told, List<DesiredReplays.Wish> wishes, boolean caughtUp) {}
+    private record Found(
+            List<DesiredReplays.ReportedStatus> told,
+            List<DesiredReplays.ReplayUpdate> desiredStates,
+            boolean caughtUp) {}
 
-    ReplayEnumerator(SplitEnumeratorContext<ReplaySplit> context, DesiredReplays source, UnassignedReplays state) {
+    ReplayEnumerator(SplitEnumeratorContext<ReplaySplit> context, DesiredReplays source, EnumeratorState state) {
         this.context = context;
         this.source = source;
         state.splits().forEach(split -> unassigned.put(split.replay(), split));
@@ -59,18 +62,18 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
 
     @Override
     public void start() {
-        wishes = source.open();
+        desiredStates = source.open();
         context.callAsync(this::read, this::found, 0, PAUSE_MILLIS);
     }
 
     /** First what was reported before, then what is wanted. */
     private Found read() throws IOException {
         try {
-            if (knowsTold) {
-                return new Found(List.of(), wishes.poll(), wishes.isCaughtUp());
+            if (isReportedRead) {
+                return new Found(List.of(), desiredStates.poll(), desiredStates.isCaughtUp());
             }
-            List<DesiredReplays.Told> before = wishes.told();
-            knowsTold = true;
+            List<DesiredReplays.ReportedStatus> before = desiredStates.reportedStatuses();
+            isReportedRead = true;
             return new Found(before, List.of(), false);
         } catch (IOException e) {
             LockSupport.parkNanos(RETRY_NANOS);
@@ -85,15 +88,15 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
         }
         require(failure);
         found.told().forEach(one -> told.put(one.replay(), one.status()));
-        for (DesiredReplays.Wish wish : found.wishes()) {
-            note(wish);
+        for (DesiredReplays.ReplayUpdate replayUpdate : found.desiredStates()) {
+            note(replayUpdate);
         }
         boolean first = found.caughtUp() && !caughtUp;
         caughtUp |= found.caughtUp();
         if (first) {
             told.keySet().retainAll(desired.keySet());
         }
-        if (first || !found.wishes().isEmpty()) {
+        if (first || !found.desiredStates().isEmpty()) {
             assign();
         }
     }
@@ -104,29 +107,31 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
         }
     }
 
-    private void note(DesiredReplays.Wish wish) {
-        if (wish.replay() == null
-                || !ReplayCommand.REPLAY.matcher(wish.replay()).matches()) {
-            LOG.warn("A record of service.replays is passed over: its key {} is no replay's name", wish.replay());
+    private void note(DesiredReplays.ReplayUpdate replayUpdate) {
+        if (replayUpdate.replay() == null
+                || !ReplayCommand.REPLAY.matcher(replayUpdate.replay()).matches()) {
+            LOG.warn(
+                    "A record of service.replays is passed over: its key {} is no replay's name",
+                    replayUpdate.replay());
             rejected.inc();
             return;
         }
-        if (wish.desired() == null) {
-            desired.remove(wish.replay());
-            told.remove(wish.replay());
+        if (replayUpdate.desired() == null) {
+            desired.remove(replayUpdate.replay());
+            told.remove(replayUpdate.replay());
         } else {
-            desired.put(wish.replay(), wish.desired());
+            desired.put(replayUpdate.replay(), replayUpdate.desired());
         }
-        Integer reader = readers.get(wish.replay());
+        Integer reader = readers.get(replayUpdate.replay());
         if (reader != null) {
-            tell(reader, wish.replay());
+            tell(reader, replayUpdate.replay());
         }
     }
 
     /** What is requested of it by now. */
     private void tell(int reader, String replay) {
         if (context.registeredReaders().containsKey(reader)) {
-            context.sendEventToSourceReader(reader, new DesiredEvent(replay, desired.get(replay)));
+            context.sendEventToSourceReader(reader, new ReplayChangeEvent(replay, desired.get(replay)));
         }
         if (!desired.containsKey(replay)) {
             readers.remove(replay);
@@ -219,14 +224,14 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
     }
 
     @Override
-    public UnassignedReplays snapshotState(long checkpoint) {
-        return new UnassignedReplays(List.copyOf(unassigned.values()));
+    public EnumeratorState snapshotState(long checkpoint) {
+        return new EnumeratorState(List.copyOf(unassigned.values()));
     }
 
     @Override
     public void close() {
-        if (wishes != null) {
-            wishes.close();
+        if (desiredStates != null) {
+            desiredStates.close();
         }
     }
 }

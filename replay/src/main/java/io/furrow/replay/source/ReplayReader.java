@@ -21,7 +21,7 @@ import org.apache.flink.api.connector.source.SourceReaderContext;
 import org.apache.flink.core.io.InputStatus;
 import org.apache.flink.runtime.execution.SuppressRestartsException;
 
-import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
 import io.furrow.replay.recording.PageBudget;
@@ -61,7 +61,7 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
             ReplayTopics.Writing topics,
             ReplayClock clock) {
         this.clock = clock;
-        DeadCounters dead = new DeadCounters(context.metricGroup());
+        DeadLetterCounters dead = new DeadLetterCounters(context.metricGroup());
         this.reading = new RunningReplay.Reading(
                 recordings,
                 new PageBudget(limits),
@@ -96,9 +96,9 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
 
     @Override
     public void handleSourceEvents(SourceEvent event) {
-        if (event instanceof DesiredEvent desired && replays.containsKey(desired.replay())) {
+        if (event instanceof ReplayChangeEvent desired && replays.containsKey(desired.replay())) {
             RunningReplay replay = replays.get(desired.replay());
-            replay.wish(desired.desired());
+            replay.update(desired.desired());
             call(replay);
         }
     }

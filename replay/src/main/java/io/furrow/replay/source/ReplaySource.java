@@ -21,7 +21,7 @@ import io.furrow.replay.topic.ReplayTopics;
  * among the readers again after each restart.
  */
 public final class ReplaySource
-        implements Source<TopicRecord, ReplaySplit, UnassignedReplays>, SupportsSplitReassignmentOnRecovery {
+        implements Source<TopicRecord, ReplaySplit, EnumeratorState>, SupportsSplitReassignmentOnRecovery {
     private static final long serialVersionUID = 1L;
 
     private final DesiredReplays desired;
@@ -43,14 +43,13 @@ public final class ReplaySource
     }
 
     @Override
-    public SplitEnumerator<ReplaySplit, UnassignedReplays> createEnumerator(
-            SplitEnumeratorContext<ReplaySplit> context) {
-        return restoreEnumerator(context, new UnassignedReplays(List.of()));
+    public SplitEnumerator<ReplaySplit, EnumeratorState> createEnumerator(SplitEnumeratorContext<ReplaySplit> context) {
+        return restoreEnumerator(context, new EnumeratorState(List.of()));
     }
 
     @Override
-    public SplitEnumerator<ReplaySplit, UnassignedReplays> restoreEnumerator(
-            SplitEnumeratorContext<ReplaySplit> context, UnassignedReplays state) {
+    public SplitEnumerator<ReplaySplit, EnumeratorState> restoreEnumerator(
+            SplitEnumeratorContext<ReplaySplit> context, EnumeratorState state) {
         return new ReplayEnumerator(context, desired, state);
     }
 
@@ -65,7 +64,7 @@ public final class ReplaySource
     }
 
     @Override
-    public SimpleVersionedSerializer<UnassignedReplays> getEnumeratorCheckpointSerializer() {
-        return new UnassignedReplaysSerializer();
+    public SimpleVersionedSerializer<EnumeratorState> getEnumeratorCheckpointSerializer() {
+        return new EnumeratorStateSerializer();
     }
 }

@@ -56,7 +56,7 @@ public final class ReplaysTopic implements DesiredReplays {
     }
 
     /** The newest status of each replay; holds no more than these, however many there were. */
-    static List<Told> newest(TopicSnapshot statuses) throws IOException {
+    static List<ReportedStatus> newest(TopicSnapshot statuses) throws IOException {
         Map<String, TopicRecord> newest = new HashMap<>();
         statuses.forEach(record -> {
             if (record.value() == null) {
@@ -65,10 +65,10 @@ public final class ReplaysTopic implements DesiredReplays {
                 newest.put(text(record.key()), record);
             }
         });
-        List<Told> told = new ArrayList<>();
+        List<ReportedStatus> told = new ArrayList<>();
         newest.forEach((replay, record) -> {
             try {
-                told.add(new Told(replay, ReplayStatus.read(record.value())));
+                told.add(new ReportedStatus(replay, ReplayStatus.read(record.value())));
             } catch (UnreadableException e) {
                 LOG.warn("The status {} is passed over", record.position(), e);
             }
@@ -88,23 +88,24 @@ public final class ReplaysTopic implements DesiredReplays {
         }
 
         @Override
-        public List<Told> told() throws IOException {
+        public List<ReportedStatus> reportedStatuses() throws IOException {
             return newest(statuses);
         }
 
         @Override
-        public synchronized List<Wish> poll() throws IOException {
-            List<Wish> wishes = new ArrayList<>();
+        public synchronized List<ReplayUpdate> poll() throws IOException {
+            List<ReplayUpdate> desiredStates = new ArrayList<>();
             try {
                 if (!closed && (assigned || assign())) {
-                    reader.poll(POLL).forEach(record -> wishes.add(new Wish(record.key(), record.value())));
+                    reader.poll(POLL)
+                            .forEach(record -> desiredStates.add(new ReplayUpdate(record.key(), record.value())));
                 }
             } catch (WakeupException e) { // it is being closed
                 return List.of();
             } catch (RetriableException e) {
                 throw away(e);
             }
-            return wishes;
+            return desiredStates;
         }
 
         private boolean assign() {

@@ -7,16 +7,16 @@ import java.util.Queue;
 import java.util.concurrent.ConcurrentLinkedQueue;
 import java.util.function.Consumer;
 
-import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.replay.playback.Fetched;
 import io.furrow.replay.playback.Playback;
+import io.furrow.replay.playback.PlaybackRecord;
 import io.furrow.replay.playback.PlaybackState;
-import io.furrow.replay.playback.Played;
+import io.furrow.replay.playback.ReadResult;
 import io.furrow.replay.record.ReplayRecords;
 import io.furrow.replay.recording.PageBudget;
 import io.furrow.replay.recording.RecordingSources;
@@ -31,14 +31,14 @@ final class RunningReplay {
     /** Records before another replay's turn, statuses and ends excepted. */
     private static final int TURN = 16;
 
-    /** Stands for the end of it among the wishes. */
+    /** Stands for the end of it among the desiredStates. */
     private static final byte[] REMOVED = {};
 
     private static final String DELETED = "its topic was deleted while it was played";
 
     private final String name;
-    private final Deque<byte[]> wishes = new ArrayDeque<>();
-    private final Queue<Fetched> answers = new ConcurrentLinkedQueue<>();
+    private final Deque<byte[]> desiredStates = new ArrayDeque<>();
+    private final Queue<ReadResult> answers = new ConcurrentLinkedQueue<>();
     private final StatusReports reports;
     private final Reading reading;
     private byte[] desired;
@@ -70,7 +70,7 @@ final class RunningReplay {
             PageBudget budget,
             ReplayTopics.Writing topics,
             TopicWatch watch,
-            DeadCounters dead,
+            DeadLetterCounters dead,
             ReplayClock clock,
             Consumer<RunningReplay> call) {}
 
@@ -91,12 +91,12 @@ final class RunningReplay {
     }
 
     /** @param next value of the newest record of {@code service.replays}; null if it was removed */
-    void wish(byte[] next) {
-        wishes.add(next == null ? REMOVED : next);
+    void update(byte[] next) {
+        desiredStates.add(next == null ? REMOVED : next);
     }
 
     /** Begins the playback, or the next part of it; a record that this ends the epoch with is returned. */
-    private Optional<Played> take(byte[] next) {
+    private Optional<PlaybackRecord> take(byte[] next) {
         long now = reading.clock().now();
         try {
             DesiredReplay replay = DesiredReplay.read(name, next);
@@ -138,7 +138,7 @@ final class RunningReplay {
     }
 
     private boolean isToEnd() {
-        byte[] last = wishes.peekLast();
+        byte[] last = desiredStates.peekLast();
         try {
             return last == REMOVED
                     || last != null && DesiredReplay.read(name, last).desired() == ReplayStatus.State.STOPPED;
@@ -148,7 +148,7 @@ final class RunningReplay {
     }
 
     private boolean isWished() {
-        return wishes.stream().anyMatch(wish -> wish != REMOVED);
+        return desiredStates.stream().anyMatch(update -> update != REMOVED);
     }
 
     /** When it wants to be run, ms of the clock; {@link Long#MAX_VALUE} where something else must happen first. */
@@ -180,28 +180,28 @@ final class RunningReplay {
             return reports.due(playback);
         }
         goOnAfterItsTopic();
-        while (!wishes.isEmpty()) {
-            byte[] wish = wishes.remove();
-            if (wish == REMOVED) {
+        while (!desiredStates.isEmpty()) {
+            byte[] update = desiredStates.remove();
+            if (update == REMOVED) {
                 remove(out);
                 return Long.MAX_VALUE;
             }
-            take(wish).ifPresent(played -> write(played, out));
+            take(update).ifPresent(playbackRecord -> write(playbackRecord, out));
         }
         if (playback == null) {
             reports.reportRefused(Math.max(refused, refusedAt.sequence()), refusal, out);
             return Long.MAX_VALUE;
         }
         if (topic.wasDeleted() && !playback.isOver()) {
-            playback.fail(DELETED, reading.clock().now()).ifPresent(played -> write(played, out));
+            playback.fail(DELETED, reading.clock().now()).ifPresent(playbackRecord -> write(playbackRecord, out));
         }
-        for (Fetched answer = answers.poll(); answer != null; answer = answers.poll()) {
+        for (ReadResult answer = answers.poll(); answer != null; answer = answers.poll()) {
             goOnAfterItsTopic(); // known before the answer came
-            playback.take(answer, reading.clock().now()).ifPresent(played -> write(played, out));
+            playback.take(answer, reading.clock().now()).ifPresent(playbackRecord -> write(playbackRecord, out));
         }
         boolean more = true;
         for (int i = 0; more && i < TURN; i++) {
-            Optional<Played> played = playback.poll(reading.clock().now());
+            Optional<PlaybackRecord> played = playback.poll(reading.clock().now());
             playback.fetch().ifPresent(pages::read);
             played.ifPresent(one -> write(one, out));
             more = played.isPresent();
@@ -218,11 +218,11 @@ final class RunningReplay {
     }
 
     /** An end goes to every partition: event time of a reader follows the slowest, so each one has to hear of it. */
-    private void write(Played played, Consumer<TopicRecord> out) {
-        reports.count(played, playback.lateness());
+    private void write(PlaybackRecord playbackRecord, Consumer<TopicRecord> out) {
+        reports.count(playbackRecord, playback.lateness());
         DesiredReplay replay = playback.desired();
-        TopicRecord record = ReplayRecords.of(played, replay);
-        if (played.kind() == Played.Kind.END) {
+        TopicRecord record = ReplayRecords.of(playbackRecord, replay);
+        if (playbackRecord.kind() == PlaybackRecord.Kind.END) {
             for (int partition = 0; partition < topic.partitions(); partition++) {
                 out.accept(record.toPartition(partition));
             }
@@ -236,7 +236,8 @@ final class RunningReplay {
 
     private void remove(Consumer<TopicRecord> out) {
         if (playback != null) {
-            playback.fail("nobody wants it any more", reading.clock().now()).ifPresent(played -> write(played, out));
+            playback.fail("nobody wants it any more", reading.clock().now())
+                    .ifPresent(playbackRecord -> write(playbackRecord, out));
         }
         removed = true;
     }

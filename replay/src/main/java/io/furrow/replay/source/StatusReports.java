@@ -8,7 +8,7 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.Playback;
-import io.furrow.replay.playback.Played;
+import io.furrow.replay.playback.PlaybackRecord;
 
 /**
  * Reports the status of a replay: twice a second while it runs, not all replays at once, and on each change. A replay that is over is reported
@@ -25,7 +25,7 @@ final class StatusReports {
     /** Read by metrics, too. */
     private volatile ReplayStatus told;
 
-    private long toldAt;
+    private long reportedAt;
     private long tick;
     private long events;
     private long worst;
@@ -41,8 +41,8 @@ final class StatusReports {
         this.settled = settled;
     }
 
-    void count(Played played, long late) {
-        if (played.kind() == Played.Kind.EVENT) {
+    void count(PlaybackRecord playbackRecord, long late) {
+        if (playbackRecord.kind() == PlaybackRecord.Kind.EVENT) {
             events++;
             worst = Math.max(worst, late);
         }
@@ -96,11 +96,11 @@ final class StatusReports {
             settled = false;
         }
         if (told == null || now >= due(playback) || hasChanged(playback, now)) {
-            long millis = Math.max(1, told == null ? INTERVAL_MILLIS : now - toldAt);
+            long millis = Math.max(1, told == null ? INTERVAL_MILLIS : now - reportedAt);
             rate = Math.round(events * MILLIS / millis * 10) / 10.0;
             lateness = worst;
             write(playback.status(now, worst, rate), out);
-            toldAt = now;
+            reportedAt = now;
             tick = tickAfter(now);
             events = 0;
             worst = 0;

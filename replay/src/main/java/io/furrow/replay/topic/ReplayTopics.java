@@ -10,8 +10,8 @@ import org.apache.kafka.clients.consumer.ConsumerConfig;
 
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.kafka.EnsureTopics;
+import io.furrow.flink.kafka.LimitRecordSize;
 import io.furrow.flink.kafka.TopicOptions;
-import io.furrow.flink.kafka.WritableRecords;
 import io.furrow.flink.record.TopicRecord;
 
 /** Where replays are played. Serializable, so that a job can carry it. */
@@ -61,7 +61,7 @@ public interface ReplayTopics extends Serializable {
     record OnKafka(EnsureTopics topics, TopicEndReader ends) implements ReplayTopics {
         @Override
         public Writing open() {
-            WritableRecords records = topics.writable();
+            LimitRecordSize records = topics.writable();
             return new Writing() {
                 @Override
                 public int prepare(String topic) throws IOException, InterruptedException {

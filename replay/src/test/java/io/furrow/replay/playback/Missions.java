@@ -13,8 +13,8 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
-import io.furrow.mission.Span;
+import io.furrow.mission.EventPage;
+import io.furrow.mission.RecordingExtent;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.replay.record.EventEncoder;
@@ -57,28 +57,30 @@ final class Missions {
     }
 
     /** What is asked, from the recording, in a page of any size. */
-    static Fetched answer(Fetch fetch, List<StoredEvent> recording, DesiredReplay desired, Random random) {
-        if (fetch instanceof Fetch.Begin begin) {
+    static ReadResult answer(
+            ReadRequest readRequest, List<StoredEvent> recording, DesiredReplay desired, Random random) {
+        if (readRequest instanceof ReadRequest.Begin begin) {
             List<StoredEvent> primes = begin.primed() ? known(recording, begin.point()) : List.of();
-            return new Fetched.Begun(
+            return new ReadResult.Primed(
                     begin.epoch(),
                     primes(primes, begin, desired),
                     ready(page(recording, begin.first(), random), desired, begin.epoch()));
-        } else if (fetch instanceof Fetch.Next next) {
-            return new Fetched.More(next.epoch(), ready(page(recording, next.after(), random), desired, next.epoch()));
+        } else if (readRequest instanceof ReadRequest.Next next) {
+            return new ReadResult.NextPage(
+                    next.epoch(), ready(page(recording, next.after(), random), desired, next.epoch()));
         }
-        return new Fetched.Opened(fetch.epoch(), span(recording));
+        return new ReadResult.Opened(readRequest.epoch(), span(recording));
     }
 
-    static ReadyPage ready(Page page, DesiredReplay desired, long epoch) {
+    static ReadyPage ready(EventPage eventPage, DesiredReplay desired, long epoch) {
         try {
-            return new EventEncoder(desired, epoch, record -> record).page(page);
+            return new EventEncoder(desired, epoch, record -> record).page(eventPage);
         } catch (IOException | InterruptedException e) {
             throw new AssertionError(e);
         }
     }
 
-    private static List<ReadyEvent> primes(List<StoredEvent> known, Fetch.Begin begin, DesiredReplay desired) {
+    private static List<ReadyEvent> primes(List<StoredEvent> known, ReadRequest.Begin begin, DesiredReplay desired) {
         try {
             return new EventEncoder(desired, begin.epoch(), record -> record).primes(known, begin.point());
         } catch (IOException | InterruptedException e) {
@@ -87,32 +89,32 @@ final class Missions {
     }
 
     /** What is asked, of these devices or of all. */
-    static Fetched back(Fetch.Back back, List<StoredEvent> recording, List<String> devices) {
+    static ReadResult back(ReadRequest.Back back, List<StoredEvent> recording, List<String> devices) {
         List<Cursor> before = recording.stream()
                 .filter(event -> devices.isEmpty() || devices.contains(event.entityId()))
                 .map(Cursor::after)
                 .filter(cursor -> cursor.compareTo(back.first()) > 0 && cursor.compareTo(back.from()) <= 0)
                 .toList();
         int left = before.size() - (int) back.count();
-        return new Fetched.Back(back.epoch(), back.count(), left <= 0 ? back.first() : before.get(left - 1));
+        return new ReadResult.SteppedBack(back.epoch(), back.count(), left <= 0 ? back.first() : before.get(left - 1));
     }
 
-    private static Optional<Span> span(List<StoredEvent> recording) {
+    private static Optional<RecordingExtent> span(List<StoredEvent> recording) {
         return recording.isEmpty()
                 ? Optional.empty()
-                : Optional.of(new Span(
+                : Optional.of(new RecordingExtent(
                         recording.get(0).time(),
                         recording.get(recording.size() - 1).time()));
     }
 
-    private static Page page(List<StoredEvent> recording, Cursor after, Random random) {
+    private static EventPage page(List<StoredEvent> recording, Cursor after, Random random) {
         List<StoredEvent> rest = recording.stream()
                 .filter(event -> Cursor.after(event).compareTo(after) > 0)
                 .toList();
         int size = Math.min(rest.size(), 1 + random.nextInt(40));
         List<StoredEvent> events = rest.subList(0, size);
         Cursor next = size == 0 ? after : Cursor.after(events.get(size - 1));
-        return new Page(events, List.of(), next, size == rest.size());
+        return new EventPage(events, List.of(), next, size == rest.size());
     }
 
     /** The newest event of each entity that was there before the point. */

@@ -36,9 +36,9 @@ class PlaybackModelTest {
         Random random = new Random(seed);
         List<StoredEvent> mission = Missions.random(random);
         for (int run = 0; run < RUNS_EACH; run++) {
-            List<Wishes.Wish> wishes = Wishes.random(random, mission);
+            List<DesiredStates.DesiredState> desiredStates = DesiredStates.random(random, mission);
 
-            assertThat(played(mission, wishes, random)).isEqualTo(SimpleReplay.lines(mission, wishes));
+            assertThat(played(mission, desiredStates, random)).isEqualTo(SimpleReplay.lines(mission, desiredStates));
         }
     }
 
@@ -49,7 +49,7 @@ class PlaybackModelTest {
         for (long seed : seeds()) {
             Random random = new Random(seed);
             List<StoredEvent> mission = Missions.random(random);
-            all.addAll(SimpleReplay.lines(mission, Wishes.random(random, mission)));
+            all.addAll(SimpleReplay.lines(mission, DesiredStates.random(random, mission)));
         }
 
         for (String kind :
@@ -63,22 +63,22 @@ class PlaybackModelTest {
     void goesOnWithTheNextRecordAfterARestart(long seed) {
         Random random = new Random(seed);
         List<StoredEvent> mission = Missions.random(random);
-        DesiredReplay desired = Wishes.with(
-                Wishes.start(random.nextBoolean() ? 1000 : ReplayCommand.MAX),
+        DesiredReplay desired = DesiredStates.with(
+                DesiredStates.start(random.nextBoolean() ? 1000 : ReplayCommand.MAX),
                 State.RUNNING,
                 1000,
                 Missions.TIME + random.nextInt(20_000),
                 0);
-        List<String> whole = untimed(played(mission, List.of(new Wishes.Wish(0, desired)), random));
+        List<String> whole = untimed(played(mission, List.of(new DesiredStates.DesiredState(0, desired)), random));
 
         List<String> lines = new ArrayList<>();
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
         for (long now = 0; !playback.isOver(); now++) {
             read(playback, mission, random, now, lines);
-            Optional<Played> played = playback.poll(now);
+            Optional<PlaybackRecord> played = playback.poll(now);
             played.ifPresent(one -> lines.add(line(0, one, desired)));
             if (random.nextInt(10) == 0) {
-                playback = new Playback(desired, playback.snapshot(now), now + 5, Wishes::wall);
+                playback = new Playback(desired, playback.snapshot(now), now + 5, DesiredStates::wall);
             }
         }
 
@@ -89,30 +89,33 @@ class PlaybackModelTest {
         return lines.stream().map(line -> line.substring(line.indexOf(' '))).toList();
     }
 
-    private static List<String> played(List<StoredEvent> mission, List<Wishes.Wish> wishes, Random random) {
+    private static List<String> played(
+            List<StoredEvent> mission, List<DesiredStates.DesiredState> desiredStates, Random random) {
         List<String> lines = new ArrayList<>();
-        Playback playback = new Playback(wishes.get(0).desired(), PlaybackState.fresh(), 0, Wishes::wall);
+        Playback playback = new Playback(desiredStates.get(0).desired(), PlaybackState.fresh(), 0, DesiredStates::wall);
         int next = 1;
         long now = 0;
         while (now != Long.MAX_VALUE) {
             boolean read = read(playback, mission, random, now, lines);
-            Optional<Played> played = playback.poll(now);
+            Optional<PlaybackRecord> played = playback.poll(now);
             if (played.isPresent()) {
                 lines.add(line(now, played.get(), playback.desired()));
             } else if (!read
                     && !read(playback, mission, random, now, lines)
                     && (playback.due() > now || playback.isOver())) {
                 long due = Math.max(playback.due(), now);
-                if (next < wishes.size()
-                        && wishes.get(next).at() <= due
-                        && wishes.get(next).at() <= now) {
+                if (next < desiredStates.size()
+                        && desiredStates.get(next).at() <= due
+                        && desiredStates.get(next).at() <= now) {
                     long at = now;
                     Playback running = playback;
-                    running.apply(wishes.get(next).desired(), at)
+                    running.apply(desiredStates.get(next).desired(), at)
                             .ifPresent(end -> lines.add(line(at, end, running.desired())));
                     next++;
                 } else {
-                    now = next < wishes.size() ? Math.min(wishes.get(next).at(), due) : due;
+                    now = next < desiredStates.size()
+                            ? Math.min(desiredStates.get(next).at(), due)
+                            : due;
                 }
             }
         }
@@ -123,8 +126,8 @@ class PlaybackModelTest {
     private static boolean read(
             Playback playback, List<StoredEvent> mission, Random random, long now, List<String> lines) {
         boolean any = false;
-        for (Optional<Fetch> fetch = playback.fetch(); fetch.isPresent(); fetch = playback.fetch()) {
-            Fetched answer = fetch.get() instanceof Fetch.Back back
+        for (Optional<ReadRequest> fetch = playback.fetch(); fetch.isPresent(); fetch = playback.fetch()) {
+            ReadResult answer = fetch.get() instanceof ReadRequest.Back back
                     ? Missions.back(back, mission, playback.desired().plan().devices())
                     : Missions.answer(fetch.get(), mission, playback.desired(), random);
             playback.take(answer, now).ifPresent(end -> lines.add(line(now, end, playback.desired())));
@@ -133,10 +136,10 @@ class PlaybackModelTest {
         return any;
     }
 
-    private static String line(long now, Played played, DesiredReplay desired) {
-        TopicRecord record = ReplayRecords.of(played, desired);
+    private static String line(long now, PlaybackRecord playbackRecord, DesiredReplay desired) {
+        TopicRecord record = ReplayRecords.of(playbackRecord, desired);
         Map<String, String> headers = record.headers();
-        String reason = played.reason() == null ? "" : " " + played.reason();
+        String reason = playbackRecord.reason() == null ? "" : " " + playbackRecord.reason();
         return String.join(
                 " ",
                 Long.toString(now),

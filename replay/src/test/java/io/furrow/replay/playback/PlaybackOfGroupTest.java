@@ -26,11 +26,11 @@ class PlaybackOfGroupTest {
         ReplayPlan plan =
                 new ReplayPlan(null, T, T + 2_000, loop, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
         return DesiredReplay.started("m", "data.m.replay.0a1b2c3d", plan, speed, 0, 1)
-                .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(2_000), T));
+                .following("0a1b2c3d", new DesiredReplay.Clock(DesiredStates.wall(2_000), T));
     }
 
     private static Playback playback(DesiredReplay desired, long now) {
-        return new Playback(desired, PlaybackState.fresh(), now, Wishes::wall);
+        return new Playback(desired, PlaybackState.fresh(), now, DesiredStates::wall);
     }
 
     /** What is written until the time, each with when: {@code 2500 b}, {@code 3000 ended}. */
@@ -43,16 +43,16 @@ class PlaybackOfGroupTest {
     }
 
     private static void playAt(Playback playback, List<StoredEvent> recording, long now, List<String> lines) {
-        Optional<Played> played;
+        Optional<PlaybackRecord> played;
         do {
-            for (Optional<Fetch> fetch = playback.fetch(); fetch.isPresent(); fetch = playback.fetch()) {
+            for (Optional<ReadRequest> fetch = playback.fetch(); fetch.isPresent(); fetch = playback.fetch()) {
                 playback.take(Missions.answer(fetch.get(), recording, playback.desired(), new Random(1)), now);
             }
             played = playback.poll(now);
             played.ifPresent(one -> lines.add(now + " "
                     + (one.event() == null
                             ? one.reason()
-                            : one.kind() == Played.Kind.PRIME
+                            : one.kind() == PlaybackRecord.Kind.PRIME
                                     ? "prime " + one.event().id()
                                     : one.event().id())));
         } while (played.isPresent());
@@ -92,13 +92,13 @@ class PlaybackOfGroupTest {
 
         playback.apply(
                 desired.desired(State.PAUSED, 2)
-                        .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(2_300), T + 300)),
+                        .following("0a1b2c3d", new DesiredReplay.Clock(DesiredStates.wall(2_300), T + 300)),
                 2_310);
         lines.addAll(play(playback, LONG, 2_311, 5_000));
         assertThat(playback.status(5_000, 0, 0).progress().position()).isEqualTo(T + 300);
         playback.apply(
                 desired.desired(State.RUNNING, 3)
-                        .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(6_000), T + 300)),
+                        .following("0a1b2c3d", new DesiredReplay.Clock(DesiredStates.wall(6_000), T + 300)),
                 5_001);
         lines.addAll(play(playback, LONG, 5_001, 9_999));
 
@@ -112,11 +112,12 @@ class PlaybackOfGroupTest {
         List<String> lines = play(playback, SHORT, 0, 2_600);
 
         playback.apply(
-                desired.seeking(T, 2).following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(3_000), T)), 2_601);
+                desired.seeking(T, 2).following("0a1b2c3d", new DesiredReplay.Clock(DesiredStates.wall(3_000), T)),
+                2_601);
         lines.addAll(play(playback, SHORT, 2_602, 3_700));
         playback.apply(
                 desired.seeking(T + 1_500, 3)
-                        .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(4_000), T + 1_500)),
+                        .following("0a1b2c3d", new DesiredReplay.Clock(DesiredStates.wall(4_000), T + 1_500)),
                 3_701);
         lines.addAll(play(playback, SHORT, 3_702, 9_999));
 
@@ -132,12 +133,12 @@ class PlaybackOfGroupTest {
 
         playback.apply(
                 desired.desired(State.PAUSED, 2)
-                        .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(3_995), T + 1_995)),
+                        .following("0a1b2c3d", new DesiredReplay.Clock(DesiredStates.wall(3_995), T + 1_995)),
                 4_050);
         lines.addAll(play(playback, SHORT, 4_051, 5_099));
         playback.apply(
                 desired.desired(State.RUNNING, 3)
-                        .following("0a1b2c3d", new DesiredReplay.Clock(Wishes.wall(6_000), T + 1_995)),
+                        .following("0a1b2c3d", new DesiredReplay.Clock(DesiredStates.wall(6_000), T + 1_995)),
                 5_100);
         lines.addAll(play(playback, SHORT, 5_101, 8_100));
 

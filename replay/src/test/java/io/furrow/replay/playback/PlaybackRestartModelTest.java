@@ -30,13 +30,13 @@ class PlaybackRestartModelTest {
     private static final int MAX_TURNS = 200;
 
     private List<StoredEvent> mission;
-    private List<Wishes.Wish> wishes;
+    private List<DesiredStates.DesiredState> desiredStates;
     private Random random;
     private Playback playback;
     private long now;
     private long run;
     private long skew;
-    private final Deque<Fetched> answers = new ArrayDeque<>();
+    private final Deque<ReadResult> answers = new ArrayDeque<>();
     private final Map<String, String> contents = new HashMap<>();
     private final TreeMap<Long, Long> stamps = new TreeMap<>();
     private final Map<Long, Epoch> epochs = new HashMap<>();
@@ -67,29 +67,31 @@ class PlaybackRestartModelTest {
     private void play(long seed) {
         random = new Random(seed);
         mission = Missions.random(random);
-        wishes = random.nextInt(4) == 0 ? Wishes.ofGroup(random, mission) : Wishes.random(random, mission);
-        playback = new Playback(wishes.get(0).desired(), PlaybackState.fresh(), 0, this::wall);
-        for (int next = 1; next < wishes.size(); next++) {
+        desiredStates =
+                random.nextInt(4) == 0 ? DesiredStates.ofGroup(random, mission) : DesiredStates.random(random, mission);
+        playback = new Playback(desiredStates.get(0).desired(), PlaybackState.fresh(), 0, this::wall);
+        for (int next = 1; next < desiredStates.size(); next++) {
             for (int turn = random.nextInt(MAX_TURNS); turn > 0; turn--) {
-                turn(wishes.get(next - 1).desired());
+                turn(desiredStates.get(next - 1).desired());
             }
-            now = Math.max(now, wishes.get(next).at());
-            note(playback.apply(wishes.get(next).desired(), now));
-            assertThat(playback.apply(wishes.get(random.nextInt(next + 1)).desired(), now))
+            now = Math.max(now, desiredStates.get(next).at());
+            note(playback.apply(desiredStates.get(next).desired(), now));
+            assertThat(playback.apply(
+                            desiredStates.get(random.nextInt(next + 1)).desired(), now))
                     .as("an older command")
                     .isEmpty();
-            assertThat(playback.desired()).isEqualTo(wishes.get(next).desired());
+            assertThat(playback.desired()).isEqualTo(desiredStates.get(next).desired());
         }
         assertThat(playback.isOver()).isTrue();
         epochs.forEach(this::check);
     }
 
     private long wall(long clock) {
-        return Wishes.wall(clock) + skew;
+        return DesiredStates.wall(clock) + skew;
     }
 
     private void turn(DesiredReplay newest) {
-        playback.fetch().ifPresent(fetch -> answers.add(answer(fetch)));
+        playback.fetch().ifPresent(readRequest -> answers.add(answer(readRequest)));
         switch (random.nextInt(8)) {
             case 0 -> now += random.nextInt(5_000);
             case 1, 2, 3 -> {
@@ -102,10 +104,10 @@ class PlaybackRestartModelTest {
         }
     }
 
-    private Fetched answer(Fetch fetch) {
-        return fetch instanceof Fetch.Back back
+    private ReadResult answer(ReadRequest readRequest) {
+        return readRequest instanceof ReadRequest.Back back
                 ? Missions.back(back, mission, playback.desired().plan().devices())
-                : Missions.answer(fetch, mission, playback.desired(), random);
+                : Missions.answer(readRequest, mission, playback.desired(), random);
     }
 
     private void restartNowAndThen(DesiredReplay newest) {
@@ -129,57 +131,58 @@ class PlaybackRestartModelTest {
     }
 
     /** An end may be said twice of an epoch, of which events came again. */
-    private void note(Optional<Played> record) {
-        record.ifPresent(played -> {
-            Long before = stamps.lowerEntry(played.epoch()) == null
+    private void note(Optional<PlaybackRecord> record) {
+        record.ifPresent(playbackRecord -> {
+            Long before = stamps.lowerEntry(playbackRecord.epoch()) == null
                     ? null
-                    : stamps.headMap(played.epoch()).values().stream()
+                    : stamps.headMap(playbackRecord.epoch()).values().stream()
                             .max(Long::compare)
                             .orElseThrow();
-            assertThat(played.stamp()).as("of one run").isGreaterThanOrEqualTo(run);
-            run = played.stamp();
-            assertThat(played.stamp())
-                    .as("%s after epochs until %s", played, before)
+            assertThat(playbackRecord.stamp()).as("of one run").isGreaterThanOrEqualTo(run);
+            run = playbackRecord.stamp();
+            assertThat(playbackRecord.stamp())
+                    .as("%s after epochs until %s", playbackRecord, before)
                     .isGreaterThanOrEqualTo(before == null ? 0 : before);
-            stamps.merge(played.epoch(), played.stamp(), Math::max);
-            if (played.kind() != Played.Kind.END) {
-                String content = played.kind() + " " + played.event().id() + " at " + played.time();
-                String place = played.epoch() + " " + played.sequence();
+            stamps.merge(playbackRecord.epoch(), playbackRecord.stamp(), Math::max);
+            if (playbackRecord.kind() != PlaybackRecord.Kind.END) {
+                String content =
+                        playbackRecord.kind() + " " + playbackRecord.event().id() + " at " + playbackRecord.time();
+                String place = playbackRecord.epoch() + " " + playbackRecord.sequence();
                 assertThat(contents.merge(place, content, (known, same) -> known))
                         .as("record %s", place)
                         .isEqualTo(content);
                 long point = playback.snapshot(now).point();
-                epochs.computeIfAbsent(played.epoch(), epoch -> new Epoch(point, new TreeMap<>()))
+                epochs.computeIfAbsent(playbackRecord.epoch(), epoch -> new Epoch(point, new TreeMap<>()))
                         .records()
-                        .put(played.sequence(), played);
-                assertNotEarly(played);
+                        .put(playbackRecord.sequence(), playbackRecord);
+                assertNotEarly(playbackRecord);
             }
         });
     }
 
     /** Whatever the clock of a group has not shown yet. */
-    private void assertNotEarly(Played played) {
+    private void assertNotEarly(PlaybackRecord playbackRecord) {
         DesiredReplay desired = playback.desired();
-        if (desired.clock() != null && !desired.loops() && played.kind() == Played.Kind.EVENT) {
-            assertThat(played.time())
+        if (desired.clock() != null && !desired.loops() && playbackRecord.kind() == PlaybackRecord.Kind.EVENT) {
+            assertThat(playbackRecord.time())
                     .as("the clock shows %s", desired.clock())
                     .isLessThanOrEqualTo(desired.position(wall(now)));
         }
     }
 
     /** Records of an epoch by their sequence, ends excepted. */
-    private record Epoch(long point, TreeMap<Long, Played> records) {}
+    private record Epoch(long point, TreeMap<Long, PlaybackRecord> records) {}
 
     /** What was known before its point, then the events from there, without a gap, as far as it was played. */
     private void check(long number, Epoch epoch) {
-        List<String> devices = wishes.get(0).desired().plan().devices();
+        List<String> devices = desiredStates.get(0).desired().plan().devices();
         List<StoredEvent> whole = new ArrayList<>(
                 epoch.point() > mission.get(0).time() ? Missions.known(mission, epoch.point()) : List.of());
         mission.stream().filter(event -> event.time() >= epoch.point()).forEach(whole::add);
         whole.removeIf(event -> !devices.isEmpty() && !devices.contains(event.entityId()));
         assertThat(epoch.records().keySet()).last().isEqualTo(epoch.records().size() - 1L);
         assertThat(epoch.records().values().stream()
-                        .map(played -> played.event().id())
+                        .map(playbackRecord -> playbackRecord.event().id())
                         .toList())
                 .as("epoch %d", number)
                 .isEqualTo(whole.stream()

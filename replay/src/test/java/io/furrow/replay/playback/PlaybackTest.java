@@ -7,8 +7,8 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.record.Epochs;
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
-import io.furrow.mission.Span;
+import io.furrow.mission.EventPage;
+import io.furrow.mission.RecordingExtent;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayCommand;
@@ -25,20 +25,20 @@ class PlaybackTest {
 
     @Test
     void standsWhereItIsWhileItDoesNotKnowWhatComesNext() {
-        DesiredReplay desired = Wishes.start(ReplayCommand.MAX);
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
+        DesiredReplay desired = DesiredStates.start(ReplayCommand.MAX);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
         playback.fetch();
-        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 0);
+        playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
-        playback.take(new Fetched.Begun(0, List.of(), page(FIRST, desired, false)), 0);
+        playback.take(new ReadResult.Primed(0, List.of(), page(FIRST, desired, false)), 0);
         assertThat(playback.poll(0)).map(one -> one.event().id()).contains("a");
         playback.fetch();
 
         assertThat(playback.snapshot(100).position()).isEqualTo(FIRST.time());
-        DesiredReplay paused = Wishes.with(desired, State.PAUSED, 1, null, 0);
+        DesiredReplay paused = DesiredStates.with(desired, State.PAUSED, 1, null, 0);
         playback.apply(paused, 100);
-        playback.apply(Wishes.with(paused, State.RUNNING, 1, null, 0), 200);
-        playback.take(new Fetched.More(0, page(NEXT, desired, true)), 300);
+        playback.apply(DesiredStates.with(paused, State.RUNNING, 1, null, 0), 200);
+        playback.take(new ReadResult.NextPage(0, page(NEXT, desired, true)), 300);
 
         assertThat(playback.poll(1_199)).as("a second after it went on").isEmpty();
         assertThat(playback.poll(1_200)).map(one -> one.event().id()).contains("b");
@@ -47,18 +47,18 @@ class PlaybackTest {
     /** Else a replay of a device that seldom reports would read hours again after a restart. */
     @Test
     void goesOnBehindWhatIsLeftOutAndShowsWhereItIsWhileTheRecordingIsAway() {
-        DesiredReplay desired = Wishes.start(1);
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
+        DesiredReplay desired = DesiredStates.start(1);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
         playback.fetch();
-        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 0);
+        playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
-        playback.take(new Fetched.Begun(0, List.of(), page(FIRST, desired, false)), 0);
+        playback.take(new ReadResult.Primed(0, List.of(), page(FIRST, desired, false)), 0);
         playback.poll(0);
         playback.fetch();
         assertThat(playback.snapshot(0).cursor()).isEqualTo(Cursor.after(FIRST));
-        playback.take(new Fetched.More(0, page(NEXT, desired, false)), 0);
+        playback.take(new ReadResult.NextPage(0, page(NEXT, desired, false)), 0);
         playback.fetch();
-        playback.take(new Fetched.Waiting(0, "away"), 400);
+        playback.take(new ReadResult.Unavailable(0, "away"), 400);
 
         assertThat(playback.snapshot(500).cursor()).isEqualTo(Cursor.before(NEXT.time()));
         assertThat(playback.status(500, 0, 0).progress().position()).isEqualTo(FIRST.time() + 500);
@@ -68,19 +68,19 @@ class PlaybackTest {
 
     @Test
     void countsNothingTwiceThatItSkippedOfWhatARestartReadsAgain() {
-        DesiredReplay desired = Wishes.start(1);
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
+        DesiredReplay desired = DesiredStates.start(1);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
         playback.fetch();
-        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 0);
+        playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
-        playback.take(new Fetched.Begun(0, List.of(), skipping(page(FIRST, desired, false), 2)), 0);
+        playback.take(new ReadResult.Primed(0, List.of(), skipping(page(FIRST, desired, false), 2)), 0);
         playback.poll(0);
         playback.fetch();
-        playback.take(new Fetched.More(0, skipping(page(NEXT, desired, true), 3)), 0);
+        playback.take(new ReadResult.NextPage(0, skipping(page(NEXT, desired, true), 3)), 0);
 
-        Playback restarted = new Playback(desired, playback.snapshot(500), 500, Wishes::wall);
+        Playback restarted = new Playback(desired, playback.snapshot(500), 500, DesiredStates::wall);
         restarted.fetch();
-        restarted.take(new Fetched.More(0, skipping(page(NEXT, desired, true), 3)), 500);
+        restarted.take(new ReadResult.NextPage(0, skipping(page(NEXT, desired, true), 3)), 500);
         assertThat(restarted.poll(2_000)).isPresent();
         assertThat(restarted.status(2_000, 0, 0).progress().skipped()).isEqualTo(5);
     }
@@ -94,32 +94,33 @@ class PlaybackTest {
         ReplayPlan plan = new ReplayPlan(
                 null, null, NEXT.time(), false, List.of("urn:d0"), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
         DesiredReplay desired = DesiredReplay.started("m", "data.m.replay.0a1b2c3d", plan, ReplayCommand.MAX, 0, 1);
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
         playback.fetch();
-        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time() + 9_000))), 0);
+        playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time() + 9_000))), 0);
         playback.fetch();
         playback.take(
-                new Fetched.Begun(0, List.of(), page(Missions.event("c", NEXT.time(), "urn:d1"), desired, false)), 0);
+                new ReadResult.Primed(0, List.of(), page(Missions.event("c", NEXT.time(), "urn:d1"), desired, false)),
+                0);
 
-        assertThat(playback.poll(0)).map(Played::reason).contains("ended");
+        assertThat(playback.poll(0)).map(PlaybackRecord::reason).contains("ended");
         assertThat(playback.fetch()).isEmpty();
     }
 
     @Test
     void saysWhatASeekReadsThatTakesLong() {
-        DesiredReplay desired = Wishes.with(Wishes.start(1), State.PAUSED, 1, NEXT.time(), 0);
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, Wishes::wall);
+        DesiredReplay desired = DesiredStates.with(DesiredStates.start(1), State.PAUSED, 1, NEXT.time(), 0);
+        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
         playback.fetch();
         assertThat(waiting(playback, 999)).isNull();
         assertThat(waiting(playback, 1_000)).isEqualTo("seeking: the recording is being opened");
 
-        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 1_100);
+        playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 1_100);
         playback.fetch();
         assertThat(waiting(playback, 1_200))
                 .isEqualTo("seeking: what was known before 2023-11-14T22:13:21Z is being read");
         assertThat(playback.isSeeking()).isTrue();
 
-        playback.take(new Fetched.Begun(0, page(FIRST, desired, false).events(), page(NEXT, desired, true)), 1_300);
+        playback.take(new ReadResult.Primed(0, page(FIRST, desired, false).events(), page(NEXT, desired, true)), 1_300);
         assertThat(waiting(playback, 1_300)).isNull();
         assertThat(playback.isSeeking()).isFalse();
     }
@@ -127,15 +128,15 @@ class PlaybackTest {
     @Test
     void endsAnEpochThatCannotBeginWithoutSteppingBackInTime() {
         PlaybackState played = PlaybackState.before(3, NEXT.time() + 5_000);
-        DesiredReplay desired = Wishes.with(Wishes.start(1), State.RUNNING, 1, NEXT.time(), 0);
-        Playback playback = new Playback(desired, played, 0, Wishes::wall);
+        DesiredReplay desired = DesiredStates.with(DesiredStates.start(1), State.RUNNING, 1, NEXT.time(), 0);
+        Playback playback = new Playback(desired, played, 0, DesiredStates::wall);
         playback.fetch();
 
-        Optional<Played> end = playback.take(new Fetched.Gone(3, "gone"), 0);
+        Optional<PlaybackRecord> end = playback.take(new ReadResult.Failed(3, "gone"), 0);
 
-        assertThat(end).contains(new Played(Played.Kind.END, null, "gone", 3, 0, NEXT.time(), 5_000));
+        assertThat(end).contains(new PlaybackRecord(PlaybackRecord.Kind.END, null, "gone", 3, 0, NEXT.time(), 5_000));
         assertThat(playback.state()).isEqualTo(State.FAILED);
-        assertThat(playback.take(new Fetched.Gone(3, "gone"), 0)).isEmpty();
+        assertThat(playback.take(new ReadResult.Failed(3, "gone"), 0)).isEmpty();
     }
 
     private static String waiting(Playback playback, long now) {
@@ -146,12 +147,12 @@ class PlaybackTest {
     void beginsNoEpochThatHasNoNumber() {
         PlaybackState spent = PlaybackState.before(Epochs.LAST + 1, 5);
 
-        assertThat(new Playback(Wishes.start(1), spent, 0, Wishes::wall).status(0, 0, 0))
+        assertThat(new Playback(DesiredStates.start(1), spent, 0, DesiredStates::wall).status(0, 0, 0))
                 .extracting(ReplayStatus::state, ReplayStatus::reason)
                 .containsExactly(State.FAILED, "all 262144 epochs are used; start another replay");
     }
 
     private static ReadyPage page(StoredEvent event, DesiredReplay desired, boolean last) {
-        return Missions.ready(new Page(List.of(event), List.of(), Cursor.after(event), last), desired, 0);
+        return Missions.ready(new EventPage(List.of(event), List.of(), Cursor.after(event), last), desired, 0);
     }
 }

@@ -12,7 +12,7 @@ import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.event.EventId;
 
 /**
- * The rules of a replay once more, as a program that has the whole mission in memory and goes from one wish to the next; says a line
+ * The rules of a replay once more, as a program that has the whole mission in memory and goes from one update to the next; says a line
  * for each record: when it is written, its timestamp, key and headers.
  */
 final class SimpleReplay {
@@ -48,13 +48,13 @@ final class SimpleReplay {
         this.recording = recording;
     }
 
-    static List<String> lines(List<StoredEvent> recording, List<Wishes.Wish> wishes) {
+    static List<String> lines(List<StoredEvent> recording, List<DesiredStates.DesiredState> desiredStates) {
         SimpleReplay replay = new SimpleReplay(recording);
-        for (int i = 0; i < wishes.size(); i++) {
-            replay.change(wishes.get(i).desired(), wishes.get(i).at());
+        for (int i = 0; i < desiredStates.size(); i++) {
+            replay.change(desiredStates.get(i).desired(), desiredStates.get(i).at());
             replay.goOn(
-                    wishes.get(i).at(),
-                    i + 1 < wishes.size() ? wishes.get(i + 1).at() : Long.MAX_VALUE);
+                    desiredStates.get(i).at(),
+                    i + 1 < desiredStates.size() ? desiredStates.get(i + 1).at() : Long.MAX_VALUE);
         }
         return replay.lines;
     }
@@ -91,7 +91,7 @@ final class SimpleReplay {
 
     private void anchor(long now, long position) {
         Long startAt = desired.plan().startAt();
-        clock = startAt == null ? now : Math.max(now, startAt - Wishes.wall(0));
+        clock = startAt == null ? now : Math.max(now, startAt - DesiredStates.wall(0));
         origin = position;
         approached = false;
     }
@@ -251,7 +251,7 @@ final class SimpleReplay {
 
     private void line(long now, String kind, StoredEvent event, long time) {
         if (desired.plan().stamps() == ReplayPlan.Stamps.NOW) {
-            offset = Math.max(newestStamp, Wishes.wall(now)) - time;
+            offset = Math.max(newestStamp, DesiredStates.wall(now)) - time;
         }
         newestStamp = time + offset;
         lines.add(String.join(

@@ -12,14 +12,14 @@ import java.util.concurrent.atomic.AtomicInteger;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
+import io.furrow.mission.EventPage;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
+import io.furrow.mission.RecordingExtent;
 import io.furrow.mission.RecordingInterruptedException;
 import io.furrow.mission.Recordings;
-import io.furrow.mission.Skipped;
-import io.furrow.mission.Span;
+import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.StoredEvent;
 
 /** Missions in memory; one that is away cannot be read until it is back, {@code stuck} never answers. */
@@ -118,15 +118,15 @@ final class MemoryRecordings implements Recordings {
         }
 
         @Override
-        public Optional<Span> span() {
+        public Optional<RecordingExtent> span() {
             return events.isEmpty()
                     ? Optional.empty()
-                    : Optional.of(new Span(
+                    : Optional.of(new RecordingExtent(
                             events.get(0).time(), events.get(events.size() - 1).time()));
         }
 
         @Override
-        public Page read(Cursor after, PageLimits limits) throws RecordingException {
+        public EventPage read(Cursor after, PageLimits limits) throws RecordingException {
             requireThere(mission);
             if (holding && after.equals(Cursor.START)) {
                 hold();
@@ -135,10 +135,11 @@ final class MemoryRecordings implements Recordings {
                     .filter(event -> Cursor.after(event).compareTo(after) > 0)
                     .toList();
             List<StoredEvent> page = rest.subList(0, Math.min(limits.events(), rest.size()));
-            List<Skipped> skipped =
-                    after.equals(Cursor.START) ? List.of(new Skipped("two documents", "no _time", 2)) : List.of();
+            List<SkippedRecords> skipped = after.equals(Cursor.START)
+                    ? List.of(new SkippedRecords("two documents", "no _time", 2))
+                    : List.of();
             Cursor next = page.isEmpty() ? after : Cursor.after(page.get(page.size() - 1));
-            return new Page(page, skipped, next, page.size() == rest.size());
+            return new EventPage(page, skipped, next, page.size() == rest.size());
         }
 
         @Override

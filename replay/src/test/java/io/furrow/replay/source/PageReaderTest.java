@@ -11,8 +11,8 @@ import io.furrow.mission.PageLimits;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.topic.Topics;
-import io.furrow.replay.playback.Fetch;
-import io.furrow.replay.playback.Fetched;
+import io.furrow.replay.playback.ReadRequest;
+import io.furrow.replay.playback.ReadResult;
 import io.furrow.replay.recording.PageBudget;
 import io.furrow.replay.recording.RecordingSources;
 
@@ -23,7 +23,7 @@ class PageReaderTest {
     private static final long TIME = 1_700_000_000_000L;
 
     private final MemoryRecordings missions = new MemoryRecordings().with("m", TIME, TIME + 10, TIME + 20, TIME + 30);
-    private final List<Fetched> answers = new CopyOnWriteArrayList<>();
+    private final List<ReadResult> answers = new CopyOnWriteArrayList<>();
     private final PageReader pages = new PageReader(
             DesiredReplay.started("m", Topics.replay("m", "0a1b2c3d"), ReplayPlan.PLAIN, 1, 0, 1),
             () -> {},
@@ -52,9 +52,9 @@ class PageReaderTest {
         pages.read(seek(2, TIME + 30));
 
         await().until(() -> !answers.isEmpty());
-        assertThat(answers).singleElement().isInstanceOfSatisfying(Fetched.Begun.class, begun -> {
-            assertThat(begun.epoch()).isEqualTo(2);
-            assertThat(begun.primes()).hasSize(1);
+        assertThat(answers).singleElement().isInstanceOfSatisfying(ReadResult.Primed.class, primed -> {
+            assertThat(primed.epoch()).isEqualTo(2);
+            assertThat(primed.primes()).hasSize(1);
         });
         assertThat(missions.held()).isZero();
     }
@@ -71,7 +71,7 @@ class PageReaderTest {
         assertThat(answers).isEmpty();
     }
 
-    private static Fetch seek(long epoch, long point) {
-        return new Fetch.Begin(epoch, point, Cursor.before(point), true, true, 2);
+    private static ReadRequest seek(long epoch, long point) {
+        return new ReadRequest.Begin(epoch, point, Cursor.before(point), true, true, 2);
     }
 }

@@ -20,8 +20,8 @@ import org.junit.jupiter.api.Test;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.replay.playback.PlaybackState;
-import io.furrow.replay.source.DesiredReplays.Told;
-import io.furrow.replay.source.DesiredReplays.Wish;
+import io.furrow.replay.source.DesiredReplays.ReplayUpdate;
+import io.furrow.replay.source.DesiredReplays.ReportedStatus;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -30,25 +30,25 @@ class ReplayEnumeratorTest {
     private final Readers readers = new Readers(2);
 
     private ReplayEnumerator enumerator(ReplaySplit... unassigned) {
-        ReplayEnumerator enumerator = new ReplayEnumerator(readers, script, new UnassignedReplays(List.of(unassigned)));
+        ReplayEnumerator enumerator = new ReplayEnumerator(readers, script, new EnumeratorState(List.of(unassigned)));
         enumerator.start();
         return enumerator;
     }
 
-    private static Wish wish(String mission, long sequence) {
-        return new Wish(
+    private static ReplayUpdate update(String mission, long sequence) {
+        return new ReplayUpdate(
                 mission + ".0a1b2c3d",
                 ReplayReaderTest.desired(mission, 1, State.RUNNING, sequence).toBytes());
     }
 
     private static ReplaySplit split(String mission) {
-        return new ReplaySplit(mission + ".0a1b2c3d", wish(mission, 1).desired(), PlaybackState.before(3, 77));
+        return new ReplaySplit(mission + ".0a1b2c3d", update(mission, 1).desired(), PlaybackState.before(3, 77));
     }
 
     @Test
     void dividesReplaysEvenlyWhenAllReadersAreThere() {
         ReplayEnumerator enumerator = enumerator();
-        script.next = List.of(wish("a", 1), wish("b", 1), wish("c", 1), wish("d", 1));
+        script.next = List.of(update("a", 1), update("b", 1), update("c", 1), update("d", 1));
         readers.poll();
         readers.register(0, enumerator);
         assertThat(readers.assigned).isEmpty();
@@ -57,7 +57,7 @@ class ReplayEnumeratorTest {
 
         assertThat(readers.of(0)).hasSize(2);
         assertThat(readers.of(1)).hasSize(2);
-        script.next = List.of(wish("a", 2));
+        script.next = List.of(update("a", 2));
         readers.poll();
         assertThat(readers.events).last().isEqualTo("0 a.0a1b2c3d told");
     }
@@ -69,7 +69,7 @@ class ReplayEnumeratorTest {
         readers.register(1, enumerator);
         assertThat(readers.assigned).as("before it is known what is wanted").isEmpty();
 
-        script.next = List.of(wish("a", 1), wish("b", 1), wish("c", 1));
+        script.next = List.of(update("a", 1), update("b", 1), update("c", 1));
         readers.poll();
 
         assertThat(readers.of(0)).hasSize(2);
@@ -84,7 +84,7 @@ class ReplayEnumeratorTest {
         ReplayEnumerator enumerator = enumerator();
         readers.register(0, enumerator);
         readers.register(1, enumerator);
-        script.next = List.of(wish("a", 1));
+        script.next = List.of(update("a", 1));
         readers.poll();
         readers.known.remove(0);
 
@@ -100,19 +100,19 @@ class ReplayEnumeratorTest {
     void goesOnWithEpochsOfReplaysThatNoCheckpointKnows() {
         ReplayStatus.Progress progress = new ReplayStatus.Progress(4, 1_000, 0, 0, 500, 0, 0, 0, 0, 0, 0, null);
         script.told = List.of(
-                new Told("a.0a1b2c3d", new ReplayStatus(1, State.RUNNING, null, false, progress)),
-                new Told("b.0a1b2c3d", new ReplayStatus(1, State.ENDED, null, true, progress)));
+                new ReportedStatus("a.0a1b2c3d", new ReplayStatus(1, State.RUNNING, null, false, progress)),
+                new ReportedStatus("b.0a1b2c3d", new ReplayStatus(1, State.ENDED, null, true, progress)));
         ReplayEnumerator enumerator = enumerator();
         readers.register(0, enumerator);
         readers.register(1, enumerator);
 
-        script.next = List.of(wish("a", 1), wish("b", 1));
+        script.next = List.of(update("a", 1), update("b", 1));
         readers.poll();
 
         assertThat(readers.assigned)
                 .as("b is over: who wanted it is about to be told")
                 .containsExactly(new Assigned(0, "a.0a1b2c3d", 5, 1_500));
-        script.next = List.of(wish("b", 2));
+        script.next = List.of(update("b", 2));
         readers.poll();
         assertThat(readers.assigned).last().isEqualTo(new Assigned(1, "b.0a1b2c3d", 5, 1_500));
     }
@@ -120,11 +120,11 @@ class ReplayEnumeratorTest {
     @Test
     void leavesToItsReaderWhatAnotherHadAtACheckpoint() {
         ReplayEnumerator enumerator = enumerator();
-        script.next = List.of(wish("a", 1));
+        script.next = List.of(update("a", 1));
         readers.poll();
         readers.register(0, enumerator);
         readers.register(1, enumerator, split("a"), split("b"));
-        script.next = List.of(wish("b", 1));
+        script.next = List.of(update("b", 1));
         readers.poll();
         int before = readers.assigned.size();
         assertThat(readers.of(0)).isNotEmpty();
@@ -141,7 +141,7 @@ class ReplayEnumeratorTest {
     void tellsAReaderThatIsThereAgainThatNoMoreComes() {
         script.bounded = true;
         ReplayEnumerator enumerator = enumerator();
-        script.next = List.of(wish("a", 1));
+        script.next = List.of(update("a", 1));
         readers.poll();
         readers.register(0, enumerator);
         readers.register(1, enumerator);
@@ -155,8 +155,9 @@ class ReplayEnumeratorTest {
     @Test
     void readsOnWhenTheBrokerIsBack() {
         ReplayStatus.Progress progress = new ReplayStatus.Progress(4, 1_000, 0, 0, 500, 0, 0, 0, 0, 0, 0, null);
-        script.told = List.of(new Told("a.0a1b2c3d", new ReplayStatus(1, State.RUNNING, null, false, progress)));
-        script.next = List.of(wish("a", 1));
+        script.told =
+                List.of(new ReportedStatus("a.0a1b2c3d", new ReplayStatus(1, State.RUNNING, null, false, progress)));
+        script.next = List.of(update("a", 1));
         script.away = true;
         ReplayEnumerator enumerator = enumerator();
         readers.register(0, enumerator);
@@ -180,7 +181,10 @@ class ReplayEnumeratorTest {
         readers.register(1, enumerator);
 
         byte[] bytes = "x".getBytes(StandardCharsets.UTF_8);
-        script.next = List.of(new Wish(null, bytes), new Wish("no name", bytes), new Wish("a.0a1b2c3d", bytes));
+        script.next = List.of(
+                new ReplayUpdate(null, bytes),
+                new ReplayUpdate("no name", bytes),
+                new ReplayUpdate("a.0a1b2c3d", bytes));
         readers.poll();
 
         assertThat(readers.assigned).extracting(Assigned::replay).containsExactly("a.0a1b2c3d");
@@ -189,8 +193,8 @@ class ReplayEnumeratorTest {
     private static final class Script implements DesiredReplays {
         private static final long serialVersionUID = 1L;
 
-        private transient List<Told> told = List.of();
-        private transient List<Wish> next = List.of();
+        private transient List<ReportedStatus> told = List.of();
+        private transient List<ReplayUpdate> next = List.of();
         private transient boolean bounded;
         private transient boolean away;
 
@@ -203,13 +207,13 @@ class ReplayEnumeratorTest {
         public Reading open() {
             return new Reading() {
                 @Override
-                public List<Told> told() throws IOException {
+                public List<ReportedStatus> reportedStatuses() throws IOException {
                     requireThere();
                     return told;
                 }
 
                 @Override
-                public List<Wish> poll() throws IOException {
+                public List<ReplayUpdate> poll() throws IOException {
                     requireThere();
                     return next;
                 }
@@ -267,7 +271,7 @@ class ReplayEnumeratorTest {
 
         @Override
         public void sendEventToSourceReader(int reader, SourceEvent event) {
-            DesiredEvent desired = (DesiredEvent) event;
+            ReplayChangeEvent desired = (ReplayChangeEvent) event;
             events.add(reader + " " + desired.replay() + (desired.desired() == null ? " removed" : " told"));
         }
 

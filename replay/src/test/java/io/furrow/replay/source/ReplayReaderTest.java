@@ -63,8 +63,8 @@ class ReplayReaderTest {
         reader.addSplits(List.of(new ReplaySplit(desired.replay(), desired.toBytes(), PlaybackState.fresh())));
     }
 
-    private void wish(DesiredReplay desired) {
-        reader.handleSourceEvents(new DesiredEvent(desired.replay(), desired.toBytes()));
+    private void update(DesiredReplay desired) {
+        reader.handleSourceEvents(new ReplayChangeEvent(desired.replay(), desired.toBytes()));
     }
 
     /** Until that many records of the mission of that kind are there; a minute at most without the reader being available. */
@@ -262,19 +262,19 @@ class ReplayReaderTest {
         await().until(() -> missions.open() == 0);
         restart();
 
-        wish(running.seeking(TIME + 20, 2));
+        update(running.seeking(TIME + 20, 2));
         play("m", "end", 2);
         assertThat(played("m", "event")).hasSize(6);
         await().until(() -> missions.open() == 0);
 
         DesiredReplay back = running.desired(State.PAUSED, 3).stepping(-2, 3);
-        wish(back);
+        update(back);
         playUntil(() ->
                 status("m").state() == State.PAUSED && status("m").progress().events() == 1);
         assertThat(status("m").progress().epoch()).isEqualTo(2);
         assertThat(status("m").progress().position()).isEqualTo(TIME + 10);
         assertThat(missions.open()).isEqualTo(1);
-        wish(back.desired(State.RUNNING, 4));
+        update(back.desired(State.RUNNING, 4));
         play("m", "end", 3);
         assertThat(played("m", "event"))
                 .extracting(record -> record.headers().get(HeaderNames.REPLAY_EPOCH))
@@ -290,9 +290,9 @@ class ReplayReaderTest {
         play("m", "end", 1);
         await().until(() -> missions.open() == 0);
         missions.setAway("m", true);
-        wish(running.desired(State.PAUSED, 2).stepping(-1, 2));
+        update(running.desired(State.PAUSED, 2).stepping(-1, 2));
         playUntil(() -> status("m").progress().waiting() != null);
-        wish(running.desired(State.RUNNING, 3));
+        update(running.desired(State.RUNNING, 3));
         missions.setAway("m", false);
 
         playUntil(() -> status("m").sequence() == 3 && status("m").progress().waiting() == null);
@@ -308,7 +308,7 @@ class ReplayReaderTest {
         play("m", "event", 3);
 
         restart();
-        wish(desired("m", ReplayCommand.MAX, State.RUNNING, 2));
+        update(desired("m", ReplayCommand.MAX, State.RUNNING, 2));
         play("m", "end", 1);
 
         assertThat(played("m", "event")).extracting(TopicRecord::timestamp).endsWith(TIME + 20, TIME + 100_000);
@@ -327,7 +327,7 @@ class ReplayReaderTest {
 
         topics.end = new TopicEnd(2, TIME + 70_000);
         restart();
-        wish(started.seeking(TIME + 5, 3));
+        update(started.seeking(TIME + 5, 3));
         play("m", "event", 3);
 
         assertThat(played("m", "end"))
@@ -375,7 +375,7 @@ class ReplayReaderTest {
         missions.with("m", TIME, TIME + 100_000);
         start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 1);
-        reader.handleSourceEvents(new DesiredEvent("m.0a1b2c3d", later));
+        reader.handleSourceEvents(new ReplayChangeEvent("m.0a1b2c3d", later));
         play("m", "end", 1);
 
         reader.snapshotState(1);
@@ -445,7 +445,7 @@ class ReplayReaderTest {
         restart();
         playUntil(() -> "no topic may be made".equals(status("m").progress().waiting()));
         assertThat(status("m").state()).isEqualTo(State.RUNNING);
-        wish(running.desired(State.STOPPED, 2));
+        update(running.desired(State.STOPPED, 2));
 
         playUntil(() -> status("m").state() == State.STOPPED);
         assertThat(played("m", "end")).isEmpty();
@@ -468,11 +468,11 @@ class ReplayReaderTest {
         DesiredReplay paused = desired("m", 1, State.PAUSED, 1).stepping(3, 1);
         start(paused);
         play("m", "event", 3);
-        wish(paused.within(new DesiredReplay.Range(TIME, TIME + 15), 2));
+        update(paused.within(new DesiredReplay.Range(TIME, TIME + 15), 2));
         playUntil(() -> status("m").sequence() == 2);
 
         restart();
-        wish(paused.desired(State.STOPPED, 3));
+        update(paused.desired(State.STOPPED, 3));
         playUntil(() -> status("m").state() == State.STOPPED);
 
         assertThat(played("m", "end")).hasSize(1);
@@ -484,7 +484,7 @@ class ReplayReaderTest {
         start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 1);
 
-        reader.handleSourceEvents(new DesiredEvent("m.0a1b2c3d", null));
+        reader.handleSourceEvents(new ReplayChangeEvent("m.0a1b2c3d", null));
         play("m", "end", 1);
 
         assertThat(reader.snapshotState(1)).isEmpty();

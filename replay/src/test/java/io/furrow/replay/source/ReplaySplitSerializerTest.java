@@ -86,8 +86,8 @@ class ReplaySplitSerializerTest {
 
     @Test
     void keepsReplaysWithoutAReader() throws Exception {
-        UnassignedReplaysSerializer all = new UnassignedReplaysSerializer();
-        UnassignedReplays replays = new UnassignedReplays(
+        EnumeratorStateSerializer all = new EnumeratorStateSerializer();
+        EnumeratorState replays = new EnumeratorState(
                 List.of(split(PlaybackState.Phase.PLAYING, null, null), split(PlaybackState.Phase.ENDED, "x", 1L)));
 
         byte[] bytes = all.serialize(replays);

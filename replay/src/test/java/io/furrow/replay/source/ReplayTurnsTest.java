@@ -69,7 +69,7 @@ class ReplayTurnsTest {
     }
 
     private void resume(DesiredReplay paused) {
-        reader.handleSourceEvents(new DesiredEvent(
+        reader.handleSourceEvents(new ReplayChangeEvent(
                 paused.replay(), paused.desired(State.RUNNING, 2).toBytes()));
     }
 

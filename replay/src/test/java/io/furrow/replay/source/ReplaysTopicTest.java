@@ -41,7 +41,8 @@ class ReplaysTopicTest {
                 record("b", null)));
 
         assertThat(ReplaysTopic.newest(statuses))
-                .containsExactly(new DesiredReplays.Told("a", new ReplayStatus(2, State.RUNNING, null, true, null)));
+                .containsExactly(
+                        new DesiredReplays.ReportedStatus("a", new ReplayStatus(2, State.RUNNING, null, true, null)));
     }
 
     private static TopicRecord status(String replay, long sequence) {

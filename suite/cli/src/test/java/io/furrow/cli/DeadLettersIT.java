@@ -29,7 +29,7 @@ import picocli.CommandLine.Model.CommandSpec;
 
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.event.DeadLetter;
-import io.furrow.model.event.Original;
+import io.furrow.model.event.OriginalReference;
 import io.furrow.model.ngsi.Reason;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -182,11 +182,11 @@ class DeadLettersIT {
         byte[] whole = new byte[2_000_000];
         whole[whole.length - 1] = 7;
         deadLetter("large", "other", new byte[] {1}, Map.of());
-        Original place = place("large", "robot", whole, Map.of("trace", "7"));
+        OriginalReference place = place("large", "robot", whole, Map.of("trace", "7"));
         standIn("large.dead", "robot", place);
         standIn("large.dead", "another", place);
-        standIn("large.dead", "robot", new Original("large", place.partition(), 99, 2_000_000));
-        standIn("large.dead", "robot", new Original("nowhere", 0, 0, 2_000_000));
+        standIn("large.dead", "robot", new OriginalReference("large", place.partition(), 99, 2_000_000));
+        standIn("large.dead", "robot", new OriginalReference("nowhere", 0, 0, 2_000_000));
 
         assertThat(redrive("--topic", "large.dead", "--to", "whole"))
                 .isEqualTo("sent 1 dead letter from large.dead to whole: 1 not-json\n"
@@ -219,16 +219,16 @@ class DeadLettersIT {
     }
 
     /** Where the record is afterwards. */
-    private static Original place(String topic, String key, byte[] value, Map<String, String> headers) {
+    private static OriginalReference place(String topic, String key, byte[] value, Map<String, String> headers) {
         deadLetter(topic, key, value, headers);
         return recordsOf(topic).stream()
                 .filter(record -> Arrays.equals(record.value(), value))
-                .map(record -> new Original(topic, record.partition(), record.offset(), value.length))
+                .map(record -> new OriginalReference(topic, record.partition(), record.offset(), value.length))
                 .findFirst()
                 .orElseThrow();
     }
 
-    private static void standIn(String topic, String key, Original original) {
+    private static void standIn(String topic, String key, OriginalReference original) {
         deadLetter(topic, key, new byte[] {0}, Reason.NOT_JSON, "why", original.headers());
     }
 

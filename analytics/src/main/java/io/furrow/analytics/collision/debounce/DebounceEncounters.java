@@ -9,7 +9,7 @@ import org.apache.flink.util.Collector;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Pair;
 import io.furrow.analytics.collision.rules.CollisionRules;
-import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.analytics.eventtime.SingleTimer;
 
 /**
  * Suppresses encounters that flicker. Key: the pair.
@@ -27,7 +27,7 @@ public final class DebounceEncounters extends KeyedProcessFunction<Pair, Encount
 
     private final EncounterDebouncer steadier;
 
-    private transient OneTimer timer;
+    private transient SingleTimer timer;
     private transient ValueState<SteadyState> course;
 
     public DebounceEncounters(CollisionRules rules) {
@@ -36,7 +36,7 @@ public final class DebounceEncounters extends KeyedProcessFunction<Pair, Encount
 
     @Override
     public void open(OpenContext context) {
-        timer = new OneTimer(getRuntimeContext());
+        timer = new SingleTimer(getRuntimeContext());
         course = getRuntimeContext().getState(new ValueStateDescriptor<>("course", SteadyState.class));
     }
 

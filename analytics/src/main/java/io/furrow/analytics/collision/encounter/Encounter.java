@@ -1,6 +1,6 @@
 package io.furrow.analytics.collision.encounter;
 
-import io.furrow.analytics.eventtime.Timed;
+import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.record.Epochs;
 
@@ -22,7 +22,7 @@ public record Encounter(
         double minDistance,
         long startTime,
         long time)
-        implements Timed {
+        implements HasEventTime {
 
     /**
      * The pair and the start: a second skip the same events names its encounters the same, another epoch of a replay does

@@ -21,62 +21,62 @@ public final class EncounterTracker implements Serializable {
     }
 
     /**
-     * What a pair's sightings come to.
+     * What a pair's observations come to.
      *
-     * @param meeting null while the pair is not close
+     * @param encounter null while the pair is not close
      * @param violations instants that no grid could have brought about
      */
-    public record Followed(OpenEncounter meeting, int violations) {}
+    public record Followed(OpenEncounter encounter, int violations) {}
 
     /**
-     * Follows a pair through its sightings.
+     * Follows a pair through its observations.
      *
      * @param before null while the pair is not close
-     * @param sightings in the order of {@link PairObservation#SEQUENCE}
+     * @param observations in the order of {@link PairObservation#SEQUENCE}
      * @param out takes the records in the order of time
      */
-    public Followed follow(OpenEncounter before, List<PairObservation> sightings, Consumer<Encounter> out) {
-        OpenEncounter meeting = before;
+    public Followed follow(OpenEncounter before, List<PairObservation> observations, Consumer<Encounter> out) {
+        OpenEncounter encounter = before;
         int violations = 0;
         int from = 0;
-        while (from < sightings.size()) {
-            long time = sightings.get(from).time();
+        while (from < observations.size()) {
+            long time = observations.get(from).time();
             int to = from;
-            int close = meeting != null ? 1 : 0;
+            int close = encounter != null ? 1 : 0;
             PairObservation here = null;
             PairObservation gone = null;
-            for (; to < sightings.size() && sightings.get(to).time() == time; to++) {
-                PairObservation sighting = sightings.get(to);
-                close += sighting.change();
-                here = sighting.change() >= 0 ? sighting : here;
-                gone = sighting.change() < 0 ? sighting : gone;
+            for (; to < observations.size() && observations.get(to).time() == time; to++) {
+                PairObservation observation = observations.get(to);
+                close += observation.change();
+                here = observation.change() >= 0 ? observation : here;
+                gone = observation.change() < 0 ? observation : gone;
             }
             violations += close == (here == null ? 0 : 1) ? 0 : 1;
-            meeting = here != null ? seen(meeting, here, out) : ended(meeting, gone, out);
+            encounter = here != null ? seen(encounter, here, out) : ended(encounter, gone, out);
             from = to;
         }
-        return new Followed(meeting, violations);
+        return new Followed(encounter, violations);
     }
 
-    private OpenEncounter seen(OpenEncounter known, PairObservation sighting, Consumer<Encounter> out) {
-        double distance = Geodesy.distance(sighting.first(), sighting.second());
+    private OpenEncounter seen(OpenEncounter known, PairObservation observation, Consumer<Encounter> out) {
+        double distance = Geodesy.distance(observation.first(), observation.second());
         if (known == null) {
-            OpenEncounter meeting =
-                    new OpenEncounter(sighting.time(), distance, sighting.time(), sighting.first(), sighting.second());
-            out.accept(encounter(Phase.STARTED, meeting, sighting, distance));
-            return meeting;
+            OpenEncounter encounter = new OpenEncounter(
+                    observation.time(), distance, observation.time(), observation.first(), observation.second());
+            out.accept(encounter(Phase.STARTED, encounter, observation, distance));
+            return encounter;
         }
-        boolean report = sighting.time() - known.reported() >= ongoingEvery;
-        OpenEncounter meeting = new OpenEncounter(
+        boolean report = observation.time() - known.reported() >= ongoingEvery;
+        OpenEncounter encounter = new OpenEncounter(
                 known.startTime(),
                 Math.min(known.minDistance(), distance),
-                report ? sighting.time() : known.reported(),
-                sighting.first(),
-                sighting.second());
+                report ? observation.time() : known.reported(),
+                observation.first(),
+                observation.second());
         if (report) {
-            out.accept(encounter(Phase.ONGOING, meeting, sighting, distance));
+            out.accept(encounter(Phase.ONGOING, encounter, observation, distance));
         }
-        return meeting;
+        return encounter;
     }
 
     private static OpenEncounter ended(OpenEncounter known, PairObservation gone, Consumer<Encounter> out) {
@@ -93,14 +93,15 @@ public final class EncounterTracker implements Serializable {
         return encounter(Phase.ENDED, open, last, Geodesy.distance(open.first(), open.second()));
     }
 
-    private static Encounter encounter(Phase phase, OpenEncounter meeting, PairObservation sighting, double distance) {
+    private static Encounter encounter(
+            Phase phase, OpenEncounter encounter, PairObservation observation, double distance) {
         return new Encounter(
                 phase,
-                sighting.first(),
-                sighting.second(),
+                observation.first(),
+                observation.second(),
                 distance,
-                meeting.minDistance(),
-                meeting.startTime(),
-                sighting.time());
+                encounter.minDistance(),
+                encounter.startTime(),
+                observation.time());
     }
 }

@@ -6,10 +6,10 @@ import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
 import io.furrow.analytics.position.PositionFixSerializer;
-import io.furrow.flink.format.Format;
+import io.furrow.flink.format.VersionedSerializer;
 
 /** How a {@link OpenEncounter} is written. */
-public final class OpenEncounterSerializer extends Format<OpenEncounter> {
+public final class OpenEncounterSerializer extends VersionedSerializer<OpenEncounter> {
     private static final long serialVersionUID = 1L;
     /** Start, closest distance, newest report, both fixes as parts. */
     private static final int VERSION = 2;
@@ -25,12 +25,12 @@ public final class OpenEncounterSerializer extends Format<OpenEncounter> {
     }
 
     @Override
-    public void write(OpenEncounter meeting, DataOutputView out) throws IOException {
-        out.writeLong(meeting.startTime());
-        out.writeDouble(meeting.minDistance());
-        out.writeLong(meeting.reported());
-        PositionFixSerializer.INSTANCE.writePart(meeting.first(), out);
-        PositionFixSerializer.INSTANCE.writePart(meeting.second(), out);
+    public void write(OpenEncounter encounter, DataOutputView out) throws IOException {
+        out.writeLong(encounter.startTime());
+        out.writeDouble(encounter.minDistance());
+        out.writeLong(encounter.reported());
+        PositionFixSerializer.INSTANCE.writePart(encounter.first(), out);
+        PositionFixSerializer.INSTANCE.writePart(encounter.second(), out);
     }
 
     @Override

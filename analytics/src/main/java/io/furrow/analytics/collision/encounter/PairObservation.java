@@ -4,7 +4,7 @@ import java.util.Comparator;
 
 import org.apache.flink.api.common.typeinfo.TypeInfo;
 
-import io.furrow.analytics.eventtime.Timed;
+import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.PositionFix;
 
 /**
@@ -16,7 +16,7 @@ import io.furrow.analytics.position.PositionFix;
  * @param change +1 close in this cell from now on, −1 no more, 0 still
  */
 @TypeInfo(PairObservationSerializer.class)
-public record PairObservation(PositionFix first, PositionFix second, long time, int change) implements Timed {
+public record PairObservation(PositionFix first, PositionFix second, long time, int change) implements HasEventTime {
     public static final Comparator<PairObservation> SEQUENCE = Comparator.comparingLong(PairObservation::time);
 
     public static PairObservation of(PositionFix one, PositionFix other, long time, int change) {

@@ -6,10 +6,10 @@ import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
 import io.furrow.analytics.position.PositionFixSerializer;
-import io.furrow.flink.format.Format;
+import io.furrow.flink.format.VersionedSerializer;
 
 /** How a {@link PairObservation} is written. */
-public final class PairObservationSerializer extends Format<PairObservation> {
+public final class PairObservationSerializer extends VersionedSerializer<PairObservation> {
     private static final long serialVersionUID = 1L;
     /** Both fixes as parts, time, change. */
     private static final int VERSION = 2;
@@ -25,11 +25,11 @@ public final class PairObservationSerializer extends Format<PairObservation> {
     }
 
     @Override
-    public void write(PairObservation sighting, DataOutputView out) throws IOException {
-        PositionFixSerializer.INSTANCE.writePart(sighting.first(), out);
-        PositionFixSerializer.INSTANCE.writePart(sighting.second(), out);
-        out.writeLong(sighting.time());
-        out.writeByte(sighting.change());
+    public void write(PairObservation observation, DataOutputView out) throws IOException {
+        PositionFixSerializer.INSTANCE.writePart(observation.first(), out);
+        PositionFixSerializer.INSTANCE.writePart(observation.second(), out);
+        out.writeLong(observation.time());
+        out.writeByte(observation.change());
     }
 
     @Override

@@ -5,11 +5,11 @@ import java.io.IOException;
 import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
-import io.furrow.flink.format.Format;
-import io.furrow.flink.format.Text;
+import io.furrow.flink.format.StringCodec;
+import io.furrow.flink.format.VersionedSerializer;
 
 /** How a {@link Pair} is written. */
-public final class PairSerializer extends Format<Pair> {
+public final class PairSerializer extends VersionedSerializer<Pair> {
 
     private static final long serialVersionUID = 1L;
     /** Topic, identities of the first and the second. */
@@ -27,9 +27,9 @@ public final class PairSerializer extends Format<Pair> {
 
     @Override
     public void write(Pair pair, DataOutputView out) throws IOException {
-        Text.write(pair.topic(), out);
-        Text.write(pair.first(), out);
-        Text.write(pair.second(), out);
+        StringCodec.write(pair.topic(), out);
+        StringCodec.write(pair.first(), out);
+        StringCodec.write(pair.second(), out);
     }
 
     @Override
@@ -37,6 +37,6 @@ public final class PairSerializer extends Format<Pair> {
         if (version != VERSION) {
             throw unknown(version);
         }
-        return new Pair(Text.read(in), Text.read(in), Text.read(in));
+        return new Pair(StringCodec.read(in), StringCodec.read(in), StringCodec.read(in));
     }
 }

@@ -1,9 +1,9 @@
 package io.furrow.analytics.collision.encounter;
 
-import io.furrow.analytics.eventtime.PendingFormat;
+import io.furrow.analytics.eventtime.KeyStateSerializer;
 
 /** What waits and is remembered of a pair. */
-public final class PendingObservationsSerializer extends PendingFormat<PairObservation, OpenEncounter> {
+public final class PendingObservationsSerializer extends KeyStateSerializer<PairObservation, OpenEncounter> {
     private static final long serialVersionUID = 1L;
 
     public PendingObservationsSerializer() {

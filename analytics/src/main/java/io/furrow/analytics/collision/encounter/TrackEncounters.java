@@ -15,7 +15,7 @@ import io.furrow.analytics.eventtime.EventTimeOperator;
 /**
  * Emits the life cycle of each encounter: started, ongoing, ended. Key: the pair.
  *
- * <p><b>State</b>: sightings that wait for the watermark; start, closest distance and newest report of an encounter.
+ * <p><b>State</b>: observations that wait for the watermark; start, closest distance and newest report of an encounter.
  *
  * <p><b>Cleared</b>: when the encounter has ended and no sighting waits. Where restored with other rules, each encounter ends at its
  * newest position.
@@ -28,7 +28,7 @@ import io.furrow.analytics.eventtime.EventTimeOperator;
 public final class TrackEncounters extends EventTimeOperator<Pair, PairObservation, OpenEncounter, Encounter> {
     private static final long serialVersionUID = 1L;
 
-    private final EncounterTracker follower;
+    private final EncounterTracker tracker;
     private final CollisionRules rules;
 
     private transient RestoredRules restored;
@@ -37,7 +37,7 @@ public final class TrackEncounters extends EventTimeOperator<Pair, PairObservati
     public TrackEncounters(CollisionRules rules) {
         super(new PendingObservationsSerializer());
         this.rules = rules.exact();
-        follower = new EncounterTracker(this.rules);
+        tracker = new EncounterTracker(this.rules);
     }
 
     @Override
@@ -69,8 +69,8 @@ public final class TrackEncounters extends EventTimeOperator<Pair, PairObservati
     @Override
     protected OpenEncounter apply(
             Pair pair, OpenEncounter before, List<PairObservation> due, long until, Collector<Encounter> out) {
-        EncounterTracker.Followed followed = follower.follow(before, due, out::collect);
+        EncounterTracker.Followed followed = tracker.follow(before, due, out::collect);
         violations.inc(followed.violations());
-        return followed.meeting();
+        return followed.encounter();
     }
 }

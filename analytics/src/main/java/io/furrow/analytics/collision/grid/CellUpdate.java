@@ -4,7 +4,7 @@ import java.util.Comparator;
 
 import org.apache.flink.api.common.typeinfo.TypeInfo;
 
-import io.furrow.analytics.eventtime.Timed;
+import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.PositionFix;
 
 /**
@@ -12,11 +12,11 @@ import io.furrow.analytics.position.PositionFix;
  *
  * @param cell id of the cell
  * @param time when, in epoch milliseconds
- * @param presence what the device is to the cell from then on
- * @param fix where it is from then on; where {@link Presence#GONE}, its last position in the cell
+ * @param cellPresence what the device is to the cell from then on
+ * @param fix where it is from then on; where {@link CellPresence#GONE}, its last position in the cell
  */
 @TypeInfo(CellUpdateSerializer.class)
-public record CellUpdate(long cell, long time, Presence presence, PositionFix fix) implements Timed {
+public record CellUpdate(long cell, long time, CellPresence cellPresence, PositionFix fix) implements HasEventTime {
     public static final Comparator<CellUpdate> SEQUENCE = Comparator.comparingLong(CellUpdate::time)
             .thenComparing(update -> update.fix().identity());
 }

@@ -6,10 +6,10 @@ import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
 import io.furrow.analytics.position.PositionFixSerializer;
-import io.furrow.flink.format.Format;
+import io.furrow.flink.format.VersionedSerializer;
 
 /** How a {@link CellUpdate} is written. */
-public final class CellUpdateSerializer extends Format<CellUpdate> {
+public final class CellUpdateSerializer extends VersionedSerializer<CellUpdate> {
     private static final long serialVersionUID = 1L;
     /** Cell, time, code of the presence, fix as a part. */
     private static final int VERSION = 2;
@@ -28,7 +28,7 @@ public final class CellUpdateSerializer extends Format<CellUpdate> {
     public void write(CellUpdate cellUpdate, DataOutputView out) throws IOException {
         out.writeLong(cellUpdate.cell());
         out.writeLong(cellUpdate.time());
-        out.writeByte(cellUpdate.presence().code());
+        out.writeByte(cellUpdate.cellPresence().code());
         PositionFixSerializer.INSTANCE.writePart(cellUpdate.fix(), out);
     }
 
@@ -38,6 +38,9 @@ public final class CellUpdateSerializer extends Format<CellUpdate> {
             throw unknown(version);
         }
         return new CellUpdate(
-                in.readLong(), in.readLong(), Presence.of(in.readByte()), PositionFixSerializer.INSTANCE.readPart(in));
+                in.readLong(),
+                in.readLong(),
+                CellPresence.of(in.readByte()),
+                PositionFixSerializer.INSTANCE.readPart(in));
     }
 }

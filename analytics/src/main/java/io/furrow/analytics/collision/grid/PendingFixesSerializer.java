@@ -1,11 +1,11 @@
 package io.furrow.analytics.collision.grid;
 
-import io.furrow.analytics.eventtime.PendingFormat;
+import io.furrow.analytics.eventtime.KeyStateSerializer;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.position.PositionFixSerializer;
 
 /** What waits and is remembered of a device. */
-public final class PendingFixesSerializer extends PendingFormat<PositionFix, Track> {
+public final class PendingFixesSerializer extends KeyStateSerializer<PositionFix, Track> {
     private static final long serialVersionUID = 1L;
 
     public PendingFixesSerializer() {

@@ -17,7 +17,7 @@ import io.furrow.analytics.collision.rules.RestoredRules;
 import io.furrow.analytics.eventtime.EventTimeOperator;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.time.EventTimeReached;
+import io.furrow.flink.time.EventTimeProgress;
 
 /**
  * Puts each device into the grid cells that have to know of it. Key: the device.
@@ -51,7 +51,7 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
     private final CollisionRules rules;
 
     private transient RestoredRules restored;
-    private transient EventTimeReached reached;
+    private transient EventTimeProgress reached;
     private transient Counter accepted;
     private transient Counter late;
     private transient Counter crowdedOut;
@@ -70,7 +70,7 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
     @Override
     public void initializeState(StateInitializationContext context) throws Exception {
         super.initializeState(context);
-        reached = EventTimeReached.restore(
+        reached = EventTimeProgress.restore(
                 context.getOperatorStateStore(), getRuntimeContext().getTaskInfo());
         restored = RestoredRules.of(context.getOperatorStateStore(), rules);
     }

@@ -7,10 +7,10 @@ import org.apache.flink.core.memory.DataOutputView;
 
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.position.PositionFixSerializer;
-import io.furrow.flink.format.Format;
+import io.furrow.flink.format.VersionedSerializer;
 
 /** How a {@link Track} is written. */
-public final class TrackSerializer extends Format<Track> {
+public final class TrackSerializer extends VersionedSerializer<Track> {
     private static final long serialVersionUID = 1L;
     /** The fix as a part, number of cells, cells. */
     private static final int VERSION = 2;

@@ -56,7 +56,7 @@ public final class Tracker implements Serializable {
 
     private static void leave(Track track, long time, Consumer<CellUpdate> out) {
         for (long cell : track.cells()) {
-            out.accept(new CellUpdate(cell, time, Presence.GONE, track.last()));
+            out.accept(new CellUpdate(cell, time, CellPresence.GONE, track.last()));
         }
     }
 
@@ -70,12 +70,12 @@ public final class Tracker implements Serializable {
         long[] cells = excluded ? NO_CELLS : grid.cells(fix.latitude(), fix.longitude());
         for (long left : track == null ? NO_CELLS : track.cells()) {
             if (!contains(cells, left)) {
-                out.accept(new CellUpdate(left, fix.time(), Presence.GONE, track.last()));
+                out.accept(new CellUpdate(left, fix.time(), CellPresence.GONE, track.last()));
             }
         }
         for (int i = 0; i < cells.length; i++) {
-            Presence presence = i == 0 ? Presence.RESIDENT : Presence.HALO;
-            out.accept(new CellUpdate(cells[i], fix.time(), presence, fix));
+            CellPresence cellPresence = i == 0 ? CellPresence.RESIDENT : CellPresence.HALO;
+            out.accept(new CellUpdate(cells[i], fix.time(), cellPresence, fix));
         }
         return new Track(fix, cells);
     }

@@ -50,41 +50,41 @@ public final class Cell {
         return members.size();
     }
 
-    Collection<Member> members() {
+    Collection<CellEntry> members() {
         return members.all();
     }
 
     /** Only before the first updates are applied. */
-    void put(Member member) {
-        crowded += member.shortlist() == null ? 0 : 1;
-        members.add(member);
+    void put(CellEntry cellEntry) {
+        crowded += cellEntry.shortlist() == null ? 0 : 1;
+        members.add(cellEntry);
     }
 
     /** Adds all others to {@code near} that are near a member, at home or not. */
-    void near(Member member, Proximity proximity, List<Member> near) {
+    void near(CellEntry cellEntry, Proximity proximity, List<CellEntry> near) {
         prepare(proximity);
-        members.near(member, proximity, near);
+        members.near(cellEntry, proximity, near);
     }
 
     /**
      * Applies updates instant by instant and emits what that means for pairs.
      *
      * @param updates in the order of {@link CellUpdate#SEQUENCE}, at most one per device and instant
-     * @param out takes the sightings; their order within an instant has no meaning
+     * @param out takes the observations; their order within an instant has no meaning
      */
-    public void apply(List<CellUpdate> updates, Matching matching, Consumer<PairObservation> out) {
+    public void apply(List<CellUpdate> updates, PairSelection pairSelection, Consumer<PairObservation> out) {
         int from = 0;
         while (from < updates.size()) {
             int to = endOfInstant(updates, from);
-            applyAtOnce(updates.subList(from, to), matching, out);
+            applyAtOnce(updates.subList(from, to), pairSelection, out);
             from = to;
         }
     }
 
     /** Applies the updates of one instant. */
-    void applyAtOnce(List<CellUpdate> updates, Matching matching, Consumer<PairObservation> out) {
-        prepare(matching.proximity());
-        putIn(takeOut(updates, matching), matching, updates.get(0).time(), out);
+    void applyAtOnce(List<CellUpdate> updates, PairSelection pairSelection, Consumer<PairObservation> out) {
+        prepare(pairSelection.proximity());
+        putIn(takeOut(updates, pairSelection), pairSelection, updates.get(0).time(), out);
     }
 
     /** The first update of a later instant than that of the given one. */
@@ -99,7 +99,7 @@ public final class Cell {
 
     private void prepare(Proximity proximity) {
         if (members.reach() != proximity.reach()) {
-            List<Member> known = members.all();
+            List<CellEntry> known = members.all();
             members = new CellIndex(proximity.reach());
             known.forEach(members::add);
         }
@@ -109,95 +109,96 @@ public final class Cell {
      * A pair whose devices both change is seen once, by the one that comes first in the updates: it leaves before the other,
      * whom it still meets.
      */
-    private List<Change> takeOut(List<CellUpdate> updates, Matching matching) {
-        List<Change> changes = new ArrayList<>(updates.size());
+    private List<CellChange> takeOut(List<CellUpdate> updates, PairSelection pairSelection) {
+        List<CellChange> changes = new ArrayList<>(updates.size());
         for (CellUpdate update : updates) {
-            Member before = members.remove(update.fix());
-            List<Member> partners = new ArrayList<>();
+            CellEntry before = members.remove(update.fix());
+            List<CellEntry> partners = new ArrayList<>();
             if (before != null) {
                 crowded -= before.shortlist() == null ? 0 : 1;
-                members.partners(before, matching.proximity(), partners);
+                members.partners(before, pairSelection.proximity(), partners);
             }
-            changes.add(new Change(changes.size(), before, memberOf(update), partners));
+            changes.add(new CellChange(changes.size(), before, memberOf(update), partners));
         }
         return changes;
     }
 
-    private void putIn(List<Change> changes, Matching matching, long time, Consumer<PairObservation> out) {
-        List<Member> near = new ArrayList<>();
-        for (Change change : changes) {
-            if (change.after() != null) {
-                members.add(change.after());
-                change.after().change(change);
+    private void putIn(
+            List<CellChange> changes, PairSelection pairSelection, long time, Consumer<PairObservation> out) {
+        List<CellEntry> near = new ArrayList<>();
+        for (CellChange cellChange : changes) {
+            if (cellChange.after() != null) {
+                members.add(cellChange.after());
+                cellChange.after().change(cellChange);
             }
         }
-        boolean canCrowd = matching.canCrowd(members.size());
+        boolean canCrowd = pairSelection.canCrowd(members.size());
         boolean alone = changes.size() == 1;
-        for (Change change : canCrowd && !alone ? changes : List.<Change>of()) {
-            look(change, matching, near);
-            makeShortlist(change, matching, near);
+        for (CellChange cellChange : canCrowd && !alone ? changes : List.<CellChange>of()) {
+            look(cellChange, pairSelection, near);
+            makeShortlist(cellChange, pairSelection, near);
             near.clear();
         }
-        for (Change change : changes) {
-            look(change, matching, near);
+        for (CellChange cellChange : changes) {
+            look(cellChange, pairSelection, near);
             if (canCrowd && alone) { // one look is enough
-                makeShortlist(change, matching, near);
+                makeShortlist(cellChange, pairSelection, near);
             }
-            compare(change, near, time, out);
+            compare(cellChange, near, time, out);
             near.clear();
         }
-        for (Change change : changes) {
-            if (change.after() != null) {
-                change.after().change(null);
+        for (CellChange cellChange : changes) {
+            if (cellChange.after() != null) {
+                cellChange.after().change(null);
             }
         }
     }
 
-    private void look(Change change, Matching matching, List<Member> near) {
-        if (change.after() != null) {
-            members.near(change.after(), matching.proximity(), near);
+    private void look(CellChange cellChange, PairSelection pairSelection, List<CellEntry> near) {
+        if (cellChange.after() != null) {
+            members.near(cellChange.after(), pairSelection.proximity(), near);
         }
     }
 
     /** By what was before the instant and where all are now. */
-    private void makeShortlist(Change change, Matching matching, List<Member> near) {
-        if (change.after() != null) {
-            Shortlist shortlist = matching.shortlist(change.before(), change.after(), near);
-            change.after().shortlist(shortlist);
-            crowded += shortlist == null ? 0 : 1;
+    private void makeShortlist(CellChange cellChange, PairSelection pairSelection, List<CellEntry> near) {
+        if (cellChange.after() != null) {
+            NearestNeighbors nearestNeighbors = pairSelection.shortlist(cellChange.before(), cellChange.after(), near);
+            cellChange.after().shortlist(nearestNeighbors);
+            crowded += nearestNeighbors == null ? 0 : 1;
         }
     }
 
     /** Takes a step per partner of before and of now: partners of before are marked, so that nobody has to be looked for. */
-    private static void compare(Change change, List<Member> near, long time, Consumer<PairObservation> out) {
-        for (Member partner : change.partners()) {
-            partner.partnerOf(change);
+    private static void compare(CellChange cellChange, List<CellEntry> near, long time, Consumer<PairObservation> out) {
+        for (CellEntry partner : cellChange.partners()) {
+            partner.partnerOf(cellChange);
         }
-        for (Member other : near) {
-            if (change.comesAfterThatOf(other)
-                    || !Matching.meet(change.after(), other)
-                    || !Matching.follows(change.after(), other)) {
+        for (CellEntry other : near) {
+            if (cellChange.comesAfterThatOf(other)
+                    || !PairSelection.meet(cellChange.after(), other)
+                    || !PairSelection.follows(cellChange.after(), other)) {
                 continue;
             }
-            Member was = other.change() == null ? other : other.change().before();
-            boolean wasPartner = was != null && was.partnerOf() == change;
+            CellEntry was = other.change() == null ? other : other.change().before();
+            boolean wasPartner = was != null && was.partnerOf() == cellChange;
             if (wasPartner) {
                 was.partnerOf(null);
             }
-            out.accept(PairObservation.of(change.after().fix(), other.fix(), time, wasPartner ? 0 : 1));
+            out.accept(PairObservation.of(cellChange.after().fix(), other.fix(), time, wasPartner ? 0 : 1));
         }
-        for (Member partner : change.partners()) {
-            if (partner.partnerOf() == change) {
+        for (CellEntry partner : cellChange.partners()) {
+            if (partner.partnerOf() == cellChange) {
                 partner.partnerOf(null);
-                out.accept(PairObservation.of(change.before().fix(), partner.fix(), time, -1));
+                out.accept(PairObservation.of(cellChange.before().fix(), partner.fix(), time, -1));
             }
         }
     }
 
-    private static Member memberOf(CellUpdate update) {
-        return switch (update.presence()) {
-            case RESIDENT -> Member.of(update.fix(), true);
-            case HALO -> Member.of(update.fix(), false);
+    private static CellEntry memberOf(CellUpdate update) {
+        return switch (update.cellPresence()) {
+            case RESIDENT -> CellEntry.of(update.fix(), true);
+            case HALO -> CellEntry.of(update.fix(), false);
             case GONE -> null;
         };
     }

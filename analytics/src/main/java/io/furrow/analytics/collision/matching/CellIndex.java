@@ -27,7 +27,7 @@ final class CellIndex {
     private Axes axes;
     private int size;
 
-    private Member[] members = new Member[MIN];
+    private CellEntry[] members = new CellEntry[MIN];
     private double[] coordinates = new double[3 * MIN];
     private long[] squares = new long[MIN];
     private int[] names = new int[MIN];
@@ -58,23 +58,23 @@ final class CellIndex {
         return size;
     }
 
-    List<Member> all() {
+    List<CellEntry> all() {
         return List.of(Arrays.copyOf(members, size));
     }
 
     /** A device that is not there. */
-    void add(Member member) {
+    void add(CellEntry cellEntry) {
         if (axes == null) {
-            axes = flattest(member);
+            axes = flattest(cellEntry);
         }
         if (size == members.length) {
             grow();
         }
-        set(size++, member, square(index(u(member)), index(v(member))));
+        set(size++, cellEntry, square(index(u(cellEntry)), index(v(cellEntry))));
     }
 
     /** Takes a device out; null if it is not there. */
-    Member remove(PositionFix device) {
+    CellEntry remove(PositionFix device) {
         int name = device.identity().hashCode();
         int number = firstOfName[slot(name, firstOfName)];
         while (number != NONE
@@ -84,11 +84,11 @@ final class CellIndex {
         if (number == NONE) {
             return null;
         }
-        Member removed = members[number];
+        CellEntry removed = members[number];
         unlink(number);
         size--;
         if (number != size) { // the last takes its number
-            Member last = members[size];
+            CellEntry last = members[size];
             unlink(size);
             set(number, last, squares[size]);
         }
@@ -97,53 +97,55 @@ final class CellIndex {
     }
 
     /** Adds all others to {@code near} that are close to a member, halo copies of a halo copy too. */
-    void near(Member member, Proximity proximity, List<Member> near) {
-        find(member, proximity, false, near);
+    void near(CellEntry cellEntry, Proximity proximity, List<CellEntry> near) {
+        find(cellEntry, proximity, false, near);
     }
 
     /** Adds all to {@code partners} with whom a member has an encounter; in a crowd few of those that are close. */
-    void partners(Member member, Proximity proximity, List<Member> partners) {
-        find(member, proximity, true, partners);
+    void partners(CellEntry cellEntry, Proximity proximity, List<CellEntry> partners) {
+        find(cellEntry, proximity, true, partners);
     }
 
-    private void find(Member member, Proximity proximity, boolean followed, List<Member> found) {
+    private void find(CellEntry cellEntry, Proximity proximity, boolean followed, List<CellEntry> found) {
         if (size == 0) {
             return;
         }
-        double u = u(member);
-        double v = v(member);
+        double u = u(cellEntry);
+        double v = v(cellEntry);
         int lastU = index(u + margin);
         int lastV = index(v + margin);
         for (int i = index(u - margin); i <= lastU; i++) {
             for (int j = index(v - margin); j <= lastV; j++) {
-                find(member, square(i, j), proximity, followed, found);
+                find(cellEntry, square(i, j), proximity, followed, found);
             }
         }
     }
 
-    private void find(Member member, long square, Proximity proximity, boolean followed, List<Member> found) {
+    private void find(CellEntry cellEntry, long square, Proximity proximity, boolean followed, List<CellEntry> found) {
         double limit = reach * reach;
         for (int n = firstInSquare[slot(square, firstInSquare)]; n != NONE; n = nextInSquare[n]) {
             if (squares[n] == square
-                    && Geodesy.square(member.x() - coordinates[3 * n])
-                                    + Geodesy.square(member.y() - coordinates[3 * n + 1])
-                                    + Geodesy.square(member.z() - coordinates[3 * n + 2])
+                    && Geodesy.square(cellEntry.x() - coordinates[3 * n])
+                                    + Geodesy.square(cellEntry.y() - coordinates[3 * n + 1])
+                                    + Geodesy.square(cellEntry.z() - coordinates[3 * n + 2])
                             <= limit
-                    && (!followed || Matching.meet(member, members[n]) && Matching.follows(member, members[n]))
-                    && proximity.near(member, members[n])
-                    && members[n] != member) {
+                    && (!followed
+                            || PairSelection.meet(cellEntry, members[n])
+                                    && PairSelection.follows(cellEntry, members[n]))
+                    && proximity.near(cellEntry, members[n])
+                    && members[n] != cellEntry) {
                 found.add(members[n]);
             }
         }
     }
 
-    private void set(int number, Member member, long square) {
-        members[number] = member;
-        coordinates[3 * number] = member.x();
-        coordinates[3 * number + 1] = member.y();
-        coordinates[3 * number + 2] = member.z();
+    private void set(int number, CellEntry cellEntry, long square) {
+        members[number] = cellEntry;
+        coordinates[3 * number] = cellEntry.x();
+        coordinates[3 * number + 1] = cellEntry.y();
+        coordinates[3 * number + 2] = cellEntry.z();
         squares[number] = square;
-        names[number] = member.fix().identity().hashCode();
+        names[number] = cellEntry.fix().identity().hashCode();
         link(number);
     }
 
@@ -194,19 +196,19 @@ final class CellIndex {
         return empty;
     }
 
-    private static Axes flattest(Member member) {
-        double x = Math.abs(member.x());
-        double y = Math.abs(member.y());
-        double z = Math.abs(member.z());
+    private static Axes flattest(CellEntry cellEntry) {
+        double x = Math.abs(cellEntry.x());
+        double y = Math.abs(cellEntry.y());
+        double z = Math.abs(cellEntry.z());
         return x >= y && x >= z ? Axes.YZ : y >= z ? Axes.XZ : Axes.XY;
     }
 
-    private double u(Member member) {
-        return axes == Axes.YZ ? member.y() : member.x();
+    private double u(CellEntry cellEntry) {
+        return axes == Axes.YZ ? cellEntry.y() : cellEntry.x();
     }
 
-    private double v(Member member) {
-        return axes == Axes.XY ? member.y() : member.z();
+    private double v(CellEntry cellEntry) {
+        return axes == Axes.XY ? cellEntry.y() : cellEntry.z();
     }
 
     private int index(double coordinate) {

@@ -8,11 +8,11 @@ import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
 import io.furrow.analytics.position.PositionFixSerializer;
-import io.furrow.flink.format.Format;
-import io.furrow.flink.format.Text;
+import io.furrow.flink.format.StringCodec;
+import io.furrow.flink.format.VersionedSerializer;
 
 /** How a {@link Cell} is written. */
-public final class CellSerializer extends Format<Cell> {
+public final class CellSerializer extends VersionedSerializer<Cell> {
     private static final long serialVersionUID = 1L;
     /**
      * Number of members; of each a byte of {@link #RESIDENT} and {@link #SHORTLIST}, the fix as a part, and its shortlist; whether
@@ -36,11 +36,11 @@ public final class CellSerializer extends Format<Cell> {
     @Override
     public void write(Cell cell, DataOutputView out) throws IOException {
         out.writeInt(cell.members().size());
-        for (Member member : cell.members()) {
-            out.writeByte((member.resident() ? RESIDENT : 0) | (member.shortlist() == null ? 0 : SHORTLIST));
-            PositionFixSerializer.INSTANCE.writePart(member.fix(), out);
-            if (member.shortlist() != null) {
-                write(member.shortlist(), out);
+        for (CellEntry cellEntry : cell.members()) {
+            out.writeByte((cellEntry.resident() ? RESIDENT : 0) | (cellEntry.shortlist() == null ? 0 : SHORTLIST));
+            PositionFixSerializer.INSTANCE.writePart(cellEntry.fix(), out);
+            if (cellEntry.shortlist() != null) {
+                write(cellEntry.shortlist(), out);
             }
         }
         out.writeBoolean(cell.report() != null);
@@ -51,19 +51,19 @@ public final class CellSerializer extends Format<Cell> {
         }
     }
 
-    public static void write(Shortlist list, DataOutputView out) throws IOException {
+    public static void write(NearestNeighbors list, DataOutputView out) throws IOException {
         out.writeInt(list.identities().size());
         for (String identity : list.identities()) {
-            Text.write(identity, out);
+            StringCodec.write(identity, out);
         }
     }
 
-    public static Shortlist readShortlist(DataInputView in) throws IOException {
+    public static NearestNeighbors readShortlist(DataInputView in) throws IOException {
         List<String> identities = new ArrayList<>();
         for (int left = in.readInt(); left > 0; left--) {
-            identities.add(Text.read(in));
+            identities.add(StringCodec.read(in));
         }
-        return new Shortlist(identities);
+        return new NearestNeighbors(identities);
     }
 
     @Override
@@ -74,11 +74,11 @@ public final class CellSerializer extends Format<Cell> {
         Cell cell = Cell.empty();
         for (int left = in.readInt(); left > 0; left--) {
             int flags = in.readByte();
-            Member member = Member.of(PositionFixSerializer.INSTANCE.readPart(in), (flags & RESIDENT) != 0);
+            CellEntry cellEntry = CellEntry.of(PositionFixSerializer.INSTANCE.readPart(in), (flags & RESIDENT) != 0);
             if ((flags & SHORTLIST) != 0) {
-                member.shortlist(readShortlist(in));
+                cellEntry.shortlist(readShortlist(in));
             }
-            cell.put(member);
+            cell.put(cellEntry);
         }
         if (in.readBoolean()) {
             cell.report(new CrowdReport(in.readLong(), in.readBoolean(), PositionFixSerializer.INSTANCE.readPart(in)));
@@ -89,7 +89,7 @@ public final class CellSerializer extends Format<Cell> {
     @Override
     public Cell copy(Cell cell) {
         Cell copy = Cell.empty();
-        cell.members().forEach(member -> copy.put(member.copy()));
+        cell.members().forEach(cellEntry -> copy.put(cellEntry.copy()));
         copy.report(cell.report());
         return copy;
     }

@@ -39,7 +39,7 @@ public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, 
 
     private static final long serialVersionUID = 1L;
 
-    private final Matching matching;
+    private final PairSelection pairSelection;
     private final ReportCrowds crowds;
 
     private final CollisionRules rules;
@@ -51,8 +51,8 @@ public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, 
     public MatchPairs(CollisionRules rules) {
         super(new PendingUpdatesSerializer());
         this.rules = rules.exact();
-        matching = new Matching(this.rules);
-        crowds = new ReportCrowds(matching, new Grid(this.rules));
+        pairSelection = new PairSelection(this.rules);
+        crowds = new ReportCrowds(pairSelection, new Grid(this.rules));
     }
 
     @Override
@@ -87,7 +87,7 @@ public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, 
             int to = Cell.endOfInstant(due, from);
             long time = due.get(from).time();
             crowds.advance(id, now, time - 1, overflows);
-            now.applyAtOnce(due.subList(from, to), matching, out::collect);
+            now.applyAtOnce(due.subList(from, to), pairSelection, out::collect);
             crowds.applied(id, now, time, overflows);
             from = to;
         }

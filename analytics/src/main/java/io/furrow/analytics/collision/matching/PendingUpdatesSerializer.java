@@ -2,10 +2,10 @@ package io.furrow.analytics.collision.matching;
 
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.CellUpdateSerializer;
-import io.furrow.analytics.eventtime.PendingFormat;
+import io.furrow.analytics.eventtime.KeyStateSerializer;
 
 /** What waits for a grid cell and is remembered of it. */
-public final class PendingUpdatesSerializer extends PendingFormat<CellUpdate, Cell> {
+public final class PendingUpdatesSerializer extends KeyStateSerializer<CellUpdate, Cell> {
     private static final long serialVersionUID = 1L;
 
     public PendingUpdatesSerializer() {

@@ -47,12 +47,12 @@ public final class Proximity implements Serializable {
     }
 
     /** Two halo copies are not compared here: they meet in a cell where one of them is at home. */
-    public boolean holds(Member a, Member b) {
-        return Matching.meet(a, b) && near(a, b);
+    public boolean holds(CellEntry a, CellEntry b) {
+        return PairSelection.meet(a, b) && near(a, b);
     }
 
     /** Whether two devices are close, wherever they are at home. */
-    boolean near(Member a, Member b) {
+    boolean near(CellEntry a, CellEntry b) {
         double squaredChord = squaredChord(a, b);
         return squaredChord <= greatest.surelyApart
                 && within(limit(a.fix().type(), b.fix().type()), squaredChord, a, b)
@@ -62,15 +62,15 @@ public final class Proximity implements Serializable {
     }
 
     /** Of two close devices the square of their distance, as a share of that of their threshold. */
-    double nearness(Member a, Member b) {
+    double nearness(CellEntry a, CellEntry b) {
         return squaredChord(a, b) / limit(a.fix().type(), b.fix().type()).surelyApart;
     }
 
-    private static double squaredChord(Member a, Member b) {
+    private static double squaredChord(CellEntry a, CellEntry b) {
         return Geodesy.square(a.x() - b.x()) + Geodesy.square(a.y() - b.y()) + Geodesy.square(a.z() - b.z());
     }
 
-    private static boolean within(Limit limit, double squaredChord, Member a, Member b) {
+    private static boolean within(Limit limit, double squaredChord, CellEntry a, CellEntry b) {
         return squaredChord < limit.surelyClose
                 || squaredChord <= limit.surelyApart && Geodesy.distance(a.fix(), b.fix()) <= limit.meters;
     }

@@ -17,14 +17,15 @@ import io.furrow.analytics.position.PositionFix;
 public final class ReportCrowds implements Serializable {
     private static final long serialVersionUID = 1L;
     /** Of the members with a shortlist, the one by whose place and scope a cell is reported. */
-    private static final Comparator<Member> BY_NAME = Comparator.comparing(Member::resident, Comparator.reverseOrder())
-            .thenComparing(Member::fix, PositionFix.NAMING);
+    private static final Comparator<CellEntry> BY_NAME = Comparator.comparing(
+                    CellEntry::resident, Comparator.reverseOrder())
+            .thenComparing(CellEntry::fix, PositionFix.NAMING);
 
-    private final Matching matching;
+    private final PairSelection pairSelection;
     private final Grid grid;
 
-    public ReportCrowds(Matching matching, Grid grid) {
-        this.matching = matching;
+    public ReportCrowds(PairSelection pairSelection, Grid grid) {
+        this.pairSelection = pairSelection;
         this.grid = grid;
     }
 
@@ -49,9 +50,9 @@ public final class ReportCrowds implements Serializable {
 
     private void tell(long id, Cell cell, long time, Consumer<CellOverflow> out) {
         PositionFix witness = cell.members().stream()
-                .filter(member -> member.shortlist() != null)
+                .filter(cellEntry -> cellEntry.shortlist() != null)
                 .min(BY_NAME)
-                .map(Member::fix)
+                .map(CellEntry::fix)
                 .orElseGet(() -> cell.report().witness());
         out.accept(describe(id, cell, witness, time));
         cell.report(new CrowdReport(time, cell.isCrowded(), witness));
@@ -62,14 +63,14 @@ public final class ReportCrowds implements Serializable {
         long ends = 0;
         long followed = 0;
         int most = 0;
-        List<Member> near = new ArrayList<>();
-        for (Member member : cell.members()) {
-            cell.near(member, matching.proximity(), near);
+        List<CellEntry> near = new ArrayList<>();
+        for (CellEntry cellEntry : cell.members()) {
+            cell.near(cellEntry, pairSelection.proximity(), near);
             most = Math.max(most, near.size());
-            for (Member other : near) {
-                if (Matching.meet(member, other)) {
+            for (CellEntry other : near) {
+                if (PairSelection.meet(cellEntry, other)) {
                     ends++;
-                    followed += Matching.follows(member, other) ? 1 : 0;
+                    followed += PairSelection.follows(cellEntry, other) ? 1 : 0;
                 }
             }
             near.clear();
@@ -83,7 +84,7 @@ public final class ReportCrowds implements Serializable {
                 cell.devices(),
                 ends / 2,
                 (ends - followed) / 2,
-                matching.chosenOf(most),
+                pairSelection.chosenOf(most),
                 time);
     }
 }

@@ -18,11 +18,11 @@ record ApproachDetector(
     /** Two legs from the newest positions on; {@code now} is the instant at which one of them was reported. */
     void ahead(Leg one, Leg other, long now) {
         long oldest = Math.min(one.from(), other.from());
-        Place start = one.start();
+        CartesianPoint start = one.start();
         if (now - oldest < rules.timeToLive()
                 && mayMeet(one, other)
                 && start.distance(other.start()) > threshold(one, other)) {
-            tell(one, other, new Span(now, Math.min(one.until(), other.until()), now), false, predictions);
+            tell(one, other, new Interval(now, Math.min(one.until(), other.until()), now), false, predictions);
         }
     }
 
@@ -34,12 +34,12 @@ record ApproachDetector(
             double reported = Math.min(
                     one.start().distance(other.start()), held(one, until).distance(held(other, until)));
             long now = Math.max(one.until(), other.until());
-            tell(one, other, new Span(from, until, now), reported <= threshold(one, other), contacts);
+            tell(one, other, new Interval(from, until, now), reported <= threshold(one, other), contacts);
         }
     }
 
     /** From when to when two legs are compared, and when that is known. */
-    private record Span(long from, long until, long known) {
+    private record Interval(long from, long until, long known) {
         /** What lies ahead begins now; what lies behind began before. */
         boolean isAhead() {
             return known == from;
@@ -47,7 +47,7 @@ record ApproachDetector(
     }
 
     /** The newest position reported by then, which is what the encounters are found by. */
-    private static Place held(Leg leg, long time) {
+    private static CartesianPoint held(Leg leg, long time) {
         return leg.until() == time ? leg.at(Epochs.original(time)) : leg.start();
     }
 
@@ -59,22 +59,22 @@ record ApproachDetector(
         return one.fix().topic().equals(other.fix().topic()) && !one.fix().sharesAggregateWith(other.fix());
     }
 
-    private void tell(Leg one, Leg other, Span span, boolean reportedClose, Consumer<Finding> out) {
+    private void tell(Leg one, Leg other, Interval interval, boolean reportedClose, Consumer<Finding> out) {
         boolean inOrder = PositionFix.NAMING.compare(one.fix(), other.fix()) < 0;
         Leg first = inOrder ? one : other;
         Leg second = inOrder ? other : one;
-        long epoch = Epochs.begin(span.from);
-        ClosestApproach.within(threshold(first, second), first, second, span.from - epoch, span.until - epoch)
+        long epoch = Epochs.begin(interval.from);
+        ClosestApproach.within(threshold(first, second), first, second, interval.from - epoch, interval.until - epoch)
                 .filter(approach -> cubes.cube(first.fix().topic(), first.at(approach.time())) == cube)
                 .ifPresent(approach -> out.accept(new Finding(
-                        span.isAhead() ? first.fix() : first.fixAt(approach.time()),
-                        span.isAhead() ? second.fix() : second.fixAt(approach.time()),
-                        span.known,
+                        interval.isAhead() ? first.fix() : first.fixAt(approach.time()),
+                        interval.isAhead() ? second.fix() : second.fixAt(approach.time()),
+                        interval.known,
                         first.start().distance(second.start()),
                         approach.distance(),
                         approach.time(),
-                        span.from,
-                        span.until,
+                        interval.from,
+                        interval.until,
                         epoch + (long) Math.floor(approach.contactFrom()),
                         epoch + (long) Math.floor(approach.contactUntil()),
                         reportedClose)));

@@ -19,8 +19,8 @@ record ClosestApproach(double time, double distance, double contactFrom, double 
         if (from > until) {
             return Optional.empty();
         }
-        Place apart = a.at(from).minus(b.at(from));
-        Place velocity = a.velocity().minus(b.velocity());
+        CartesianPoint apart = a.at(from).minus(b.at(from));
+        CartesianPoint velocity = a.velocity().minus(b.velocity());
         // The squared distance is a parabola over time: speed·t² + 2·approach·t + gap + threshold².
         double speed = velocity.dot(velocity);
         double approach = apart.dot(velocity);

@@ -24,8 +24,8 @@ final class Cubes implements Serializable {
         reach = rules.common().thresholds().greatest() + GUARD;
     }
 
-    long cube(String topic, Place place) {
-        return id(topic.hashCode(), index(place.x()), index(place.y()), index(place.z()));
+    long cube(String topic, CartesianPoint cartesianPoint) {
+        return id(topic.hashCode(), index(cartesianPoint.x()), index(cartesianPoint.y()), index(cartesianPoint.z()));
     }
 
     /** Ids, ascending, each once. */
@@ -37,8 +37,8 @@ final class Cubes implements Serializable {
         int count = 0;
         for (int piece = 0; piece < pieces; piece++) {
             double step = (double) (leg.until() - leg.from()) / pieces;
-            Place start = leg.at(from + piece * step);
-            Place end = leg.at(from + (piece + 1) * step);
+            CartesianPoint start = leg.at(from + piece * step);
+            CartesianPoint end = leg.at(from + (piece + 1) * step);
             for (long id : around(leg.fix().topic().hashCode(), start, end)) {
                 found = count == found.length ? Arrays.copyOf(found, 2 * count) : found;
                 found[count++] = id;
@@ -47,7 +47,7 @@ final class Cubes implements Serializable {
         return Arrays.stream(found, 0, count).sorted().distinct().toArray();
     }
 
-    private long[] around(int topic, Place a, Place b) {
+    private long[] around(int topic, CartesianPoint a, CartesianPoint b) {
         int west = index(Math.min(a.x(), b.x()) - reach);
         int east = index(Math.max(a.x(), b.x()) + reach);
         int near = index(Math.min(a.y(), b.y()) - reach);

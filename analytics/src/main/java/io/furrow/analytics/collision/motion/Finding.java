@@ -2,7 +2,7 @@ package io.furrow.analytics.collision.motion;
 
 import java.util.Comparator;
 
-import io.furrow.analytics.eventtime.Timed;
+import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.PositionFix;
 
 /**
@@ -32,7 +32,7 @@ public record Finding(
         long contactFrom,
         long contactUntil,
         boolean reportedClose)
-        implements Timed {
+        implements HasEventTime {
     static final Comparator<Finding> SEQUENCE =
             Comparator.comparingLong(Finding::time).thenComparingLong(Finding::from);
 

@@ -8,8 +8,8 @@ import org.apache.flink.api.common.state.ValueStateDescriptor;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.analytics.eventtime.Inbox;
-import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.analytics.eventtime.EventTimeBuffer;
+import io.furrow.analytics.eventtime.SingleTimer;
 
 /**
  * Joins the contacts of legs that follow each other to one crossing. Key: the pair.
@@ -27,8 +27,8 @@ final class JoinContacts extends KeyedProcessFunction<String, Finding, Approach>
 
     private final long timeToLive;
 
-    private transient OneTimer timer;
-    private transient Inbox<Finding> inbox;
+    private transient SingleTimer timer;
+    private transient EventTimeBuffer<Finding> eventTimeBuffer;
     private transient ValueState<Contact> contact;
 
     JoinContacts(MotionRules rules) {
@@ -37,20 +37,20 @@ final class JoinContacts extends KeyedProcessFunction<String, Finding, Approach>
 
     @Override
     public void open(OpenContext context) {
-        timer = new OneTimer(getRuntimeContext());
-        inbox = new Inbox<>(getRuntimeContext(), Finding.class, Finding.SEQUENCE, timer);
+        timer = new SingleTimer(getRuntimeContext());
+        eventTimeBuffer = new EventTimeBuffer<>(getRuntimeContext(), Finding.class, Finding.SEQUENCE, timer);
         contact = getRuntimeContext().getState(new ValueStateDescriptor<>("contact", Contact.class));
     }
 
     @Override
     public void processElement(Finding finding, Context context, Collector<Approach> out) throws Exception {
-        inbox.add(finding, context.timerService());
+        eventTimeBuffer.add(finding, context.timerService());
     }
 
     @Override
     public void onTimer(long time, OnTimerContext context, Collector<Approach> out) throws Exception {
         timer.rang();
-        List<Finding> due = inbox.takeDue(context.timerService());
+        List<Finding> due = eventTimeBuffer.takeDue(context.timerService());
         Contact open = Contact.join(contact.value(), due, out::collect);
         if (open != null && open.until() + timeToLive <= context.timerService().currentWatermark()) {
             Contact.close(open, out::collect);

@@ -18,7 +18,7 @@ import io.furrow.flink.record.Epochs;
  */
 public record Leg(
         PositionFix fix, long from, long until, double x, double y, double z, double vx, double vy, double vz) {
-    static Leg of(PositionFix fix, long from, long until, Place start, Place velocity) {
+    static Leg of(PositionFix fix, long from, long until, CartesianPoint start, CartesianPoint velocity) {
         return new Leg(fix, from, until, start.x(), start.y(), start.z(), velocity.x(), velocity.y(), velocity.z());
     }
 
@@ -27,22 +27,22 @@ public record Leg(
      *
      * @param time the original one, epoch milliseconds: a double cannot represent the milliseconds of a late epoch's event time
      */
-    Place at(double time) {
+    CartesianPoint at(double time) {
         double elapsed = time - Epochs.original(from);
-        return new Place(x + vx * elapsed, y + vy * elapsed, z + vz * elapsed);
+        return new CartesianPoint(x + vx * elapsed, y + vy * elapsed, z + vz * elapsed);
     }
 
-    Place start() {
-        return new Place(x, y, z);
+    CartesianPoint start() {
+        return new CartesianPoint(x, y, z);
     }
 
-    Place velocity() {
-        return new Place(vx, vy, vz);
+    CartesianPoint velocity() {
+        return new CartesianPoint(vx, vy, vz);
     }
 
     /** The same device at another original time and place on the leg. */
     PositionFix fixAt(double time) {
-        Place there = at(time);
+        CartesianPoint there = at(time);
         return new PositionFix(
                 fix.reporter(),
                 there.latitude(),

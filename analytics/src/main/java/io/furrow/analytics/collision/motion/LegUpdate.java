@@ -2,7 +2,7 @@ package io.furrow.analytics.collision.motion;
 
 import java.util.Comparator;
 
-import io.furrow.analytics.eventtime.Timed;
+import io.furrow.analytics.eventtime.HasEventTime;
 
 /**
  * What becomes of a device's legs in one cube.
@@ -11,7 +11,7 @@ import io.furrow.analytics.eventtime.Timed;
  * @param time when this is known, epoch milliseconds: that of the device's newest position
  * @param leg the leg; of {@link Change#NO_LEG_AHEAD} the one that holds no more
  */
-public record LegUpdate(long cube, long time, Change change, Leg leg) implements Timed {
+public record LegUpdate(long cube, long time, Change change, Leg leg) implements HasEventTime {
     /** What is new. */
     public enum Change {
         LEG_BEHIND,

@@ -24,7 +24,7 @@ public final class MotionDetection {
                 .uid("track-motion");
 
         SingleOutputStreamOperator<Finding> predictions = legs.keyBy(LegUpdate::cube)
-                .process(new MatchLegs(rules))
+                .process(new MatchSegments(rules))
                 .uid("match-legs")
                 .name("Match legs in each cube");
 
@@ -35,7 +35,7 @@ public final class MotionDetection {
                 .name("Track predictions of each pair");
 
         DataStream<Approach> crossed = predictions
-                .getSideOutput(MatchLegs.CONTACTS)
+                .getSideOutput(MatchSegments.CONTACTS)
                 .keyBy(Finding::pair)
                 .process(new JoinContacts(rules))
                 .uid("join-contacts")

@@ -9,11 +9,11 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.analytics.eventtime.Inbox;
-import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.analytics.eventtime.EventTimeBuffer;
+import io.furrow.analytics.eventtime.SingleTimer;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.time.EventTimeReached;
-import io.furrow.flink.time.JudgesLateness;
+import io.furrow.flink.time.EventTimeProgress;
+import io.furrow.flink.time.LatenessAware;
 
 /**
  * Creates legs from the positions of each device and adds them to the cubes that they touch. Key: the device.
@@ -30,33 +30,33 @@ import io.furrow.flink.time.JudgesLateness;
  * {@code positionsTooFast} counts positions that are further from the one before, or report a greater speed, than the
  * greatest speed allows.
  */
-final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpdate> implements JudgesLateness {
+final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpdate> implements LatenessAware {
     private static final long serialVersionUID = 1L;
     /** Positions of a device; the stage that finds the encounters sets aside what is beyond. */
     private static final int MAX_WAITING = 100_000;
 
-    private final LegBuilder navigator;
+    private final SegmentBuilder navigator;
 
-    private transient OneTimer timer;
-    private transient Inbox<PositionFix> inbox;
+    private transient SingleTimer timer;
+    private transient EventTimeBuffer<PositionFix> eventTimeBuffer;
     private transient ValueState<KnownMotion> motion;
-    private transient EventTimeReached reached;
+    private transient EventTimeProgress reached;
     private transient Counter late;
     private transient Counter tooFast;
 
     TrackMotion(MotionRules rules) {
-        navigator = new LegBuilder(rules);
+        navigator = new SegmentBuilder(rules);
     }
 
     @Override
-    public void judgeBy(EventTimeReached reached) {
+    public void judgeBy(EventTimeProgress reached) {
         this.reached = reached;
     }
 
     @Override
     public void open(OpenContext context) {
-        timer = new OneTimer(getRuntimeContext());
-        inbox = new Inbox<>(getRuntimeContext(), PositionFix.class, PositionFix.SEQUENCE, timer);
+        timer = new SingleTimer(getRuntimeContext());
+        eventTimeBuffer = new EventTimeBuffer<>(getRuntimeContext(), PositionFix.class, PositionFix.SEQUENCE, timer);
         motion = getRuntimeContext().getState(new ValueStateDescriptor<>("motion", KnownMotion.class));
         late = getRuntimeContext().getMetricGroup().counter("late");
         tooFast = getRuntimeContext().getMetricGroup().counter("positionsTooFast");
@@ -65,7 +65,7 @@ final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpd
     @Override
     public void processElement(PositionFix fix, Context context, Collector<LegUpdate> out) throws Exception {
         if (reached.hasPassed(fix.time(), context.getCurrentKey())
-                || !inbox.offer(fix, MAX_WAITING, context.timerService())) {
+                || !eventTimeBuffer.offer(fix, MAX_WAITING, context.timerService())) {
             late.inc();
         }
     }
@@ -74,8 +74,8 @@ final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpd
     public void onTimer(long time, OnTimerContext context, Collector<LegUpdate> out) throws Exception {
         timer.rang();
         long until = context.timerService().currentWatermark();
-        List<PositionFix> due = inbox.takeDue(context.timerService());
-        LegBuilder.Advanced advanced = navigator.advance(motion.value(), due, out::collect);
+        List<PositionFix> due = eventTimeBuffer.takeDue(context.timerService());
+        SegmentBuilder.Advanced advanced = navigator.advance(motion.value(), due, out::collect);
         tooFast.inc(advanced.tooFast());
         KnownMotion now = advanced.known();
         if (now == null || navigator.expiry(now) <= until) {

@@ -8,8 +8,8 @@ import org.apache.flink.api.common.state.ValueStateDescriptor;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.analytics.eventtime.Inbox;
-import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.analytics.eventtime.EventTimeBuffer;
+import io.furrow.analytics.eventtime.SingleTimer;
 
 /**
  * Emits the life cycle of each prediction. Key: the pair.
@@ -27,8 +27,8 @@ final class TrackPredictions extends KeyedProcessFunction<String, Finding, Appro
 
     private final MotionRules rules;
 
-    private transient OneTimer timer;
-    private transient Inbox<Finding> inbox;
+    private transient SingleTimer timer;
+    private transient EventTimeBuffer<Finding> eventTimeBuffer;
     private transient ValueState<OngoingPrediction> foretold;
 
     TrackPredictions(MotionRules rules) {
@@ -37,20 +37,20 @@ final class TrackPredictions extends KeyedProcessFunction<String, Finding, Appro
 
     @Override
     public void open(OpenContext context) {
-        timer = new OneTimer(getRuntimeContext());
-        inbox = new Inbox<>(getRuntimeContext(), Finding.class, Finding.SEQUENCE, timer);
+        timer = new SingleTimer(getRuntimeContext());
+        eventTimeBuffer = new EventTimeBuffer<>(getRuntimeContext(), Finding.class, Finding.SEQUENCE, timer);
         foretold = getRuntimeContext().getState(new ValueStateDescriptor<>("foretold", OngoingPrediction.class));
     }
 
     @Override
     public void processElement(Finding finding, Context context, Collector<Approach> out) throws Exception {
-        inbox.add(finding, context.timerService());
+        eventTimeBuffer.add(finding, context.timerService());
     }
 
     @Override
     public void onTimer(long time, OnTimerContext context, Collector<Approach> out) throws Exception {
         timer.rang();
-        List<Finding> due = inbox.takeDue(context.timerService());
+        List<Finding> due = eventTimeBuffer.takeDue(context.timerService());
         OngoingPrediction now = OngoingPrediction.follow(foretold.value(), due, rules, out::collect);
         if (now == null || now.lapse(rules) <= context.timerService().currentWatermark()) {
             foretold.clear();

@@ -17,13 +17,13 @@ import io.furrow.analytics.collision.CollisionOracle;
 import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.collision.Simulation;
 import io.furrow.analytics.collision.Worlds;
+import io.furrow.analytics.collision.grid.CellPresence;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Geodesy;
-import io.furrow.analytics.collision.grid.Presence;
 import io.furrow.analytics.collision.matching.Cell;
 import io.furrow.analytics.collision.matching.CellOverflow;
 import io.furrow.analytics.collision.matching.MatchPairs;
-import io.furrow.analytics.collision.matching.Matching;
+import io.furrow.analytics.collision.matching.PairSelection;
 import io.furrow.analytics.collision.rules.CellRules;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
@@ -47,10 +47,10 @@ class CrowdTest {
     }
 
     @Test
-    void keepsTheSightingsOfASpotTheSameHoweverManyDevicesAreThere() {
+    void keepsTheObservationsOfASpotTheSameHoweverManyDevicesAreThere() {
         int pairs = 40 * 40;
         for (int devices : new int[] {200, 400, 800, 1600}) {
-            assertThat(sightings(devices)).as("of %d devices", devices).isBetween(pairs / 2, 4 * pairs);
+            assertThat(observations(devices)).as("of %d devices", devices).isBetween(pairs / 2, 4 * pairs);
         }
     }
 
@@ -58,28 +58,29 @@ class CrowdTest {
     @Test
     void findsACrowdThatStandsOnBothSidesOfABorder() {
         Cell cell = Cell.empty();
-        Matching matching = new Matching(rules(CROWD, 100));
+        PairSelection pairSelection = new PairSelection(rules(CROWD, 100));
         List<PairObservation> seen = new ArrayList<>();
         for (int second = 0; second < 3; second++) {
             seen.clear();
             for (PositionFix fix : second(200, second, 0.3)) {
-                Presence presence = fix.id().length() < 3 ? Presence.RESIDENT : Presence.HALO; // ten of them
-                cell.apply(List.of(new CellUpdate(7, fix.time(), presence, fix)), matching, seen::add);
+                CellPresence cellPresence =
+                        fix.id().length() < 3 ? CellPresence.RESIDENT : CellPresence.HALO; // ten of them
+                cell.apply(List.of(new CellUpdate(7, fix.time(), cellPresence, fix)), pairSelection, seen::add);
             }
         }
         assertThat(seen).as("of 10 x 190 pairs").hasSizeBetween(200, 800);
     }
 
     /** In the third second, in which all have shortlists. */
-    private int sightings(int devices) {
+    private int observations(int devices) {
         Cell cell = Cell.empty();
-        Matching matching = new Matching(rules(40, 100));
+        PairSelection pairSelection = new PairSelection(rules(40, 100));
         List<PairObservation> seen = new ArrayList<>();
         for (int second = 0; second < 3; second++) {
             seen.clear();
             for (PositionFix fix : second(devices, second, 0.3)) {
-                CellUpdate update = new CellUpdate(7, fix.time(), Presence.RESIDENT, fix);
-                cell.apply(List.of(update), matching, seen::add);
+                CellUpdate update = new CellUpdate(7, fix.time(), CellPresence.RESIDENT, fix);
+                cell.apply(List.of(update), pairSelection, seen::add);
             }
         }
         return seen.size();
@@ -171,14 +172,14 @@ class CrowdTest {
         var stage = Stage.match(rules(3, 100));
         List<CellOverflow> told = new ArrayList<>();
         for (int second = 0; second < 130; second++) {
-            stage.receive(updates(second, Presence.RESIDENT));
+            stage.receive(updates(second, CellPresence.RESIDENT));
             stage.advance(START + second * 1000 + 999);
             if (second % 7 == 0) {
                 told.addAll(stage.side(MatchPairs.OVERFLOWS));
                 stage.restart();
             }
         }
-        stage.receive(updates(130, Presence.GONE));
+        stage.receive(updates(130, CellPresence.GONE));
         stage.advance(START + 240_799);
         assertThat(stage.stateEntries()).isEqualTo(1);
         stage.advance(START + 240_800);
@@ -195,9 +196,9 @@ class CrowdTest {
                         tuple(START + 180_800, 0, 0L));
     }
 
-    private List<CellUpdate> updates(int second, Presence presence) {
+    private List<CellUpdate> updates(int second, CellPresence cellPresence) {
         return second(5, second, 0.3).stream()
-                .map(fix -> new CellUpdate(7, fix.time(), presence, fix))
+                .map(fix -> new CellUpdate(7, fix.time(), cellPresence, fix))
                 .toList();
     }
 

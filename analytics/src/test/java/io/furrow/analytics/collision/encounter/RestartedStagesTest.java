@@ -98,9 +98,9 @@ class RestartedStagesTest {
         List<CellUpdate> updates = track.advance(watermark);
         Collections.shuffle(updates, random);
         match.receive(updates);
-        List<PairObservation> sightings = match.advance(watermark);
-        Collections.shuffle(sightings, random);
-        follow.receive(sightings);
+        List<PairObservation> observations = match.advance(watermark);
+        Collections.shuffle(observations, random);
+        follow.receive(observations);
         return follow.advance(watermark);
     }
 }

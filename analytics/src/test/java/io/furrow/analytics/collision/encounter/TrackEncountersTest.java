@@ -76,16 +76,16 @@ class TrackEncountersTest {
 
     @Test
     void countsWhatNoGridCanBringAbout() {
-        EncounterTracker follower = new EncounterTracker(CollisionRules.DEFAULT);
-        assertThat(violations(follower, seen(4, 1000, 1), seen(4, 2000, 0), seen(4, 3000, -1)))
+        EncounterTracker tracker = new EncounterTracker(CollisionRules.DEFAULT);
+        assertThat(violations(tracker, seen(4, 1000, 1), seen(4, 2000, 0), seen(4, 3000, -1)))
                 .isZero();
-        assertThat(violations(follower, seen(4, 1000, 1), seen(4, 2000, 1))).isEqualTo(1);
-        assertThat(violations(follower, seen(4, 1000, -1))).isEqualTo(1);
-        assertThat(violations(follower, seen(4, 1000, 0))).isEqualTo(1);
+        assertThat(violations(tracker, seen(4, 1000, 1), seen(4, 2000, 1))).isEqualTo(1);
+        assertThat(violations(tracker, seen(4, 1000, -1))).isEqualTo(1);
+        assertThat(violations(tracker, seen(4, 1000, 0))).isEqualTo(1);
     }
 
-    private static int violations(EncounterTracker follower, PairObservation... sightings) {
-        return follower.follow(null, List.of(sightings), encounter -> {}).violations();
+    private static int violations(EncounterTracker tracker, PairObservation... observations) {
+        return tracker.follow(null, List.of(observations), encounter -> {}).violations();
     }
 
     /** b at the place, a so many meters east of it. */

@@ -16,7 +16,7 @@ import io.furrow.analytics.collision.encounter.PendingObservationsSerializer;
 import io.furrow.analytics.collision.matching.CellSerializer;
 import io.furrow.analytics.collision.matching.PendingUpdatesSerializer;
 import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.format.Format;
+import io.furrow.flink.format.VersionedSerializer;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -31,7 +31,7 @@ class FormatVersionsTest {
 
     @Test
     void refuseEveryOtherVersion() {
-        for (Format<?> format : List.of(
+        for (VersionedSerializer<?> versionedSerializer : List.of(
                 new CellUpdateSerializer(),
                 new PairObservationSerializer(),
                 new OpenEncounterSerializer(),
@@ -40,8 +40,8 @@ class FormatVersionsTest {
                 new PendingFixesSerializer(),
                 new PendingObservationsSerializer(),
                 new PendingUpdatesSerializer())) {
-            for (int version : new int[] {0, format.version() - 1, format.version() + 1}) {
-                assertThatThrownBy(() -> read(format, version, "00000000"))
+            for (int version : new int[] {0, versionedSerializer.version() - 1, versionedSerializer.version() + 1}) {
+                assertThatThrownBy(() -> read(versionedSerializer, version, "00000000"))
                         .isInstanceOf(IOException.class)
                         .hasMessageContaining("was written in version " + version);
             }
@@ -62,22 +62,23 @@ class FormatVersionsTest {
 
     @ParameterizedTest
     @EnumSource
-    void knowAPresenceByItsCode(Presence presence) throws Exception {
-        assertThat(Presence.of(presence.code())).isEqualTo(presence);
-        assertThatThrownBy(() -> Presence.of(9)).isInstanceOf(IOException.class);
+    void knowAPresenceByItsCode(CellPresence cellPresence) throws Exception {
+        assertThat(CellPresence.of(cellPresence.code())).isEqualTo(cellPresence);
+        assertThatThrownBy(() -> CellPresence.of(9)).isInstanceOf(IOException.class);
     }
 
     /** All of it, or it fails. */
-    private static <T> T read(Format<T> format, int version, String bytes) throws IOException {
+    private static <T> T read(VersionedSerializer<T> versionedSerializer, int version, String bytes)
+            throws IOException {
         DataInputDeserializer in = new DataInputDeserializer(HexFormat.of().parseHex(bytes));
-        T read = format.read(version, in);
+        T read = versionedSerializer.read(version, in);
         assertThat(in.available()).isZero();
         return read;
     }
 
-    private static <T> String written(Format<T> format, T value) throws IOException {
+    private static <T> String written(VersionedSerializer<T> versionedSerializer, T value) throws IOException {
         DataOutputSerializer out = new DataOutputSerializer(256);
-        format.write(value, out);
+        versionedSerializer.write(value, out);
         return HexFormat.of().formatHex(out.getCopyOfBuffer());
     }
 }

@@ -26,7 +26,7 @@ class GridTest {
         int close = 0;
         for (int i = 0; i < 20_000; i++) {
             double[] centre = i % 2 == 0 ? Worlds.centre(i / 2) : anywhere();
-            close += assertMeeting(grid, threshold, near(centre, threshold), near(centre, threshold));
+            close += assertCloseTogether(grid, threshold, near(centre, threshold), near(centre, threshold));
         }
         assertThat(close).isGreaterThan(5_000);
     }
@@ -40,8 +40,8 @@ class GridTest {
             double[] edge = onAnEdge(grid, anywhere());
             for (int ulps = -1; ulps <= 1; ulps++) {
                 double[] shifted = {moved(edge[0], ulps), moved(edge[1], ulps)};
-                close += assertMeeting(grid, threshold, shifted, edge);
-                close += assertMeeting(grid, threshold, shifted, near(edge, threshold));
+                close += assertCloseTogether(grid, threshold, shifted, edge);
+                close += assertCloseTogether(grid, threshold, shifted, near(edge, threshold));
             }
         }
         assertThat(close).isGreaterThan(6_000);
@@ -99,18 +99,18 @@ class GridTest {
     }
 
     /** 1 if the two are close and therefore were checked. */
-    private int assertMeeting(Grid grid, double threshold, double[] one, double[] other) {
+    private int assertCloseTogether(Grid grid, double threshold, double[] one, double[] other) {
         double distance = Geodesy.distance(Fixes.at("a", one[0], one[1], 0), Fixes.at("b", other[0], other[1], 0));
         if (distance > threshold) {
             return 0;
         }
         long[] ofOne = grid.cells(one[0], one[1]);
         long[] ofOther = grid.cells(other[0], other[1]);
-        long meetings = LongStream.of(ofOne)
+        long encounters = LongStream.of(ofOne)
                 .filter(cell -> LongStream.of(ofOther).anyMatch(each -> each == cell))
                 .filter(cell -> cell == ofOne[0] || cell == ofOther[0])
                 .count();
-        assertThat(meetings)
+        assertThat(encounters)
                 .as("%s and %s", Arrays.toString(one), Arrays.toString(other))
                 .isEqualTo(1);
         assertThat(LongStream.of(ofOne).distinct().count()).isEqualTo(ofOne.length);

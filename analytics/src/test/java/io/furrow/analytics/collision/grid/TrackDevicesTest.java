@@ -49,7 +49,7 @@ class TrackDevicesTest {
         assertThat(stage.advance(1999)).containsExactlyElementsOf(arrival(here));
         List<CellUpdate> expected = new ArrayList<>();
         for (long cell : cells(here)) {
-            expected.add(new CellUpdate(cell, 2000, Presence.GONE, here));
+            expected.add(new CellUpdate(cell, 2000, CellPresence.GONE, here));
         }
         expected.addAll(arrival(there));
         assertThat(stage.advance(2000)).containsExactlyElementsOf(expected);
@@ -62,7 +62,7 @@ class TrackDevicesTest {
         assertThat(stage.advance(3999)).hasSameSizeAs(cells(fix));
         assertThat(stage.advance(4000))
                 .hasSameSizeAs(cells(fix))
-                .allMatch(update -> update.presence() == Presence.GONE && update.time() == 4000);
+                .allMatch(update -> update.cellPresence() == CellPresence.GONE && update.time() == 4000);
         assertThat(stage.stateEntries()).isZero();
     }
 
@@ -75,7 +75,7 @@ class TrackDevicesTest {
     @Test
     void staysWhenThePositionIsRenewedAtTheVeryEndOfItsTimeToLive() throws Exception {
         stage.receive(List.of(east("a", 50, 1000), east("a", 50, 4000)));
-        assertThat(stage.advance(6999)).noneMatch(update -> update.presence() == Presence.GONE);
+        assertThat(stage.advance(6999)).noneMatch(update -> update.cellPresence() == CellPresence.GONE);
     }
 
     @Test
@@ -143,7 +143,7 @@ class TrackDevicesTest {
         stage.restart();
         assertThat(stage.advance(8000))
                 .isNotEmpty()
-                .allMatch(update -> update.presence() == Presence.GONE && update.time() == 8000);
+                .allMatch(update -> update.cellPresence() == CellPresence.GONE && update.time() == 8000);
     }
 
     @Test
@@ -171,7 +171,8 @@ class TrackDevicesTest {
     private List<CellUpdate> arrival(PositionFix fix) {
         List<CellUpdate> updates = new ArrayList<>();
         for (long cell : cells(fix)) {
-            updates.add(new CellUpdate(cell, fix.time(), updates.isEmpty() ? Presence.RESIDENT : Presence.HALO, fix));
+            updates.add(new CellUpdate(
+                    cell, fix.time(), updates.isEmpty() ? CellPresence.RESIDENT : CellPresence.HALO, fix));
         }
         return updates;
     }

@@ -8,8 +8,8 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.collision.encounter.PairObservation;
 import io.furrow.analytics.collision.encounter.Stage;
+import io.furrow.analytics.collision.grid.CellPresence;
 import io.furrow.analytics.collision.grid.CellUpdate;
-import io.furrow.analytics.collision.grid.Presence;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
@@ -69,9 +69,9 @@ class MatchPairsTest {
         stage.receive(List.of(resident(east("a", 0, 1000)), halo(east("b", 2, 1000)), resident(east("c", 3, 1000))));
         assertThat(stage.advance(1000)).hasSize(3);
         stage.receive(gone(east("b", 2, 2000)));
-        assertThat(stage.advance(2000)).hasSize(2).allMatch(sighting -> sighting.change() == -1);
+        assertThat(stage.advance(2000)).hasSize(2).allMatch(observation -> observation.change() == -1);
         stage.receive(List.of(gone(east("a", 0, 3000)), gone(east("c", 3, 3000))));
-        assertThat(stage.advance(3000)).hasSize(1).allMatch(sighting -> sighting.change() == -1);
+        assertThat(stage.advance(3000)).hasSize(1).allMatch(observation -> observation.change() == -1);
         assertThat(stage.stateEntries()).isZero();
     }
 
@@ -85,14 +85,14 @@ class MatchPairsTest {
     }
 
     private static CellUpdate resident(PositionFix fix) {
-        return new CellUpdate(CELL, fix.time(), Presence.RESIDENT, fix);
+        return new CellUpdate(CELL, fix.time(), CellPresence.RESIDENT, fix);
     }
 
     private static CellUpdate halo(PositionFix fix) {
-        return new CellUpdate(CELL, fix.time(), Presence.HALO, fix);
+        return new CellUpdate(CELL, fix.time(), CellPresence.HALO, fix);
     }
 
     private static CellUpdate gone(PositionFix fix) {
-        return new CellUpdate(CELL, fix.time(), Presence.GONE, fix);
+        return new CellUpdate(CELL, fix.time(), CellPresence.GONE, fix);
     }
 }

@@ -29,8 +29,8 @@ class ProximityTest {
     }
 
     private static double angle(PositionFix a, PositionFix b) {
-        Member u = Member.of(a, true);
-        Member v = Member.of(b, true);
+        CellEntry u = CellEntry.of(a, true);
+        CellEntry v = CellEntry.of(b, true);
         double chord = Math.sqrt(
                 Geodesy.square(u.x() - v.x()) + Geodesy.square(u.y() - v.y()) + Geodesy.square(u.z() - v.z()));
         return 2 * Math.asin(Math.min(1, chord / 2));
@@ -67,7 +67,7 @@ class ProximityTest {
             PositionFix a = Fixes.at("a", centre[0], centre[1], 0);
             PositionFix b = Fixes.at("b", Math.max(-90, Math.min(90, there[0])), there[1], 0);
             boolean expected = Geodesy.distance(a, b) <= threshold;
-            assertThat(proximity.holds(Member.of(a, true), Member.of(b, false)))
+            assertThat(proximity.holds(CellEntry.of(a, true), CellEntry.of(b, false)))
                     .as("%s %s", a, b)
                     .isEqualTo(expected);
             close += expected ? 1 : 0;
@@ -77,10 +77,10 @@ class ProximityTest {
 
     @Test
     void leavesTwoHaloCopiesToTheCellWhereOneIsAtHome() {
-        Member a = Member.of(Fixes.east("a", 0, 0), false);
-        Member b = Member.of(Fixes.east("b", 1, 0), false);
+        CellEntry a = CellEntry.of(Fixes.east("a", 0, 0), false);
+        CellEntry b = CellEntry.of(Fixes.east("b", 1, 0), false);
         Proximity proximity = new Proximity(rules(5));
-        assertThat(proximity.holds(Member.of(a.fix(), true), b)).isTrue();
+        assertThat(proximity.holds(CellEntry.of(a.fix(), true), b)).isTrue();
         assertThat(proximity.holds(a, b)).isFalse();
     }
 
@@ -101,17 +101,17 @@ class ProximityTest {
         CollisionRules any = rules(5);
         CollisionRules second =
                 new CollisionRules(5, any.timeToLive(), Duration.ofSeconds(1), any.ongoingEvery(), any.cellMeters());
-        Member a = Member.of(Fixes.east("a", 0, 0), true);
-        assertThat(new Proximity(second).holds(a, Member.of(Fixes.east("b", 1, 1000), true)))
+        CellEntry a = CellEntry.of(Fixes.east("a", 0, 0), true);
+        assertThat(new Proximity(second).holds(a, CellEntry.of(Fixes.east("b", 1, 1000), true)))
                 .isTrue();
-        assertThat(new Proximity(second).holds(a, Member.of(Fixes.east("b", 1, -1001), true)))
+        assertThat(new Proximity(second).holds(a, CellEntry.of(Fixes.east("b", 1, -1001), true)))
                 .isFalse();
-        assertThat(new Proximity(any).holds(a, Member.of(Fixes.east("b", 1, -1001), true)))
+        assertThat(new Proximity(any).holds(a, CellEntry.of(Fixes.east("b", 1, -1001), true)))
                 .isTrue();
     }
 
     private static boolean close(PositionFix a, PositionFix b, double threshold) {
-        return new Proximity(rules(threshold)).holds(Member.of(a, true), Member.of(b, true));
+        return new Proximity(rules(threshold)).holds(CellEntry.of(a, true), CellEntry.of(b, true));
     }
 
     private static CollisionRules rules(double threshold) {

@@ -21,8 +21,8 @@ import io.furrow.analytics.collision.encounter.OpenEncounter;
 import io.furrow.analytics.collision.encounter.Pair;
 import io.furrow.analytics.collision.encounter.PairObservation;
 import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.grid.CellPresence;
 import io.furrow.analytics.collision.grid.CellUpdate;
-import io.furrow.analytics.collision.grid.Presence;
 import io.furrow.analytics.collision.grid.Track;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
@@ -41,7 +41,7 @@ class RecordTypesTest {
             FIX,
             new PositionFix("t", "farm|/|T|somebody", "else", "", "é", "", -90, 180, 1.5, 270, Long.MIN_VALUE),
             new PositionFix("t", "farm|/|" + "x".repeat(300), "x".repeat(300), "", "", "", 0, 1, 0, 0, 0),
-            new CellUpdate(-7, 1000, Presence.HALO, FIX),
+            new CellUpdate(-7, 1000, CellPresence.HALO, FIX),
             new PairObservation(FIX, FIX, 1000, -1),
             new OpenEncounter(500, 1.5, 1000, FIX, FIX)
         };
@@ -79,24 +79,24 @@ class RecordTypesTest {
     @Test
     void cellsGoThroughTheirFormatAndAreCopiedBeforeTheyChange() throws Exception {
         Cell cell = Cell.empty();
-        cell.put(Member.of(FIX, true));
+        cell.put(CellEntry.of(FIX, true));
         cell.put(inACrowd(Fixes.east("c", 3, 500)));
         cell.report(new CrowdReport(1000, true, FIX));
         assertThat(copied(cell).report()).isEqualTo(cell.report());
         assertThat(copied(cell).isCrowded()).isTrue();
         assertThat(copied(cell).members()).containsExactlyInAnyOrderElementsOf(cell.members());
         Cell copy = serializer(cell).copy(cell);
-        copy.put(Member.of(Fixes.east("d", 3, 500), false));
+        copy.put(CellEntry.of(Fixes.east("d", 3, 500), false));
         copy.report(null);
         assertThat(copy.members()).hasSize(3);
         assertThat(cell.members()).hasSize(2);
         assertThat(cell.report()).isNotNull();
     }
 
-    private static Member inACrowd(PositionFix fix) {
-        Member member = Member.of(fix, false);
-        member.shortlist(new Shortlist(List.of("farm|/|a", "farm|/|é")));
-        return member;
+    private static CellEntry inACrowd(PositionFix fix) {
+        CellEntry cellEntry = CellEntry.of(fix, false);
+        cellEntry.shortlist(new NearestNeighbors(List.of("farm|/|a", "farm|/|é")));
+        return cellEntry;
     }
 
     private static <T> T copied(T written) throws Exception {

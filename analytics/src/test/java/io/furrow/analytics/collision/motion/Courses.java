@@ -93,7 +93,7 @@ public final class Courses {
 
     /** A place so many meters from the center, which around a pole may lie on any meridian. */
     public static double[] place(double[] centre, double east, double north) {
-        double perDegree = Place.EARTH_RADIUS_METERS * Math.PI / 180;
+        double perDegree = CartesianPoint.EARTH_RADIUS_METERS * Math.PI / 180;
         if (Math.abs(centre[0]) == 90) {
             double latitude = centre[0] - Math.signum(centre[0]) * Math.hypot(east, north) / perDegree;
             return new double[] {latitude, Math.toDegrees(Math.atan2(north, east))};

@@ -76,14 +76,14 @@ public final class MotionOracle {
         for (long now : instants) {
             PositionFix first = last(a, now);
             PositionFix second = last(b, now);
-            Place v = first == null ? null : velocity(a, first);
-            Place w = second == null ? null : velocity(b, second);
+            CartesianPoint v = first == null ? null : velocity(a, first);
+            CartesianPoint w = second == null ? null : velocity(b, second);
             if (v == null || w == null || isClose(first, second) || first.sharesAggregateWith(second)) {
                 continue;
             }
-            DoubleUnaryOperator distance = t -> Place.of(first)
+            DoubleUnaryOperator distance = t -> CartesianPoint.of(first)
                     .plus(v.times(t - first.time()))
-                    .minus(Place.of(second).plus(w.times(t - second.time())))
+                    .minus(CartesianPoint.of(second).plus(w.times(t - second.time())))
                     .length();
             double end = Math.min(first.time(), second.time()) + rules.horizon().toMillis();
             double dcpa = end < now ? Double.MAX_VALUE : distance.applyAsDouble(lowest(distance, now, end));
@@ -168,43 +168,44 @@ public final class MotionOracle {
             return false;
         }
         long length = end.getKey() - start.getKey();
-        double meters =
-                Place.of(start.getValue()).minus(Place.of(end.getValue())).length();
+        double meters = CartesianPoint.of(start.getValue())
+                .minus(CartesianPoint.of(end.getValue()))
+                .length();
         return length < rules.timeToLive() && 1000 * meters / length <= rules.maxSpeed();
     }
 
-    private static Place at(TreeMap<Long, PositionFix> fixes, double time) {
+    private static CartesianPoint at(TreeMap<Long, PositionFix> fixes, double time) {
         long floor = (long) Math.floor(time);
         var start = fixes.floorEntry(floor);
         var end = fixes.higherEntry(floor);
         if (end == null || start.getKey() == time) {
-            return Place.of(start.getValue());
+            return CartesianPoint.of(start.getValue());
         }
         double share = (time - start.getKey()) / (end.getKey() - start.getKey());
-        Place from = Place.of(start.getValue());
-        return from.plus(Place.of(end.getValue()).minus(from).times(share));
+        CartesianPoint from = CartesianPoint.of(start.getValue());
+        return from.plus(CartesianPoint.of(end.getValue()).minus(from).times(share));
     }
 
-    private Place velocity(TreeMap<Long, PositionFix> fixes, PositionFix fix) {
-        Place there = Place.of(fix);
-        Place velocity;
+    private CartesianPoint velocity(TreeMap<Long, PositionFix> fixes, PositionFix fix) {
+        CartesianPoint there = CartesianPoint.of(fix);
+        CartesianPoint velocity;
         if (fix.speed() == 0) {
-            velocity = new Place(0, 0, 0);
+            velocity = new CartesianPoint(0, 0, 0);
         } else if (!Double.isNaN(fix.speed()) && !Double.isNaN(fix.heading())) {
-            velocity = Place.heading(fix, fix.heading()).times(fix.speed() / 1000);
+            velocity = CartesianPoint.heading(fix, fix.heading()).times(fix.speed() / 1000);
         } else {
             var before = fixes.lowerEntry(fix.time());
             if (before == null || fix.time() >= before.getKey() + rules.timeToLive()) {
                 return null;
             }
-            velocity = there.minus(Place.of(before.getValue())).times(1.0 / (fix.time() - before.getKey()));
+            velocity = there.minus(CartesianPoint.of(before.getValue())).times(1.0 / (fix.time() - before.getKey()));
             velocity = velocity.alongTheGroundAt(there);
         }
         return 1000 * velocity.length() > rules.maxSpeed() ? null : velocity;
     }
 
     private boolean isClose(PositionFix a, PositionFix b) {
-        return a != null && b != null && Place.of(a).distance(Place.of(b)) <= threshold(a, b);
+        return a != null && b != null && CartesianPoint.of(a).distance(CartesianPoint.of(b)) <= threshold(a, b);
     }
 
     private double threshold(PositionFix a, PositionFix b) {

@@ -15,7 +15,7 @@ import io.furrow.analytics.position.PositionFix;
 final class MotionSimulation {
     private final MotionRules rules;
     private final Cubes cubes;
-    private final LegBuilder navigator;
+    private final SegmentBuilder navigator;
     private final Random random;
     private final Map<String, KnownMotion> motions = new HashMap<>();
     private final Map<Long, Neighbourhood> neighbourhoods = new HashMap<>();
@@ -27,7 +27,7 @@ final class MotionSimulation {
         this.rules = rules;
         this.random = random;
         cubes = new Cubes(rules);
-        navigator = new LegBuilder(rules);
+        navigator = new SegmentBuilder(rules);
     }
 
     static List<Approach> approaches(Collection<PositionFix> fixes, MotionRules rules, Random random) {

@@ -15,12 +15,12 @@ import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.eventtime.Timed;
+import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.time.KeyedLatenessOperator;
 
 /** One keyed stage alone, with time as data; can be stopped with a snapshot and continue from it. */
-final class MotionStage<K, I extends Timed, O> {
+final class MotionStage<K, I extends HasEventTime, O> {
     private final Supplier<OneInputStreamOperator<I, O>> operator;
     private final KeySelector<I, K> key;
     private final TypeInformation<K> keyType;
@@ -42,7 +42,8 @@ final class MotionStage<K, I extends Timed, O> {
     }
 
     static MotionStage<Long, LegUpdate, Finding> match(MotionRules rules) throws Exception {
-        return new MotionStage<>(() -> new KeyedProcessOperator<>(new MatchLegs(rules)), LegUpdate::cube, Types.LONG);
+        return new MotionStage<>(
+                () -> new KeyedProcessOperator<>(new MatchSegments(rules)), LegUpdate::cube, Types.LONG);
     }
 
     static MotionStage<String, Finding, Approach> predict(MotionRules rules) throws Exception {

@@ -77,7 +77,7 @@ class RestartedMotionTest {
                 List<Finding> findings = match.advance(watermark);
                 Collections.shuffle(findings, random);
                 predict.receive(findings);
-                List<Finding> contacts = match.aside(MatchLegs.CONTACTS);
+                List<Finding> contacts = match.aside(MatchSegments.CONTACTS);
                 Collections.shuffle(contacts, random);
                 join.receive(contacts);
                 approaches.addAll(predict.advance(watermark));

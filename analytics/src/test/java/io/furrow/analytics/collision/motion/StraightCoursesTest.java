@@ -32,16 +32,18 @@ class StraightCoursesTest {
     private final Random random = new Random(20261121);
 
     /** A machine that goes all its life in one direction at one speed. */
-    private record Machine(String id, Place start, Place direction, double metersPerMilli, long firstReport) {
-        Place at(long elapsed) {
-            double angle = metersPerMilli * elapsed / Place.EARTH_RADIUS_METERS;
-            return start.times(Math.cos(angle)).plus(direction.times(Place.EARTH_RADIUS_METERS * Math.sin(angle)));
+    private record Machine(
+            String id, CartesianPoint start, CartesianPoint direction, double metersPerMilli, long firstReport) {
+        CartesianPoint at(long elapsed) {
+            double angle = metersPerMilli * elapsed / CartesianPoint.EARTH_RADIUS_METERS;
+            return start.times(Math.cos(angle))
+                    .plus(direction.times(CartesianPoint.EARTH_RADIUS_METERS * Math.sin(angle)));
         }
 
         List<PositionFix> reports(long every, boolean tells) {
             List<PositionFix> fixes = new ArrayList<>();
             for (long elapsed = firstReport; elapsed <= LENGTH; elapsed += every) {
-                Place there = at(elapsed);
+                CartesianPoint there = at(elapsed);
                 double[] place = {there.latitude(), there.longitude()};
                 double speed = tells ? 1000 * metersPerMilli : Double.NaN;
                 fixes.add(
@@ -51,11 +53,11 @@ class StraightCoursesTest {
         }
 
         private double heading(long elapsed) {
-            Place there = at(elapsed);
-            Place onward = at(elapsed + 1).minus(there);
+            CartesianPoint there = at(elapsed);
+            CartesianPoint onward = at(elapsed + 1).minus(there);
             PositionFix fix = Courses.fix(id, new double[] {there.latitude(), there.longitude()}, 0);
-            double east = onward.dot(Place.heading(fix, 90));
-            double north = onward.dot(Place.heading(fix, 0));
+            double east = onward.dot(CartesianPoint.heading(fix, 90));
+            double north = onward.dot(CartesianPoint.heading(fix, 0));
             return (Math.toDegrees(Math.atan2(east, north)) + 360) % 360;
         }
     }
@@ -174,8 +176,9 @@ class StraightCoursesTest {
         double north = 3 * random.nextGaussian() - speed * seconds * Math.cos(course);
         double[] from = Courses.place(centre, east, north);
         double[] towards = Courses.place(centre, east + 50 * Math.sin(course), north + 50 * Math.cos(course));
-        Place there = Place.of(Courses.fix(id, from, 0));
-        Place way = Place.of(Courses.fix(id, towards, 0)).minus(there).alongTheGroundAt(there);
+        CartesianPoint there = CartesianPoint.of(Courses.fix(id, from, 0));
+        CartesianPoint way =
+                CartesianPoint.of(Courses.fix(id, towards, 0)).minus(there).alongTheGroundAt(there);
         return new Machine(id, there, way.times(1 / way.length()), speed / 1000, random.nextInt(1000));
     }
 

@@ -23,7 +23,7 @@ import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.Track;
 import io.furrow.analytics.collision.grid.Tracker;
 import io.furrow.analytics.collision.matching.Cell;
-import io.furrow.analytics.collision.matching.Matching;
+import io.furrow.analytics.collision.matching.PairSelection;
 import io.furrow.analytics.collision.rules.CollisionRules;
 
 /** The search in a cell: one device moves, and those near it before and after are found. Of a fleet that fills 400 cells. */
@@ -38,7 +38,7 @@ public class CellBenchmark {
     @Param({"10000", "50000"})
     private int devices;
 
-    private final Matching matching = new Matching(CollisionRules.DEFAULT);
+    private final PairSelection pairSelection = new PairSelection(CollisionRules.DEFAULT);
     private List<CellUpdate> updates;
     private Cell cell;
     private int next;
@@ -69,7 +69,7 @@ public class CellBenchmark {
 
     @Benchmark
     public void move(Blackhole out) {
-        cell.apply(List.of(updates.get(next)), matching, out::consume);
+        cell.apply(List.of(updates.get(next)), pairSelection, out::consume);
         next = next + 1 == updates.size() ? 0 : next + 1;
     }
 }

@@ -17,7 +17,7 @@ import org.openjdk.jmh.annotations.State;
 import org.openjdk.jmh.annotations.Warmup;
 
 import io.furrow.analytics.field.Field;
-import io.furrow.analytics.field.KnownFields;
+import io.furrow.analytics.field.FieldVersions;
 
 /** The point in polygon: which of the fields a position is in. */
 @State(Scope.Thread)
@@ -33,13 +33,13 @@ public class FieldBenchmark {
     private int fields;
 
     private SyntheticFields madeUp;
-    private KnownFields known;
+    private FieldVersions known;
     private long next;
 
     @Setup
     public void read() throws IOException {
         madeUp = new SyntheticFields(fields, CORNERS);
-        known = KnownFields.read(madeUp);
+        known = FieldVersions.read(madeUp);
     }
 
     @Benchmark

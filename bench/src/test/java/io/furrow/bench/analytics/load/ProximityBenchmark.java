@@ -15,7 +15,7 @@ import org.openjdk.jmh.annotations.Setup;
 import org.openjdk.jmh.annotations.State;
 import org.openjdk.jmh.annotations.Warmup;
 
-import io.furrow.analytics.collision.matching.Member;
+import io.furrow.analytics.collision.matching.CellEntry;
 import io.furrow.analytics.collision.matching.Proximity;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
@@ -36,8 +36,8 @@ public class ProximityBenchmark {
     private double distance;
 
     private final Proximity proximity = new Proximity(CollisionRules.DEFAULT);
-    private final Member[] ones = new Member[PAIRS];
-    private final Member[] others = new Member[PAIRS];
+    private final CellEntry[] ones = new CellEntry[PAIRS];
+    private final CellEntry[] others = new CellEntry[PAIRS];
     private int next;
 
     @Setup
@@ -46,8 +46,8 @@ public class ProximityBenchmark {
         for (int i = 0; i < PAIRS; i++) {
             double latitude = random.nextDouble(40, 41);
             double longitude = random.nextDouble(-4, -3);
-            ones[i] = Member.of(fix("a" + i, latitude, longitude), true);
-            others[i] = Member.of(fix("b" + i, latitude + distance * METER, longitude), true);
+            ones[i] = CellEntry.of(fix("a" + i, latitude, longitude), true);
+            others[i] = CellEntry.of(fix("b" + i, latitude + distance * METER, longitude), true);
         }
     }
 

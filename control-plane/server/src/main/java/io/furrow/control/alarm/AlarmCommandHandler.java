@@ -17,7 +17,7 @@ import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -163,7 +163,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     }
 
     @Override
-    public CommandResult answer(AlarmCommand command, long now) throws RefusedException {
+    public CommandResult answer(AlarmCommand command, long now) throws RejectedException {
         if (command instanceof AlarmCommand.Acknowledge acknowledge) {
             return answer(acknowledge.alarm(), new AlarmEvent.Acknowledged(acknowledge.user()), "acknowledged", now);
         } else if (command instanceof AlarmCommand.Close close) {
@@ -185,10 +185,10 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         return new AlarmEvent.ManuallyClosed(close.user(), isOver);
     }
 
-    private CommandResult answer(String id, AlarmEvent event, String status, long now) throws RefusedException {
+    private CommandResult answer(String id, AlarmEvent event, String status, long now) throws RejectedException {
         Alarm alarm = tables.alarms().get(id);
         if (alarm == null) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.UNKNOWN_ALARM, "there is no alarm '%s', or it was closed long ago".formatted(id));
         }
         Alarm next = AlarmStateMachine.next(alarm, event, now);
@@ -199,7 +199,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     }
 
     /** @param until null to unmute */
-    private CommandResult muted(AlarmCommand.Target target, Long until, long now) throws RefusedException {
+    private CommandResult muted(AlarmCommand.Target target, Long until, long now) throws RejectedException {
         AlarmEvent event = until == null ? new AlarmEvent.Unmuted() : new AlarmEvent.Muted(until);
         String status = until == null ? "unmuted" : "muted";
         if (target instanceof AlarmCommand.OfAlarm of) {
@@ -220,14 +220,14 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         return CommandResult.of(status).with("kind", of.kind().code()).with("subject", of.subject());
     }
 
-    private void requireRoomFor(String key, Long until) throws RefusedException {
+    private void requireRoomFor(String key, Long until) throws RejectedException {
         if (until == null || tables.mutes().contains(key)) {
             return;
         }
         AtomicInteger count = new AtomicInteger();
         tables.mutes().forEach(mute -> count.incrementAndGet());
         if (count.get() >= Limits.MUTES) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.QUOTA_EXCEEDED,
                     "%d subjects are muted already; unmute some, or mute all of a kind".formatted(Limits.MUTES));
         }
@@ -308,7 +308,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     private static Alarm sure(Alarm alarm, AlarmEvent event, long now) {
         try {
             return AlarmStateMachine.next(alarm, event, now);
-        } catch (RefusedException e) {
+        } catch (RejectedException e) {
             throw new IllegalStateException(
                     "an alarm that is not closed accepts every event except commands of users", e);
         }

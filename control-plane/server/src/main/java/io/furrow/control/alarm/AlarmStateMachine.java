@@ -5,7 +5,7 @@ import java.util.Objects;
 
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 
 /** Computes the life cycle of an alarm: open, acknowledged, closed. A pure function of an alarm and an event. */
 final class AlarmStateMachine {
@@ -19,9 +19,9 @@ final class AlarmStateMachine {
     /**
      * Returns the next state of the alarm, or the same instance if nothing changes.
      *
-     * @throws RefusedException if the event is not allowed in the alarm's state
+     * @throws RejectedException if the event is not allowed in the alarm's state
      */
-    static Alarm next(Alarm alarm, AlarmEvent event, long now) throws RefusedException {
+    static Alarm next(Alarm alarm, AlarmEvent event, long now) throws RejectedException {
         if (event instanceof AlarmEvent.TimePassed) {
             return afterTime(alarm, now);
         }
@@ -58,12 +58,12 @@ final class AlarmStateMachine {
     }
 
     private static Alarm closedManually(Alarm alarm, AlarmEvent.ManuallyClosed event, long now)
-            throws RefusedException {
+            throws RejectedException {
         Duration ago = alarm.seen() == null ? null : Duration.ofMillis(now - alarm.seen());
         boolean lasts = alarm.isOfGroup() ? !event.isOver() : ago != null && ago.compareTo(CAUSE_LASTS) < 0;
         if (lasts) {
             String seen = alarm.isOfGroup() ? "" : " (seen %d s ago)".formatted(ago.toSeconds());
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.WRONG_STATE,
                     "alarm '%s' closes when its cause is over: %s%s. Acknowledge it, or mute it for a while."
                             .formatted(alarm.alarm(), alarm.text(), seen));
@@ -93,8 +93,8 @@ final class AlarmStateMachine {
                 : "the encounter has ended, and the pair has had no other since";
     }
 
-    private static RefusedException wrongState(Alarm alarm) {
-        return new RefusedException(
+    private static RejectedException wrongState(Alarm alarm) {
+        return new RejectedException(
                 ErrorCode.WRONG_STATE,
                 "alarm '%s' is %s already"
                         .formatted(alarm.alarm(), alarm.state().code()));

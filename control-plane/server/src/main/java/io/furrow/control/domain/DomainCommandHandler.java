@@ -11,7 +11,7 @@ import io.furrow.kafka.field.FieldEdit;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
@@ -47,13 +47,13 @@ public final class DomainCommandHandler {
     }
 
     /** @param now epoch ms */
-    public CommandResult answer(DomainCommand command, long now) throws RefusedException {
+    public CommandResult answer(DomainCommand command, long now) throws RejectedException {
         if (command instanceof DomainCommand.Create create) {
             return create(create, now);
         }
         Domain existing = domains.get(command.domain());
         if (existing == null) {
-            throw new RefusedException(ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + command.domain() + "'");
+            throw new RejectedException(ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + command.domain() + "'");
         }
         if (command instanceof DomainCommand.Change change) {
             store(existing, existing.changed(change.details(), now, sequence.next()));
@@ -62,9 +62,9 @@ public final class DomainCommandHandler {
         return delete(existing, ((DomainCommand.Delete) command).force(), now);
     }
 
-    private CommandResult create(DomainCommand.Create create, long now) throws RefusedException {
+    private CommandResult create(DomainCommand.Create create, long now) throws RejectedException {
         if (domains.contains(create.domain())) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.DOMAIN_EXISTS,
                     "domain '%s' exists already; use 'change' to change it".formatted(create.domain()));
         }
@@ -73,11 +73,11 @@ public final class DomainCommandHandler {
     }
 
     /** With its missions; its fields end. What is stored of them stays. */
-    private CommandResult delete(Domain existing, boolean force, long now) throws RefusedException {
+    private CommandResult delete(Domain existing, boolean force, long now) throws RejectedException {
         String domain = existing.domain();
         List<String> active = missions.activeIn(domain);
         if (!active.isEmpty() && !force) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.MISSIONS_RUNNING,
                     "%s running in domain '%s', '%s' among them; stop them first, or delete with force"
                             .formatted(Counts.are(active.size(), "mission"), domain, active.get(0)));
@@ -105,7 +105,7 @@ public final class DomainCommandHandler {
     }
 
     /** @param before null if there was none */
-    private void store(Domain before, Domain domain) throws RefusedException {
+    private void store(Domain before, Domain domain) throws RejectedException {
         byte[] value = domain.toBytes();
         quota.replace(before == null ? null : before.toBytes(), value);
         domains.put(domain.domain(), domain);

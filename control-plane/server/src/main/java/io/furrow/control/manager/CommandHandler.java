@@ -3,7 +3,7 @@ package io.furrow.control.manager;
 import java.util.List;
 
 import io.furrow.model.control.CommandResult;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 
 /**
  * Who answers the requests of one manager.
@@ -16,7 +16,7 @@ public interface CommandHandler<C> {
      *
      * @param now epoch ms
      */
-    CommandResult answer(C command, long now) throws RefusedException;
+    CommandResult answer(C command, long now) throws RejectedException;
 
     /** Called about once a second, and before the first request. */
     default void passTime(long now) {}

@@ -17,10 +17,10 @@ import io.furrow.model.control.Command;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
-import io.furrow.model.control.Received;
-import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.RequestExcerpt;
+import io.furrow.model.control.ParsedRequest;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.control.RequestFingerprint;
+import io.furrow.model.control.RequestSummary;
 import io.furrow.model.control.Requests;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.text.FailureText;
@@ -95,13 +95,13 @@ public final class CommandProcessor<C extends Command>
             refuseOversized(record, oversized, now);
             return;
         }
-        Received<C> received = manager.read(record.value());
-        if (received instanceof Received.Request<C> request) {
+        ParsedRequest<C> received = manager.read(record.value());
+        if (received instanceof ParsedRequest.Request<C> request) {
             answerOnce(
                     IdentifiedRequest.of(record, request.requestId()),
                     () -> answer(record, request.command(), now),
                     now);
-        } else if (received instanceof Received.Refused<C> refused) {
+        } else if (received instanceof ParsedRequest.Refused<C> refused) {
             answerOnce(IdentifiedRequest.of(record, refused.requestId()), refused::answer, now);
         }
     }
@@ -143,7 +143,7 @@ public final class CommandProcessor<C extends Command>
     }
 
     private void refuseOversized(Record<String, byte[]> record, long bytes, long now) {
-        RequestExcerpt excerpt = RequestExcerpt.of(record.value());
+        RequestSummary excerpt = RequestSummary.of(record.value());
         String reason =
                 "the request has %d bytes, and may have %d; send a long list of devices in several with 'add-devices'"
                         .formatted(bytes, Limits.REQUEST_BYTES);
@@ -154,7 +154,7 @@ public final class CommandProcessor<C extends Command>
     }
 
     private static CommandResult refusal(IdentifiedRequest requested, ErrorCode code, String reason) {
-        return RequestExcerpt.of(requested.record().value()).refusal(code, reason);
+        return RequestSummary.of(requested.record().value()).refusal(code, reason);
     }
 
     private void send(IdentifiedRequest requested, CommandResult given, long now) {
@@ -181,16 +181,16 @@ public final class CommandProcessor<C extends Command>
     private CommandResult answer(Record<String, byte[]> record, C command, long now) {
         try {
             return unitOfWork.call(() -> handler.answer(command, now));
-        } catch (RefusedException e) {
+        } catch (RejectedException e) {
             return Requests.refusal(e, command);
         } catch (OversizedRecordException e) {
-            return Requests.refusal(new RefusedException(ErrorCode.TOO_LARGE, e.getMessage()), command);
+            return Requests.refusal(new RejectedException(ErrorCode.TOO_LARGE, e.getMessage()), command);
         } catch (RuntimeException e) { // a fault of ours, which must not keep the other requests from being answered
             RecordOrigin origin = RecordOrigin.of(record).orElseThrow();
             LOG.error("the request {} failed and changed nothing; it is a dead letter", origin, e);
             context().forward(DeadLetterRecords.of(record, origin, Reason.FAILED, FailureText.of(e)));
             return Requests.refusal(
-                    new RefusedException(
+                    new RejectedException(
                             ErrorCode.INTERNAL_ERROR, "the manager failed at it and changed nothing; its log says why"),
                     command);
         }

@@ -21,7 +21,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RequestExcerpt;
+import io.furrow.model.control.RequestSummary;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.text.FailureText;
@@ -118,7 +118,7 @@ public final class FailureHandler
     }
 
     private static ProducerRecord<byte[], byte[]> answer(String topic, ErrorHandlerContext context) {
-        RequestExcerpt excerpt = RequestExcerpt.of(context.sourceRawValue());
+        RequestSummary excerpt = RequestSummary.of(context.sourceRawValue());
         io.furrow.model.control.CommandResult refusal = excerpt.refusal(
                 ErrorCode.INTERNAL_ERROR,
                 "the manager failed at it; its log says why, and the request is a dead letter");

@@ -6,7 +6,7 @@ import java.util.stream.Stream;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.Received;
+import io.furrow.model.control.ParsedRequest;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.Requests;
 import io.furrow.model.topic.Topics;
@@ -17,7 +17,7 @@ import io.furrow.model.topic.Topics;
  * @param name the first part of the names of its stores and nodes; never changed, state is found by it
  * @param <C> its commands
  */
-public record ManagerTopic<C>(String name, String topic, Function<byte[], Received<C>> reader) {
+public record ManagerTopic<C>(String name, String topic, Function<byte[], ParsedRequest<C>> reader) {
     public static final ManagerTopic<DomainCommand> DOMAIN =
             new ManagerTopic<>("domain", Topics.DOMAIN_MANAGER, Requests::domain);
     public static final ManagerTopic<MissionCommand> MISSION =
@@ -33,7 +33,7 @@ public record ManagerTopic<C>(String name, String topic, Function<byte[], Receiv
                 .anyMatch(each -> each.topic().equals(topic));
     }
 
-    Received<C> read(byte[] value) {
+    ParsedRequest<C> read(byte[] value) {
         return reader.apply(value);
     }
 

@@ -1,7 +1,7 @@
 package io.furrow.control.manager;
 
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 
 /** Room for all definitions together, which are held in memory: how many bytes are used is remembered. */
 public final class Quota {
@@ -16,10 +16,10 @@ public final class Quota {
         this.bytes = bytes;
     }
 
-    /** @throws RefusedException where there is not so much room left */
-    public void require(long further) throws RefusedException {
+    /** @throws RejectedException where there is not so much room left */
+    public void require(long further) throws RejectedException {
         if (further > 0 && used() + further > bytes) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.QUOTA_EXCEEDED,
                     "all definitions may have %d bytes together, and would have %d; delete what is not needed any more"
                             .formatted(bytes, used() + further));
@@ -34,9 +34,9 @@ public final class Quota {
     /**
      * Puts one value in the place of another; either may be null.
      *
-     * @throws RefusedException if there is no room for it
+     * @throws RejectedException if there is no room for it
      */
-    public void replace(byte[] before, byte[] after) throws RefusedException {
+    public void replace(byte[] before, byte[] after) throws RejectedException {
         long further = (after == null ? 0 : after.length) - (before == null ? 0 : before.length);
         require(further);
         use(further);

@@ -7,8 +7,8 @@ import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.Record;
 
 import io.furrow.model.control.Limits;
-import io.furrow.model.control.Received;
-import io.furrow.model.control.RequestExcerpt;
+import io.furrow.model.control.ParsedRequest;
+import io.furrow.model.control.RequestSummary;
 
 /**
  * Forwards the requests on a manager's topic, not its responses, with their position in headers; a missing key becomes
@@ -35,13 +35,13 @@ final class RequestProcessor extends ContextualProcessor<String, byte[], String,
         record.headers().remove(OVERSIZED);
         if (record.value() != null && record.value().length > Limits.REQUEST_BYTES) {
             refuse(record);
-        } else if (!(manager.read(record.value()) instanceof Received.Passed)) {
+        } else if (!(manager.read(record.value()) instanceof ParsedRequest.Passed)) {
             forward(record);
         }
     }
 
     private void refuse(Record<String, byte[]> record) {
-        RequestExcerpt excerpt = RequestExcerpt.of(record.value());
+        RequestSummary excerpt = RequestSummary.of(record.value());
         if (!excerpt.isResponse()) {
             byte[] bytes = Integer.toString(record.value().length).getBytes(StandardCharsets.UTF_8);
             record.headers().add(OVERSIZED, bytes);

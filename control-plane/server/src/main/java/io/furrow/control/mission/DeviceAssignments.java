@@ -8,7 +8,7 @@ import java.util.Set;
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
@@ -38,7 +38,7 @@ final class DeviceAssignments {
     }
 
     /** Begins to ask for all devices of a mission, or for none of them where one is another's. Answers how many there are. */
-    int assign(Mission mission, long now) throws RefusedException {
+    int assign(Mission mission, long now) throws RejectedException {
         List<DesiredDevice> planned = planned(mission, now);
         Set<String> beingWritten = beingWrittenFor(mission);
         checkFree(mission, planned, beingWritten);
@@ -48,7 +48,7 @@ final class DeviceAssignments {
     }
 
     private void checkFree(Mission mission, List<DesiredDevice> planned, Set<String> beingWritten)
-            throws RefusedException {
+            throws RejectedException {
         Set<String> keys = new HashSet<>();
         for (DesiredDevice desired : planned) {
             String key = desired.version().key();
@@ -58,21 +58,22 @@ final class DeviceAssignments {
                     && existing.device().running()
                     && !existing.mission().equals(mission.mission());
             if (taken) {
-                throw new RefusedException(
+                throw new RejectedException(
                         ErrorCode.DEVICE_TAKEN,
                         "device '%s' is on mission '%s'; stop that first".formatted(id, existing.mission()));
             }
             if (beingWritten.contains(key)) {
-                throw new RefusedException(
+                throw new RejectedException(
                         ErrorCode.DEVICE_TAKEN, "device '%s' is on another mission; stop that first".formatted(id));
             }
             if (!keys.add(key)) {
-                throw new RefusedException(ErrorCode.DEVICE_TAKEN, "device '%s' is twice on the mission".formatted(id));
+                throw new RejectedException(
+                        ErrorCode.DEVICE_TAKEN, "device '%s' is twice on the mission".formatted(id));
             }
         }
     }
 
-    private void checkRoom(List<DesiredDevice> planned, Set<String> beingWritten) throws RefusedException {
+    private void checkRoom(List<DesiredDevice> planned, Set<String> beingWritten) throws RejectedException {
         long fresh = planned.stream()
                 .map(desired -> desired.version().key())
                 .filter(key -> !tables.devices().contains(key))
@@ -146,13 +147,13 @@ final class DeviceAssignments {
      * @param id of its entity
      * @return how often that was done
      */
-    int rotateCredentials(String id) throws RefusedException {
+    int rotateCredentials(String id) throws RejectedException {
         DeviceState existing = tables.devices().get(options.scope().identity(id));
         if (existing == null || existing.forgotten()) {
-            throw new RefusedException(ErrorCode.UNKNOWN_DEVICE, "there is no device '%s'".formatted(id));
+            throw new RejectedException(ErrorCode.UNKNOWN_DEVICE, "there is no device '%s'".formatted(id));
         }
         if (existing.device().device() == null) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.NO_CREDENTIALS,
                     "device '%s' has a login of its own, which is not known here; list it as an object with a 'type' to give it one"
                             .formatted(id));

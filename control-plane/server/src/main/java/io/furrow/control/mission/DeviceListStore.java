@@ -14,7 +14,7 @@ import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionDevices;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.GroupRef;
 import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.topic.Topics;
@@ -63,7 +63,7 @@ final class DeviceListStore {
      *
      * @return the mission with it
      */
-    Mission replace(Mission mission, MissionDevices devices) throws RefusedException {
+    Mission replace(Mission mission, MissionDevices devices) throws RejectedException {
         for (int part = 1; part < mission.parts(); part++) {
             remove(mission, part);
         }
@@ -80,7 +80,7 @@ final class DeviceListStore {
      *
      * @return the mission with it
      */
-    Mission append(Mission mission, MissionDevices more) throws RefusedException {
+    Mission append(Mission mission, MissionDevices more) throws RejectedException {
         if (more.groups().isEmpty()) {
             return mission;
         }
@@ -92,7 +92,7 @@ final class DeviceListStore {
             bytes += parts.get(MissionDeviceList.key(mission.mission(), part)).length;
         }
         if (bytes > Limits.MISSION_BYTES) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.TOO_LARGE,
                     "the devices of mission '%s' would have %d bytes, and may have %d"
                             .formatted(mission.mission(), bytes, Limits.MISSION_BYTES));
@@ -106,7 +106,7 @@ final class DeviceListStore {
         }
     }
 
-    private void put(Mission mission, int part, MissionDevices devices) throws RefusedException {
+    private void put(Mission mission, int part, MissionDevices devices) throws RejectedException {
         MissionDeviceList list = new MissionDeviceList(mission.mission(), part, sequence.next(), devices.toJson());
         byte[] value = list.toBytes();
         long further = cost(value) - cost(parts.get(list.key()));

@@ -14,7 +14,7 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionTemplate;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
@@ -52,7 +52,7 @@ final class MissionCommandHandler implements DomainMissions {
     }
 
     /** @param now epoch ms */
-    CommandResult answer(MissionCommand command, long now) throws RefusedException {
+    CommandResult answer(MissionCommand command, long now) throws RejectedException {
         if (command instanceof MissionCommand.Create create) {
             return create(create, now);
         } else if (command instanceof MissionCommand.Start start) {
@@ -75,9 +75,9 @@ final class MissionCommandHandler implements DomainMissions {
         return CommandResult.of("deleted").with("template", delete.template());
     }
 
-    private CommandResult create(MissionCommand.Create create, long now) throws RefusedException {
+    private CommandResult create(MissionCommand.Create create, long now) throws RejectedException {
         if (tables.missions().get(create.mission()) != null) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.MISSION_EXISTS, "there is a mission '" + create.mission() + "' already");
         }
         Mission mission = planner.plan(null, create.mission(), create.domain(), create.plan(), now)
@@ -86,11 +86,11 @@ final class MissionCommandHandler implements DomainMissions {
         return created(mission);
     }
 
-    private CommandResult start(MissionCommand.Start start, long now) throws RefusedException {
+    private CommandResult start(MissionCommand.Start start, long now) throws RejectedException {
         Mission existing = tables.missions().get(start.mission());
         MissionStatus status = tables.statuses().get(start.mission());
         if (status != null && status.state().isActive()) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.MISSION_RUNNING,
                     "mission '%s' is %s already"
                             .formatted(start.mission(), status.state().code()));
@@ -107,13 +107,13 @@ final class MissionCommandHandler implements DomainMissions {
         return created(mission);
     }
 
-    private CommandResult addDevices(MissionCommand.AddDevices add) throws RefusedException {
+    private CommandResult addDevices(MissionCommand.AddDevices add) throws RejectedException {
         MissionStatus status = tables.statuses().get(add.mission());
         if (status == null) {
             throw unknown(add.mission());
         }
         if (status.state().isActive()) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.MISSION_RUNNING,
                     "mission '%s' is %s; stop it before devices are added"
                             .formatted(add.mission(), status.state().code()));
@@ -123,7 +123,7 @@ final class MissionCommandHandler implements DomainMissions {
         return CommandResult.of("changed").with("mission", mission.mission()).with("devices", mission.deviceCount());
     }
 
-    private CommandResult stop(MissionCommand.Stop stop, long now) throws RefusedException {
+    private CommandResult stop(MissionCommand.Stop stop, long now) throws RejectedException {
         MissionStatus status = tables.statuses().get(stop.mission());
         if (status == null) {
             throw unknown(stop.mission());
@@ -131,7 +131,7 @@ final class MissionCommandHandler implements DomainMissions {
         boolean scheduled = status.state() == MissionState.CREATED && status.due() != null;
         boolean runs = status.state() == MissionState.STARTING || status.state() == MissionState.RUNNING;
         if (!scheduled && !runs) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.MISSION_NOT_RUNNING,
                     "mission '%s' does not run, it is %s"
                             .formatted(stop.mission(), status.state().code()));
@@ -170,13 +170,13 @@ final class MissionCommandHandler implements DomainMissions {
         return missions;
     }
 
-    private CommandResult delete(MissionCommand.Delete delete) throws RefusedException {
+    private CommandResult delete(MissionCommand.Delete delete) throws RejectedException {
         MissionStatus status = tables.statuses().get(delete.mission());
         if (status == null) {
             throw unknown(delete.mission());
         }
         if (status.state().isActive()) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.MISSION_RUNNING,
                     "mission '%s' is %s; stop it first"
                             .formatted(delete.mission(), status.state().code()));
@@ -302,11 +302,11 @@ final class MissionCommandHandler implements DomainMissions {
     private void begin(Mission mission, MissionStatus status, long now) {
         try {
             if (!isDomain.test(mission.domain())) {
-                throw new RefusedException(
+                throw new RejectedException(
                         ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + mission.domain() + "' any more");
             }
             store(status.started(mission, devices.assign(mission, now), timeout, now));
-        } catch (RefusedException e) {
+        } catch (RejectedException e) {
             fail(mission, status, "at the start date: " + e.getMessage(), now);
         }
     }
@@ -339,7 +339,7 @@ final class MissionCommandHandler implements DomainMissions {
                 .with("mission_topic", Topics.realtime(mission.domain(), mission.mission()));
     }
 
-    private static RefusedException unknown(String mission) {
-        return new RefusedException(ErrorCode.UNKNOWN_MISSION, "there is no mission '" + mission + "'");
+    private static RejectedException unknown(String mission) {
+        return new RejectedException(ErrorCode.UNKNOWN_MISSION, "there is no mission '" + mission + "'");
     }
 }

@@ -29,7 +29,7 @@ import io.furrow.control.manager.Table;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionTemplate;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.topic.Topics;
@@ -130,7 +130,7 @@ public final class MissionManager {
     private static MissionTemplate template(byte[] value) {
         try {
             return MissionTemplate.read(value);
-        } catch (RefusedException e) {
+        } catch (RejectedException e) {
             throw new IllegalStateException(
                     "a stored template cannot be read: " + new String(value, StandardCharsets.UTF_8), e);
         }
@@ -139,7 +139,7 @@ public final class MissionManager {
     /** Missions as time passes; the packaged template is there from the start. */
     private record TimedMissionHandler(MissionCommandHandler missions) implements CommandHandler<MissionCommand> {
         @Override
-        public CommandResult answer(MissionCommand command, long now) throws RefusedException {
+        public CommandResult answer(MissionCommand command, long now) throws RejectedException {
             return missions.answer(command, now);
         }
 

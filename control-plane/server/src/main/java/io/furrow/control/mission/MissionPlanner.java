@@ -9,7 +9,7 @@ import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.MissionPlan;
 import io.furrow.model.control.MissionTemplate;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 
 /** Plans a mission: resolves template and groups to a list of devices, or rejects the request. */
 final class MissionPlanner {
@@ -29,17 +29,17 @@ final class MissionPlanner {
     }
 
     /** The mission with the devices that are asked for; those of a template as it is now. */
-    Mission plan(Mission existing, String name, String domain, MissionPlan plan, long now) throws RefusedException {
+    Mission plan(Mission existing, String name, String domain, MissionPlan plan, long now) throws RejectedException {
         if (domain == null) {
-            throw new RefusedException(ErrorCode.MISSING_MEMBER, "a new mission needs a member 'domain'");
+            throw new RejectedException(ErrorCode.MISSING_MEMBER, "a new mission needs a member 'domain'");
         }
         if (existing != null && !existing.domain().equals(domain)) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.NAME_TAKEN,
                     "mission '%s' belongs to domain '%s'; choose another name".formatted(name, existing.domain()));
         }
         if (!isDomain.test(domain)) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + domain + "'; create it first");
         }
         Mission mission = existing == null ? fresh(name, domain, now) : existing;
@@ -52,14 +52,14 @@ final class MissionPlanner {
         return mission;
     }
 
-    private Mission fresh(String name, String domain, long now) throws RefusedException {
+    private Mission fresh(String name, String domain, long now) throws RejectedException {
         quota.require(Limits.MISSION_OVERHEAD_BYTES);
         quota.use(Limits.MISSION_OVERHEAD_BYTES);
         return Mission.of(name, domain, now);
     }
 
     /** With another list; devices that are not on it any more are forgotten. */
-    private Mission listing(Mission mission, MissionDevices list) throws RefusedException {
+    private Mission listing(Mission mission, MissionDevices list) throws RejectedException {
         List<DeviceState> before = devices.of(mission);
         Mission after = lists.replace(mission, list);
         devices.forgetAllBut(before, after);

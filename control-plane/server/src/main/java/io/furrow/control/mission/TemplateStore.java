@@ -11,7 +11,7 @@ import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.Table;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionTemplate;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 /** The templates, version by version. A version never changes, and its number is never given again. */
@@ -49,7 +49,7 @@ final class TemplateStore {
         if (versions.get(DEMO) == null) {
             try {
                 save(demo());
-            } catch (RefusedException e) {
+            } catch (RejectedException e) {
                 throw new IllegalStateException("there is no room for the built-in template", e);
             }
         }
@@ -60,13 +60,13 @@ final class TemplateStore {
             return MissionTemplate.read(json.readAllBytes());
         } catch (IOException e) {
             throw new UncheckedIOException("the built-in template cannot be loaded", e);
-        } catch (RefusedException e) {
+        } catch (RejectedException e) {
             throw new IllegalStateException("the built-in template cannot be read", e);
         }
     }
 
     /** Keeps it as the next version, which it answers. */
-    MissionTemplate save(MissionTemplate template) throws RefusedException {
+    MissionTemplate save(MissionTemplate template) throws RejectedException {
         Versions before = existing(template.name());
         MissionTemplate saved = template.as(before.last() + 1);
         List<Integer> kept = new ArrayList<>(before.kept());
@@ -80,7 +80,7 @@ final class TemplateStore {
     }
 
     /** @param version 0 for the newest */
-    MissionTemplate find(String name, int version) throws RefusedException {
+    MissionTemplate find(String name, int version) throws RejectedException {
         List<Integer> kept = existing(name).kept();
         int desired = version == 0 && !kept.isEmpty() ? kept.get(kept.size() - 1) : version;
         if (!kept.contains(desired)) {
@@ -90,7 +90,7 @@ final class TemplateStore {
     }
 
     /** Missions made from it keep their devices. @param version 0 for all */
-    void delete(String name, int version) throws RefusedException {
+    void delete(String name, int version) throws RejectedException {
         Versions before = existing(name);
         if (version == 0 ? before.kept().isEmpty() : !before.kept().contains(version)) {
             throw unknown(name, version);
@@ -112,8 +112,8 @@ final class TemplateStore {
         return existing == null ? new Versions(0, List.of()) : existing;
     }
 
-    private static RefusedException unknown(String name, int version) {
-        return new RefusedException(
+    private static RejectedException unknown(String name, int version) {
+        return new RejectedException(
                 ErrorCode.UNKNOWN_TEMPLATE,
                 "there is no template '%s'".formatted(version == 0 ? name : name + "@" + version));
     }

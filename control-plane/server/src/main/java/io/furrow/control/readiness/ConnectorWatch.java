@@ -22,8 +22,8 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 
-import io.furrow.kafka.PartStatus;
-import io.furrow.kafka.RestartingWorker;
+import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.control.Fault;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -49,9 +49,9 @@ public final class ConnectorWatch implements AutoCloseable {
     private final String connect;
     private final Clock clock;
     private final Producer<String, byte[]> producer;
-    private final RestartingWorker worker;
+    private final SupervisedWorker worker;
     private final Map<String, Instant> reported = new TreeMap<>();
-    private volatile List<PartStatus> connectors = List.of();
+    private volatile List<ComponentStatus> connectors = List.of();
     private volatile Instant lastAnswer;
     private volatile String failure = "not asked yet";
 
@@ -59,7 +59,7 @@ public final class ConnectorWatch implements AutoCloseable {
         this.connect = connect.toString().replaceAll("/+$", "");
         this.producer = producer;
         this.clock = clock;
-        this.worker = new RestartingWorker("connector-watch", clock);
+        this.worker = new SupervisedWorker("connector-watch", clock);
     }
 
     /**
@@ -77,7 +77,7 @@ public final class ConnectorWatch implements AutoCloseable {
         return watch;
     }
 
-    private void watch(RestartingWorker self) throws InterruptedException {
+    private void watch(SupervisedWorker self) throws InterruptedException {
         while (!self.isClosing()) {
             poll();
             self.pause(INTERVAL);
@@ -103,7 +103,7 @@ public final class ConnectorWatch implements AutoCloseable {
     }
 
     private void take(JsonNode all) {
-        Map<String, PartStatus> parts = new TreeMap<>();
+        Map<String, ComponentStatus> parts = new TreeMap<>();
         for (Map.Entry<String, JsonNode> each : all.properties()) {
             JsonNode status = each.getValue().path("status");
             List<String> states = new ArrayList<>();
@@ -138,9 +138,9 @@ public final class ConnectorWatch implements AutoCloseable {
         }
     }
 
-    private PartStatus part(String name, List<String> states) {
-        PartStatus.State state = states.isEmpty() ? PartStatus.State.UP : PartStatus.State.DOWN;
-        return new PartStatus(
+    private ComponentStatus part(String name, List<String> states) {
+        ComponentStatus.State state = states.isEmpty() ? ComponentStatus.State.UP : ComponentStatus.State.DOWN;
+        return new ComponentStatus(
                 "connector " + name, state, states.isEmpty() ? clock.instant() : null, String.join("; ", states));
     }
 
@@ -160,11 +160,12 @@ public final class ConnectorWatch implements AutoCloseable {
     }
 
     /** Of Connect, and of each of its connectors. */
-    public List<PartStatus> statuses() {
+    public List<ComponentStatus> statuses() {
         Instant last = lastAnswer;
         boolean up = last != null && last.plus(INTERVAL.multipliedBy(3)).isAfter(clock.instant());
-        List<PartStatus> all = new ArrayList<>();
-        all.add(new PartStatus("connect", up ? PartStatus.State.UP : PartStatus.State.DOWN, last, failure));
+        List<ComponentStatus> all = new ArrayList<>();
+        all.add(new ComponentStatus(
+                "connect", up ? ComponentStatus.State.UP : ComponentStatus.State.DOWN, last, failure));
         if (up) {
             all.addAll(connectors);
         }

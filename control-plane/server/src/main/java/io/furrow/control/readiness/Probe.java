@@ -17,7 +17,7 @@ import java.util.concurrent.TimeoutException;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.DescribeClusterOptions;
 
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -96,10 +96,10 @@ public final class Probe implements AutoCloseable {
         }
     }
 
-    public PartStatus status() {
+    public ComponentStatus status() {
         Instant last = lastSuccess;
         boolean up = last != null && last.plus(UNAVAILABLE_AFTER).isAfter(Instant.now());
-        return new PartStatus(name, up ? PartStatus.State.UP : PartStatus.State.DOWN, last, failure);
+        return new ComponentStatus(name, up ? ComponentStatus.State.UP : ComponentStatus.State.DOWN, last, failure);
     }
 
     @Override

@@ -10,7 +10,7 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 
 /**
  * The parts of this control plane, and what they need. It is <b>alive</b> unless a part has ended that only a restart of the process
@@ -23,34 +23,34 @@ public final class Readiness {
 
     private final List<Supplier<List<String>>> warnings = new CopyOnWriteArrayList<>();
 
-    private record Part(Supplier<List<PartStatus>> statuses, boolean required) {}
+    private record Part(Supplier<List<ComponentStatus>> statuses, boolean required) {}
 
     public Readiness(Clock clock) {
         this.clock = clock;
     }
 
     /** A part without which it is not ready. */
-    public void require(Supplier<PartStatus> status) {
+    public void require(Supplier<ComponentStatus> status) {
         requireAll(() -> List.of(status.get()));
     }
 
     /** The same of several. */
-    public void requireAll(Supplier<List<PartStatus>> statuses) {
+    public void requireAll(Supplier<List<ComponentStatus>> statuses) {
         parts.add(new Part(statuses, true));
     }
 
     /** Something that it speaks with. */
-    public void show(Supplier<PartStatus> status) {
+    public void show(Supplier<ComponentStatus> status) {
         parts.add(new Part(() -> List.of(status.get()), false));
     }
 
     /** The same of several. */
-    public void showAll(Supplier<List<PartStatus>> statuses) {
+    public void showAll(Supplier<List<ComponentStatus>> statuses) {
         parts.add(new Part(statuses, false));
     }
 
     /** All parts, for metrics. */
-    public List<PartStatus> statuses() {
+    public List<ComponentStatus> statuses() {
         return all(false).toList();
     }
 
@@ -60,14 +60,14 @@ public final class Readiness {
     }
 
     public boolean isAlive() {
-        return all(false).noneMatch(part -> part.state() == PartStatus.State.DEAD);
+        return all(false).noneMatch(part -> part.state() == ComponentStatus.State.DEAD);
     }
 
     public boolean isReady() {
-        return all(true).allMatch(part -> part.state() == PartStatus.State.UP);
+        return all(true).allMatch(part -> part.state() == ComponentStatus.State.UP);
     }
 
-    private Stream<PartStatus> all(boolean requiredOnly) {
+    private Stream<ComponentStatus> all(boolean requiredOnly) {
         return parts.stream()
                 .filter(part -> part.required() || !requiredOnly)
                 .flatMap(part -> part.statuses().get().stream());
@@ -80,7 +80,7 @@ public final class Readiness {
 
     /** {@code status}: ready, degraded where something away is not needed by all requests, or not-ready. */
     public ObjectNode readiness() {
-        boolean allUp = all(false).allMatch(part -> part.state() == PartStatus.State.UP);
+        boolean allUp = all(false).allMatch(part -> part.state() == ComponentStatus.State.UP);
         return page(allUp ? "ready" : isReady() ? "degraded" : "not-ready");
     }
 
@@ -96,9 +96,9 @@ public final class Readiness {
         return page;
     }
 
-    private ObjectNode described(PartStatus part) {
+    private ObjectNode described(ComponentStatus part) {
         ObjectNode json =
-                JsonNodeFactory.instance.objectNode().put("state", part.state().word());
+                JsonNodeFactory.instance.objectNode().put("state", part.state().code());
         if (part.lastSuccess() != null) {
             json.put("lastSuccess", part.lastSuccess().toString());
             Duration age = Duration.between(part.lastSuccess(), clock.instant());

@@ -8,7 +8,7 @@ import java.util.stream.LongStream;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RecordedMission;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.TopicName;
 
 /**
@@ -18,12 +18,12 @@ import io.furrow.model.topic.TopicName;
  * @param find by mission; null if none is listed
  */
 record RecordedMissions(boolean checked, Function<String, RecordedMission> find) {
-    /** @throws RefusedException where one of the missions is not stored, as far as that is known */
-    void require(List<String> missions) throws RefusedException {
+    /** @throws RejectedException where one of the missions is not stored, as far as that is known */
+    void require(List<String> missions) throws RejectedException {
         List<String> unknown =
                 missions.stream().filter(each -> lookup(each) == null).toList();
         if (checked && !unknown.isEmpty()) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.UNKNOWN_MISSION,
                     "nothing is stored of mission '%s'; './furrow replay missions' and GET /api/recordings list what is"
                             .formatted(String.join("', '", unknown)));
@@ -43,7 +43,7 @@ record RecordedMissions(boolean checked, Function<String, RecordedMission> find)
      * @param time of an event, epoch ms
      * @param reported null if nothing was reported of the replay
      */
-    void requireWithin(long time, DesiredReplay replay, ReportedReplay reported) throws RefusedException {
+    void requireWithin(long time, DesiredReplay replay, ReportedReplay reported) throws RejectedException {
         RecordedMission listed = replay.plan().source() == null ? lookup(replay.mission()) : null;
         boolean isReported = reported != null && reported.first() != null;
         LongStream.Builder firsts = LongStream.builder();
@@ -59,7 +59,7 @@ record RecordedMissions(boolean checked, Function<String, RecordedMission> find)
                 : listed == null ? reported.last() : Math.max(listed.last(), reported.last());
         long end = Math.min(last, replay.to() - 1);
         if (time < begin || time > end) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.WRONG_MEMBER,
                     time < begin
                             ? "'to' must be at least %s, where replay '%s' begins; choose that or a later time"

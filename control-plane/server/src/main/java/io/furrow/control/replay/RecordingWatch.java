@@ -15,8 +15,8 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
-import io.furrow.kafka.PartStatus;
-import io.furrow.kafka.RestartingWorker;
+import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.SupervisedWorker;
 import io.furrow.mission.mongo.MissionCatalog;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.control.RecordedMission;
@@ -33,14 +33,14 @@ public final class RecordingWatch implements AutoCloseable {
     private final Properties client;
     private final ReplaySettings settings;
     private final Clock clock;
-    private final RestartingWorker worker;
+    private final SupervisedWorker worker;
     private volatile int size;
 
     private RecordingWatch(Properties client, ReplaySettings settings, Clock clock) {
         this.client = client;
         this.settings = settings;
         this.clock = clock;
-        this.worker = new RestartingWorker("recording-watch", clock);
+        this.worker = new SupervisedWorker("recording-watch", clock);
     }
 
     /**
@@ -63,7 +63,7 @@ public final class RecordingWatch implements AutoCloseable {
         return watch;
     }
 
-    private void run(RestartingWorker running) throws InterruptedException {
+    private void run(SupervisedWorker running) throws InterruptedException {
         RecordingList list = new RecordingList();
         try (MissionCatalog catalog = MissionCatalog.open(settings.mongo(), settings.database());
                 CommittedReader<String> topic = CommittedReader.open(client, Topics.RECORDINGS);
@@ -111,12 +111,12 @@ public final class RecordingWatch implements AutoCloseable {
         public Optional<RecordedMission> find(String name) throws IOException {
             return catalog.find(name)
                     .flatMap(stored -> stored.span())
-                    .map(span -> new RecordedMission(name, span.first(), span.last()));
+                    .map(recordingExtent -> new RecordedMission(name, recordingExtent.first(), recordingExtent.last()));
         }
     }
 
     /** For a health page. */
-    public PartStatus status() {
+    public ComponentStatus status() {
         return worker.status();
     }
 

@@ -18,7 +18,7 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.control.ReplayStatus;
@@ -74,7 +74,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     record ReplayStores(Table<DesiredReplay> replays, Table<ReportedReplay> reports, Table<Long> counters) {}
 
     @Override
-    public CommandResult answer(ReplayCommand command, long now) throws RefusedException {
+    public CommandResult answer(ReplayCommand command, long now) throws RejectedException {
         if (command instanceof ReplayCommand.Start start) {
             check(start, now);
             return start.isGroup() ? startGroup(start, now) : start(start, now);
@@ -83,10 +83,10 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         return steering.target().group() == null ? steer(steering) : steerGroup(steering, now);
     }
 
-    private void check(ReplayCommand.Start start, long now) throws RefusedException {
+    private void check(ReplayCommand.Start start, long now) throws RejectedException {
         Long startAt = start.plan().startAt();
         if (startAt != null && startAt > now + MAX_AHEAD.toMillis()) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.WRONG_MEMBER, "'startAt' must be at most %d days ahead".formatted(MAX_AHEAD.toDays()));
         }
         if (start.plan().source() == null) {
@@ -96,18 +96,18 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     }
 
     /** Each replay that is not over takes a topic, and of its job heap and connections. */
-    private void requireRoom(int further) throws RefusedException {
+    private void requireRoom(int further) throws RejectedException {
         AtomicInteger playing = new AtomicInteger();
         replays.forEach(each -> playing.addAndGet(reports.state(each).isOver() ? 0 : 1));
         if (playing.get() + further > settings.max()) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.QUOTA_EXCEEDED,
                     "%s not over, of at most %d (--max-replays); stop one that is not needed any more"
                             .formatted(Counts.are(playing.get(), "replay"), settings.max()));
         }
     }
 
-    private CommandResult start(ReplayCommand.Start start, long now) throws RefusedException {
+    private CommandResult start(ReplayCommand.Start start, long now) throws RejectedException {
         String mission = start.missions().get(0);
         String topic = start.topic() == null ? Topics.replay(mission, names.newId(start.missions())) : start.topic();
         DesiredReplay replay = desired(start, mission, topic, start.plan(), now, sequence.next());
@@ -116,7 +116,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         return CommandResult.of("created").with(REPLAY, replay.replay()).with("topic", replay.topic());
     }
 
-    private CommandResult startGroup(ReplayCommand.Start start, long now) throws RefusedException {
+    private CommandResult startGroup(ReplayCommand.Start start, long now) throws RejectedException {
         ReplayPlan plan = groupPlan(start);
         String id = names.newId(start.missions());
         long number = sequence.next();
@@ -141,18 +141,18 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     }
 
     /** All of a group play the same stretch of event time: what was asked for, else all that is stored of any of them. */
-    private ReplayPlan groupPlan(ReplayCommand.Start start) throws RefusedException {
+    private ReplayPlan groupPlan(ReplayCommand.Start start) throws RejectedException {
         ReplayPlan plan = start.plan();
         RecordedMissions.Span all = recordings.span(start.missions());
         if (all == null && (plan.from() == null || plan.to() == null)) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.MISSING_MEMBER,
                     "a group needs 'from' and 'to': where the control plane has no --mongo, it does not know when missions begin and end");
         }
         long from = plan.from() == null ? all.from() : plan.from();
         long to = plan.to() == null ? all.to() : plan.to();
         if (from >= to || to <= 0 || from >= LAST_TIME) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.WRONG_MEMBER,
                     "'from' must be before the end of what is played: it is %s, and that is %s"
                             .formatted(Instant.ofEpochMilli(from), Instant.ofEpochMilli(to)));
@@ -160,13 +160,13 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         return plan.between(Math.max(0, from), Math.min(to, LAST_TIME));
     }
 
-    private CommandResult steer(ReplayCommand.Steering steering) throws RefusedException {
+    private CommandResult steer(ReplayCommand.Steering steering) throws RejectedException {
         DesiredReplay existing = replays.get(steering.target().replay());
         if (existing == null) {
             throw unknown(steering);
         }
         if (existing.group() != null) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.WRONG_STATE,
                     "replay '%s' follows the clock of group '%s'; steer the group"
                             .formatted(existing.replay(), existing.group()));
@@ -181,7 +181,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         return CommandResult.of(code(existing, state, next)).with(REPLAY, next.replay());
     }
 
-    private CommandResult steerGroup(ReplayCommand.Steering steering, long now) throws RefusedException {
+    private CommandResult steerGroup(ReplayCommand.Steering steering, long now) throws RejectedException {
         List<DesiredReplay> existing = members(steering.target().group());
         if (existing.isEmpty()) {
             throw unknown(steering);
@@ -225,8 +225,8 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         return state.isOver() && !playsAgain ? "changed" : next.desired().word();
     }
 
-    private static RefusedException unknown(ReplayCommand.Steering steering) {
-        return new RefusedException(
+    private static RejectedException unknown(ReplayCommand.Steering steering) {
+        return new RejectedException(
                 ErrorCode.UNKNOWN_REPLAY, "there is no %s, or it is over".formatted(steering.target()));
     }
 
@@ -288,7 +288,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     }
 
     /** @param before null if there was none */
-    private void store(DesiredReplay before, DesiredReplay replay) throws RefusedException {
+    private void store(DesiredReplay before, DesiredReplay replay) throws RejectedException {
         byte[] value = replay.toBytes();
         if (before == null) {
             quota.replace(null, value);

@@ -8,7 +8,7 @@ import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.DesiredReplay.Clock;
 import io.furrow.model.control.DesiredReplay.Range;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayCommand.Loop;
 import io.furrow.model.control.ReplayCommand.Seek;
@@ -43,10 +43,10 @@ final class ReplayGroup {
         return members.stream().map(each -> each.following(group, clock)).toList();
     }
 
-    /** @throws RefusedException where that cannot be asked of a group, or not in its state */
-    void check(ReplayCommand.Steering steering) throws RefusedException {
+    /** @throws RejectedException where that cannot be asked of a group, or not in its state */
+    void check(ReplayCommand.Steering steering) throws RejectedException {
         if (steering instanceof Step) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.WRONG_STATE, "a group has no single next event; pause it and seek instead of 'step'");
         } else if (steering instanceof Speed speed && speed.speed() == ReplayCommand.MAX) {
             throw wrong("'speed' must be a number from 0.1 to 1000: a group follows a clock");
@@ -64,7 +64,7 @@ final class ReplayGroup {
      * @param replay of a group
      * @param range null for all
      */
-    static void checkRange(DesiredReplay replay, Range range) throws RefusedException {
+    static void checkRange(DesiredReplay replay, Range range) throws RejectedException {
         long from = replay.plan().from();
         long to = replay.plan().to();
         if (range != null && (range.from() >= to || range.to() <= from)) {
@@ -81,8 +81,8 @@ final class ReplayGroup {
         return Instant.ofEpochMilli(millis);
     }
 
-    private static RefusedException wrong(String reason) {
-        return new RefusedException(ErrorCode.WRONG_MEMBER, reason);
+    private static RejectedException wrong(String reason) {
+        return new RejectedException(ErrorCode.WRONG_MEMBER, reason);
     }
 
     /** What is requested of all of them after a command that was checked. @param sequence of it */

@@ -7,7 +7,7 @@ import java.util.function.Supplier;
 import io.furrow.control.manager.Table;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 /** Gives new replays names and topics that no wanted replay has. */
@@ -40,10 +40,10 @@ final class ReplayNames {
         return taken[0];
     }
 
-    /** @throws RefusedException where another replay has the name or the topic of a new one */
-    void require(DesiredReplay fresh) throws RefusedException {
+    /** @throws RejectedException where another replay has the name or the topic of a new one */
+    void require(DesiredReplay fresh) throws RejectedException {
         if (replays.contains(fresh.replay())) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.REPLAY_EXISTS,
                     "there is a replay '%s' already; choose a topic of other digits, or stop it first"
                             .formatted(fresh.replay()));
@@ -51,7 +51,7 @@ final class ReplayNames {
         DesiredReplay[] owner = new DesiredReplay[1];
         replays.forEach(each -> owner[0] = each.topic().equals(fresh.topic()) ? each : owner[0]);
         if (owner[0] != null) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.REPLAY_EXISTS,
                     "replay '%s' is played on topic '%s'; choose another topic, or stop it first"
                             .formatted(owner[0].replay(), fresh.topic()));

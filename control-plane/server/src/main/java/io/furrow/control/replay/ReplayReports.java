@@ -6,7 +6,7 @@ import java.util.List;
 import io.furrow.control.manager.Table;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;
@@ -62,8 +62,8 @@ final class ReplayReports {
         return names;
     }
 
-    /** @throws RefusedException where a command cannot change what is in this state */
-    static void check(ReplayCommand.Steering steering, State state) throws RefusedException {
+    /** @throws RejectedException where a command cannot change what is in this state */
+    static void check(ReplayCommand.Steering steering, State state) throws RejectedException {
         boolean pauses = isSimple(steering, ReplayCommand.Verb.PAUSE);
         boolean resumes = isSimple(steering, ReplayCommand.Verb.RESUME);
         boolean fits = switch (state) {
@@ -74,12 +74,12 @@ final class ReplayReports {
             case STOPPED -> false;
         };
         if (!fits) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.WRONG_STATE,
                     "%s is %s, which '%s' cannot change%s"
                             .formatted(
                                     steering.target(),
-                                    state.word(),
+                                    state.code(),
                                     steering.verb(),
                                     state == State.ENDED ? "; 'seek' plays it again" : ""));
         }

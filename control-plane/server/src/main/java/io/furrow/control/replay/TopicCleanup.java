@@ -27,8 +27,8 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.CommittedReader.RecordAction;
-import io.furrow.kafka.PartStatus;
-import io.furrow.kafka.RestartingWorker;
+import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
@@ -54,7 +54,7 @@ public final class TopicCleanup implements AutoCloseable {
     private final Properties client;
     private final Duration grace;
     private final Clock clock;
-    private final RestartingWorker worker;
+    private final SupervisedWorker worker;
     /** What the topics that are due held when that last changed. */
     private final Map<String, Content> contents = new HashMap<>();
     /** When those that could not be deleted are tried again, epoch ms. */
@@ -66,7 +66,7 @@ public final class TopicCleanup implements AutoCloseable {
         this.client = client;
         this.grace = grace;
         this.clock = clock;
-        this.worker = new RestartingWorker("topic-cleanup", clock);
+        this.worker = new SupervisedWorker("topic-cleanup", clock);
     }
 
     /** The topics of the control plane are there already. */
@@ -76,7 +76,7 @@ public final class TopicCleanup implements AutoCloseable {
         return cleanup;
     }
 
-    private void run(RestartingWorker running) throws InterruptedException {
+    private void run(SupervisedWorker running) throws InterruptedException {
         FinishedReplays remains = new FinishedReplays();
         DeletedNames names = new DeletedNames();
         RecordAction<String, RuntimeException> taking = record -> {
@@ -265,7 +265,7 @@ public final class TopicCleanup implements AutoCloseable {
     }
 
     /** For a health page. */
-    public PartStatus status() {
+    public ComponentStatus status() {
         return worker.status();
     }
 

@@ -40,15 +40,15 @@ import io.furrow.kafka.field.FieldEdit;
 import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.RequestMembers;
+import io.furrow.model.control.JsonObjectReader;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.FieldReader;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.field.ImportOptions;
 import io.furrow.model.field.ImportedField;
-import io.furrow.model.field.RefusedFeature;
-import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.field.InvalidFileException;
+import io.furrow.model.field.RejectedFeature;
 import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
 
@@ -153,7 +153,7 @@ public final class FieldsResource {
         ObjectNode about = JsonNodeFactory.instance.objectNode().put(FIELD, id);
         if (members.size() == 1 && members.hasNonNull(END)) {
             return edit(RequestContext.of(request), "end-field", about, () -> {
-                Instant end = new RequestMembers(members).time(END);
+                Instant end = new JsonObjectReader(members).time(END);
                 about.put(END, end.toString());
                 FieldEdit edit = FieldEdit.end(id, end.toEpochMilli(), topic.read());
                 topic.write(edit);
@@ -162,10 +162,10 @@ public final class FieldsResource {
         }
         return edit(RequestContext.of(request), "rename-field", about, () -> {
             if (members.size() != 1 || members.path(NAME).asText("").isBlank()) {
-                throw RequestMembers.wrong("body", "either {\"name\": a text} or {\"validTo\": a time}");
+                throw JsonObjectReader.wrong("body", "either {\"name\": a text} or {\"validTo\": a time}");
             }
-            RequestMembers.checkReadable(members);
-            String name = new RequestMembers(members).text(NAME);
+            JsonObjectReader.checkReadable(members);
+            String name = new JsonObjectReader(members).text(NAME);
             about.put(NAME, name);
             FieldEdit edit = FieldEdit.rename(id, name, topic.read());
             topic.write(edit);
@@ -190,7 +190,7 @@ public final class FieldsResource {
     }
 
     private interface Edit {
-        CommandResult apply() throws RefusedException, IOException;
+        CommandResult apply() throws RejectedException, IOException;
     }
 
     /** @param about what the edit adds to is audited and answered */
@@ -204,7 +204,7 @@ public final class FieldsResource {
             result.json().setAll(about);
             audit(caller, command, result.json().deepCopy().without(List.of("type", "status")), result.status(), null);
             return JsonResponses.ok(result.json());
-        } catch (RefusedException e) {
+        } catch (RejectedException e) {
             problem = new ProblemException(e.code(), e.getMessage());
         } catch (IOException e) {
             problem = unavailable(e);
@@ -234,7 +234,7 @@ public final class FieldsResource {
                             options.getFirst("name-property"),
                             domain,
                             Instant.now()));
-        } catch (UnusableFileException e) {
+        } catch (InvalidFileException e) {
             throw new ProblemException(
                     400, "unusable-file", withParameters(e.getMessage().replace(file.toString(), "the file")));
         } finally {
@@ -280,7 +280,7 @@ public final class FieldsResource {
             file.fields().get(field).notes().forEach(json.putArray("mended")::add);
         }
         ArrayNode refused = answer.putArray("refused");
-        for (RefusedFeature each : file.refused()) {
+        for (RejectedFeature each : file.refused()) {
             refused.addObject()
                     .put("feature", each.number())
                     .put("id", each.id())

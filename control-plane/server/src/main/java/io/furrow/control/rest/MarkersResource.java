@@ -33,7 +33,7 @@ import io.furrow.control.rest.view.MarkerStore;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.marker.Marker;
 import io.furrow.mission.marker.Markers;
-import io.furrow.mission.marker.RefusedMarkerException;
+import io.furrow.mission.marker.RejectedMarkerException;
 import io.furrow.model.control.ErrorCode;
 
 /** {@code /api/missions/{mission}/markers}: moments of a mission with a note, kept with what is stored of it. */
@@ -85,7 +85,7 @@ public final class MarkersResource {
     }
 
     /** A repeated request finds the marker of the first. */
-    private static Marker added(Markers markers, Marker marker) throws RefusedMarkerException, RecordingException {
+    private static Marker added(Markers markers, Marker marker) throws RejectedMarkerException, RecordingException {
         for (Marker each : markers.list(marker.mission(), marker.time(), marker.time() + 1)) {
             if (each.id().equals(marker.id()) && each.note().equals(marker.note())) {
                 return each;

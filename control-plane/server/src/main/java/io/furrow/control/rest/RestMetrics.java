@@ -27,7 +27,7 @@ import org.glassfish.jersey.uri.UriTemplate;
 import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.view.PendingReplies;
 import io.furrow.control.rest.view.StateView;
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 import io.furrow.model.topic.Topics;
 
 /** Counts requests, and writes that and what the view holds in the text format of Prometheus. */
@@ -107,7 +107,7 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
         readiness
                 .statuses()
                 .forEach(part -> parts.dataPoint(
-                        value(Labels.of("part", part.name()), part.state() == PartStatus.State.UP ? 1 : 0)));
+                        value(Labels.of("part", part.name()), part.state() == ComponentStatus.State.UP ? 1 : 0)));
         MetricSnapshots.Builder metrics = MetricSnapshots.builder()
                 .metricSnapshot(parts.build())
                 .metricSnapshot(answered.build())

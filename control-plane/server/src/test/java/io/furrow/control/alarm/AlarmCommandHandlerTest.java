@@ -15,7 +15,7 @@ import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -151,12 +151,12 @@ class AlarmCommandHandlerTest {
         handler.raise(silent("urn:t:1"), NOW);
         long later = NOW + AlarmStateMachine.CAUSE_LASTS.toMillis() - 1;
         assertThatThrownBy(() -> handler.answer(new AlarmCommand.Close("silent-device-1", null), later))
-                .isInstanceOf(RefusedException.class)
+                .isInstanceOf(RejectedException.class)
                 .hasMessage("alarm 'silent-device-1' closes when its cause is over: it is silent (seen 59 s ago)."
                         + " Acknowledge it, or mute it for a while.");
         handler.raise(silent("urn:t:1"), later);
         assertThatThrownBy(() -> handler.answer(new AlarmCommand.Close("silent-device-1", null), later + 1))
-                .isInstanceOf(RefusedException.class);
+                .isInstanceOf(RejectedException.class);
         assertThat(alarm("silent-device-1").state()).isEqualTo(AlarmState.OPEN);
         handler.answer(
                 new AlarmCommand.Close("silent-device-1", null), later + AlarmStateMachine.CAUSE_LASTS.toMillis());
@@ -229,7 +229,7 @@ class AlarmCommandHandlerTest {
         String crowd = "collision-" + (AlarmLimit.MAX_ALARMS + 1);
         handler.raise(pair(AlarmLimit.MAX_ALARMS), NOW + 50_000);
         AlarmCommand close = new AlarmCommand.Close(crowd, "ann");
-        assertThatThrownBy(() -> handler.answer(close, NOW + 70_000)).isInstanceOf(RefusedException.class);
+        assertThatThrownBy(() -> handler.answer(close, NOW + 70_000)).isInstanceOf(RejectedException.class);
 
         handler.answer(close, NOW + 110_000);
         handler.passTime(NOW + 120_000);
@@ -286,7 +286,7 @@ class AlarmCommandHandlerTest {
 
         assertThatThrownBy(() -> handler.answer(mute("urn:t:further"), NOW))
                 .isInstanceOfSatisfying(
-                        RefusedException.class,
+                        RejectedException.class,
                         refused -> assertThat(refused.code()).isEqualTo(ErrorCode.QUOTA_EXCEEDED));
         handler.answer(mute("urn:t:0"), NOW + 1);
         handler.passTime(NOW + HOUR.toMillis());
@@ -364,6 +364,6 @@ class AlarmCommandHandlerTest {
     private void refused(ErrorCode code, AlarmCommand command) {
         assertThatThrownBy(() -> handler.answer(command, NOW))
                 .isInstanceOfSatisfying(
-                        RefusedException.class, e -> assertThat(e.code()).isEqualTo(code));
+                        RejectedException.class, e -> assertThat(e.code()).isEqualTo(code));
     }
 }

@@ -19,7 +19,7 @@ import io.furrow.control.manager.Sequence;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -123,7 +123,7 @@ class AlarmPropertyTest {
             String content = content();
             try {
                 handler.answer(command(), now);
-            } catch (RefusedException e) {
+            } catch (RejectedException e) {
                 refused++;
                 assertThat(content()).as(label).isEqualTo(content);
                 assertThat(publisher.all()).as(label).hasSize(written);

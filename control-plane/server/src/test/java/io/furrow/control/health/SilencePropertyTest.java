@@ -25,7 +25,7 @@ import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.NgsiJson;
@@ -122,7 +122,7 @@ class SilencePropertyTest {
                 }
                 Alarm one = open.get(random.nextInt(open.size()));
                 alarms.answer(new AlarmCommand.Close(one.alarm(), "ann"), now);
-            } catch (RefusedException e) {
+            } catch (RejectedException e) {
                 refused++;
             }
         }

@@ -9,7 +9,7 @@ import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.topic.Topics;
@@ -100,16 +100,16 @@ class CredentialsTest {
         refused("urn:robot", ErrorCode.NO_CREDENTIALS);
     }
 
-    private void start() throws RefusedException {
+    private void start() throws RejectedException {
         farm.start("m", "north", FarmFixture.group("Thermometer", 2));
     }
 
-    private void stop() throws RefusedException {
+    private void stop() throws RejectedException {
         farm.request(new MissionCommand.Stop("m"));
         farm.hostAll();
     }
 
-    private String rotate(String device) throws RefusedException {
+    private String rotate(String device) throws RejectedException {
         return farm.request(new MissionCommand.RotateCredentials(device)).json().toString();
     }
 
@@ -117,7 +117,7 @@ class CredentialsTest {
         String before = farm.content();
         assertThatThrownBy(() -> rotate(device))
                 .isInstanceOfSatisfying(
-                        RefusedException.class,
+                        RejectedException.class,
                         refusal -> assertThat(refusal.code()).isEqualTo(code))
                 .hasMessageContaining("'" + device + "'");
         assertThat(farm.content()).isEqualTo(before);

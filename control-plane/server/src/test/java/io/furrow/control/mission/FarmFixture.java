@@ -25,7 +25,7 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.MissionPlan;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
@@ -78,11 +78,11 @@ final class FarmFixture {
         run(missionHandler.templates()::installBuiltIn);
     }
 
-    CommandResult request(MissionCommand command) throws RefusedException {
+    CommandResult request(MissionCommand command) throws RejectedException {
         return stores.call(now, () -> missionHandler.answer(command, now));
     }
 
-    CommandResult request(DomainCommand command) throws RefusedException {
+    CommandResult request(DomainCommand command) throws RejectedException {
         return stores.call(now, () -> domainHandler.answer(command, now));
     }
 
@@ -97,7 +97,7 @@ final class FarmFixture {
         return stores.all(records);
     }
 
-    void domain(String name) throws RefusedException {
+    void domain(String name) throws RejectedException {
         request(new DomainCommand.Create(name, DomainDetails.NONE));
     }
 
@@ -111,7 +111,7 @@ final class FarmFixture {
         run(() -> fields.put(version.key(), version));
     }
 
-    CommandResult start(String mission, String domain, DeviceGroup... groups) throws RefusedException {
+    CommandResult start(String mission, String domain, DeviceGroup... groups) throws RejectedException {
         return request(new MissionCommand.Start(mission, domain, devices(groups), null, null));
     }
 
@@ -215,7 +215,7 @@ final class FarmFixture {
         int written = publisher.all().size();
         assertThatThrownBy(what)
                 .isInstanceOfSatisfying(
-                        RefusedException.class, e -> assertThat(e.code()).isEqualTo(code));
+                        RejectedException.class, e -> assertThat(e.code()).isEqualTo(code));
         assertThat(content()).isEqualTo(before);
         assertThat(publisher.all()).hasSize(written);
     }

@@ -15,7 +15,7 @@ import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.MissionPlan;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 import static com.fasterxml.jackson.databind.node.JsonNodeFactory.instance;
@@ -126,7 +126,7 @@ class MissionDevicesTest {
         many.start("m", "north", FarmFixture.group("Camera", 2), DeviceGroup.entity("urn:robot"));
         assertThatThrownBy(() -> many.start("other", "north", DeviceGroup.entity("urn:robot")))
                 .isInstanceOfSatisfying(
-                        RefusedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.DEVICE_TAKEN));
+                        RejectedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.DEVICE_TAKEN));
     }
 
     @Test
@@ -176,7 +176,7 @@ class MissionDevicesTest {
             try {
                 farm.request(new DomainCommand.Create("d" + domains, new DomainDetails(null, null, area, null)));
                 domains++;
-            } catch (RefusedException e) {
+            } catch (RejectedException e) {
                 assertThat(e.code()).isEqualTo(ErrorCode.QUOTA_EXCEEDED);
                 break;
             }

@@ -18,7 +18,7 @@ import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.MissionPlan;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
@@ -81,7 +81,7 @@ class MissionPropertyTest {
                     case 6, 7 -> farm.step();
                     default -> reportOne();
                 }
-            } catch (RefusedException e) {
+            } catch (RejectedException e) {
                 refused++;
                 assertThat(farm.content()).as(label + ": " + e.getMessage()).isEqualTo(content);
                 assertThat(farm.publisher.all()).as(label).hasSize(written);

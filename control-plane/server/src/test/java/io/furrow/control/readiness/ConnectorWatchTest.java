@@ -18,8 +18,8 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.kafka.PartStatus;
-import io.furrow.kafka.RestartingWorker;
+import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.control.Fault;
 import io.furrow.model.topic.Topics;
 
@@ -77,8 +77,8 @@ class ConnectorWatchTest {
     void showsConnectorsAndReportsATaskThatFailedOnceAMinute() throws Exception {
         answer.set(connectors("RUNNING", ""));
         watch.poll();
-        assertThat(watch.statuses()).extracting(PartStatus::name).containsExactly("connect", "connector sink");
-        assertThat(watch.statuses()).extracting(PartStatus::state).containsOnly(PartStatus.State.UP);
+        assertThat(watch.statuses()).extracting(ComponentStatus::name).containsExactly("connect", "connector sink");
+        assertThat(watch.statuses()).extracting(ComponentStatus::state).containsOnly(ComponentStatus.State.UP);
         assertThat(producer.history()).isEmpty();
 
         answer.set(connectors("FAILED", ",\"trace\":\"" + TRACE + "\""));
@@ -86,8 +86,8 @@ class ConnectorWatchTest {
         now = now.plusSeconds(50);
         watch.poll();
         assertThat(watch.statuses().get(1))
-                .returns(PartStatus.State.DOWN, PartStatus::state)
-                .returns("task 0 failed: http://orion:1026 answers 401; check the token", PartStatus::detail);
+                .returns(ComponentStatus.State.DOWN, ComponentStatus::state)
+                .returns("task 0 failed: http://orion:1026 answers 401; check the token", ComponentStatus::detail);
         assertThat(producer.history()).singleElement().satisfies(record -> {
             assertThat(record.topic()).isEqualTo(Topics.FAULTS);
             assertThat(record.key()).isEqualTo("connector sink");
@@ -122,8 +122,8 @@ class ConnectorWatchTest {
         now = now.plusSeconds(30);
         assertThat(watch.statuses())
                 .singleElement()
-                .returns("connect", PartStatus::name)
-                .returns(PartStatus.State.DOWN, PartStatus::state);
+                .returns("connect", ComponentStatus::name)
+                .returns(ComponentStatus.State.DOWN, ComponentStatus::state);
     }
 
     /** Everybody may read the page. */
@@ -135,7 +135,7 @@ class ConnectorWatchTest {
         unavailable.poll();
         readiness.showAll(unavailable::statuses);
         try (Probe probe = Probe.http("contextBroker", nowhere);
-                RestartingWorker worker = new RestartingWorker("worker", Clock.systemUTC())
+                SupervisedWorker worker = new SupervisedWorker("worker", Clock.systemUTC())
                         .start(
                                 self -> {
                                     throw new IllegalStateException("disk full");

@@ -18,7 +18,7 @@ import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.readiness.Readiness;
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceConnection.UnreadablePayload;
@@ -553,7 +553,7 @@ class RestApiIT {
     @Test
     void reportsThatNobodyAnsweredAndHowToRetry() throws Exception {
         Readiness readiness = new Readiness(Clock.systemUTC());
-        readiness.require(() -> new PartStatus("managers", PartStatus.State.DOWN, null, "REBALANCING"));
+        readiness.require(() -> new ComponentStatus("managers", ComponentStatus.State.DOWN, null, "REBALANCING"));
         try (RestApi other =
                 RestApi.start(running.settings(), RestSettings.on(0).withTimeout(Duration.ofMillis(300)), readiness)) {
             ApiClient there = new ApiClient(other.uri(), null);

@@ -27,7 +27,7 @@ public final class DeviceLookup implements Serializable {
 
     private final TopicSnapshot topic;
     private final long keptMillis;
-    private transient ChangesAtStart atStart;
+    private transient InitialDeviceChanges atStart;
     private transient boolean compared;
     private transient int changesUntilSweep;
 
@@ -42,11 +42,11 @@ public final class DeviceLookup implements Serializable {
 
     /** Reads what is known of devices; to be called before the first event, also after each restart. */
     public void open() throws IOException {
-        atStart = new ChangesAtStart();
+        atStart = new InitialDeviceChanges();
         compared = false;
         for (TopicRecord record : topic.read()) {
             try {
-                atStart.add(RecognizeDevices.read(record));
+                atStart.add(ParseDevices.read(record));
             } catch (UnreadableException e) { // becomes a dead letter where the stream of devices is read
                 continue;
             }

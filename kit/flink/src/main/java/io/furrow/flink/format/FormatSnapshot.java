@@ -9,20 +9,20 @@ import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 import org.apache.flink.util.InstantiationUtil;
 
-/** What a savepoint says of a {@link FormatSerializer}: which format wrote the state, and in which of its versions. */
+/** What a savepoint says of a {@link VersionedTypeSerializer}: which format wrote the state, and in which of its versions. */
 public final class FormatSnapshot<T> implements TypeSerializerSnapshot<T> {
     /** Class name of the format, its version. */
     private static final int VERSION = 1;
 
-    private Format<T> format;
+    private VersionedSerializer<T> format;
     private int written;
 
     /** For Flink, which calls {@link #readSnapshot} next. */
     public FormatSnapshot() {}
 
-    FormatSnapshot(Format<T> format) {
-        this.format = format;
-        this.written = format.version();
+    FormatSnapshot(VersionedSerializer<T> versionedSerializer) {
+        this.format = versionedSerializer;
+        this.written = versionedSerializer.version();
     }
 
     @Override
@@ -44,7 +44,7 @@ public final class FormatSnapshot<T> implements TypeSerializerSnapshot<T> {
                     + "; use the release that wrote it, or a newer one");
         }
         Class<?> type = InstantiationUtil.resolveClassByName(in, loader);
-        format = (Format<T>) InstantiationUtil.instantiate(type);
+        format = (VersionedSerializer<T>) InstantiationUtil.instantiate(type);
         written = in.readInt();
         if (written < 1 || written > format.version()) {
             throw format.unknown(written);
@@ -53,7 +53,7 @@ public final class FormatSnapshot<T> implements TypeSerializerSnapshot<T> {
 
     @Override
     public TypeSerializer<T> restoreSerializer() {
-        return new FormatSerializer<>(format, written);
+        return new VersionedTypeSerializer<>(format, written);
     }
 
     @Override

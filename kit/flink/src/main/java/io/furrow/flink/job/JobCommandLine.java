@@ -78,7 +78,7 @@ public final class JobCommandLine {
                 .registerConverter(Duration.class, new DurationConverter())
                 .registerConverter(Delivery.class, JobCommandLine::delivery)
                 .registerConverter(StartPosition.class, StartPosition::of)
-                .registerConverter(FaultOptions.Restart.class, JobCommandLine::restart)
+                .registerConverter(RecoveryOptions.Restart.class, JobCommandLine::restart)
                 .setParameterExceptionHandler(JobCommandLine::explain)
                 .setExecutionExceptionHandler((failure, refusing, parsed) -> {
                     if (failure instanceof ParameterException refused) {
@@ -97,11 +97,11 @@ public final class JobCommandLine {
         };
     }
 
-    private static FaultOptions.Restart restart(String text) {
+    private static RecoveryOptions.Restart restart(String text) {
         return switch (text.toLowerCase(Locale.ROOT)) {
-            case "exponential-delay" -> FaultOptions.Restart.EXPONENTIAL_DELAY;
-            case "fixed-delay" -> FaultOptions.Restart.FIXED_DELAY;
-            case "none" -> FaultOptions.Restart.NONE;
+            case "exponential-delay" -> RecoveryOptions.Restart.EXPONENTIAL_DELAY;
+            case "fixed-delay" -> RecoveryOptions.Restart.FIXED_DELAY;
+            case "none" -> RecoveryOptions.Restart.NONE;
             default ->
                 throw new TypeConversionException(
                         "'" + text + "' is no way to restart; write exponential-delay, fixed-delay or none");

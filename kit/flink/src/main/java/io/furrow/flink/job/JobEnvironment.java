@@ -75,7 +75,7 @@ public final class JobEnvironment {
                 Optional.empty(),
                 ExternalizedCheckpointRetention.RETAIN_ON_CANCELLATION);
         settings.set(CheckpointingOptions.CHECKPOINTS_DIRECTORY, options.checkpointDir());
-        FaultOptions faults = options.faults();
+        RecoveryOptions faults = options.faults();
         settings.set(
                 CheckpointingOptions.ENABLE_UNALIGNED,
                 faults.unalignedCheckpoints() ? Optional.of(true) : Optional.empty());
@@ -88,7 +88,7 @@ public final class JobEnvironment {
     }
 
     /** A strategy and its numbers belong together: the options say all of it, or the cluster. */
-    private static void setRestarts(JobSettings settings, FaultOptions faults) {
+    private static void setRestarts(JobSettings settings, RecoveryOptions faults) {
         if (!faults.setRestarts() && settings.says(RestartStrategyOptions.RESTART_STRATEGY)) {
             settings.set(RestartStrategyOptions.RESTART_STRATEGY, Optional.empty());
             return;

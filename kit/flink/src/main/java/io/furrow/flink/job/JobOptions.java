@@ -120,7 +120,7 @@ public abstract class JobOptions {
     private Integer parallelism;
 
     @Mixin
-    private final FaultOptions faults = new FaultOptions();
+    private final RecoveryOptions faults = new RecoveryOptions();
 
     @Mixin
     private final ClockOptions clocks = new ClockOptions();
@@ -253,7 +253,7 @@ public abstract class JobOptions {
     }
 
     /** How checkpoints are taken and what follows a failure. */
-    FaultOptions faults() {
+    RecoveryOptions faults() {
         return faults;
     }
 

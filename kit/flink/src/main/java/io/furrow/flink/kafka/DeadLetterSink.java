@@ -30,7 +30,7 @@ public final class DeadLetterSink implements Sink<TopicRecord> {
     }
 
     @SuppressWarnings("try") // close() may be interrupted, as a sink writer's may
-    private record Writer(SinkWriter<TopicRecord> kafka, WritableRecords writable) implements SinkWriter<TopicRecord> {
+    private record Writer(SinkWriter<TopicRecord> kafka, LimitRecordSize writable) implements SinkWriter<TopicRecord> {
         @Override
         public void write(TopicRecord letter, Context context) throws IOException, InterruptedException {
             kafka.write(writable.of(letter), context);

@@ -8,7 +8,7 @@ import org.apache.flink.api.common.functions.RichMapFunction;
 import org.apache.kafka.clients.CommonClientConfigs;
 
 import io.furrow.flink.job.JobOptions;
-import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.Reason;
 
@@ -23,8 +23,8 @@ public final class EnsureTopics extends RichMapFunction<TopicRecord, TopicRecord
     private final Properties client;
     private final Properties producer;
     private final TopicOptions.Settings settings;
-    private transient WritableRecords writable;
-    private transient DeadCounters dead;
+    private transient LimitRecordSize writable;
+    private transient DeadLetterCounters dead;
 
     public EnsureTopics(JobOptions options, TopicOptions.Settings settings) {
         this.settings = settings;
@@ -36,12 +36,12 @@ public final class EnsureTopics extends RichMapFunction<TopicRecord, TopicRecord
     @Override
     public void open(OpenContext context) {
         writable = writable();
-        dead = new DeadCounters(getRuntimeContext().getMetricGroup());
+        dead = new DeadLetterCounters(getRuntimeContext().getMetricGroup());
     }
 
     /** The same outside of an operator. */
-    public WritableRecords writable() {
-        return new WritableRecords(new OutputTopics((Properties) client.clone(), settings), SizeLimits.of(producer));
+    public LimitRecordSize writable() {
+        return new LimitRecordSize(new OutputTopics((Properties) client.clone(), settings), SizeLimits.of(producer));
     }
 
     @Override

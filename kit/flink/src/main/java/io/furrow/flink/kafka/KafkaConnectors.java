@@ -22,9 +22,9 @@ import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.StartPosition;
 import io.furrow.flink.job.TransactionTimeout;
 import io.furrow.flink.record.Epochs;
-import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.ReceiptBoundWatermarks;
+import io.furrow.flink.time.ClockBoundedWatermarks;
 import io.furrow.flink.time.ReplayWatermarks;
 
 /** The Kafka sources and sinks of a job, with the settings that every job of Furrow has. */
@@ -39,7 +39,7 @@ public final class KafkaConnectors {
      * Reads the job's input from where the job's options say; only committed records. Record timestamps are the event times.
      */
     public static KafkaSource<TopicRecord> source(JobOptions options) {
-        return source(options, new TopicRecordFormat());
+        return source(options, new TopicRecordSchema());
     }
 
     /** The same for records in another form. */
@@ -62,7 +62,7 @@ public final class KafkaConnectors {
 
     /** Reads a topic from its beginning and all that comes; a topic that is not there yet is awaited. */
     public static KafkaSource<TopicRecord> wholeTopic(JobOptions options, String topic) {
-        return source(options, new TopicRecordFormat(), options.groupId() + "-" + topic)
+        return source(options, new TopicRecordSchema(), options.groupId() + "-" + topic)
                 .setTopicPattern(Pattern.compile(Pattern.quote(topic)))
                 .setStartingOffsets(OffsetsInitializer.earliest())
                 .build();
@@ -93,7 +93,7 @@ public final class KafkaConnectors {
 
     /** The same for one of several sinks of a job, separated by name: their transactions are. */
     static KafkaSink<TopicRecord> sink(JobOptions options, String name) {
-        return sink(options, name, new TopicRecordFormat());
+        return sink(options, name, new TopicRecordSchema());
     }
 
     /** The same for records in another form. */
@@ -103,12 +103,12 @@ public final class KafkaConnectors {
 
     /** The same without transactions: what is written is visible at once, whatever the job's delivery guarantee. */
     public static KafkaSink<TopicRecord> promptSink(JobOptions options, String name) {
-        return sinkOf(options, new TopicRecordFormat(), name, DeliveryGuarantee.AT_LEAST_ONCE);
+        return sinkOf(options, new TopicRecordSchema(), name, DeliveryGuarantee.AT_LEAST_ONCE);
     }
 
     /** The same: a writer of it can work inside another sink's. */
     static KafkaSink<TopicRecord> atLeastOnceSink(JobOptions options) {
-        return sinkOf(options, new TopicRecordFormat(), "dead-letters", DeliveryGuarantee.AT_LEAST_ONCE);
+        return sinkOf(options, new TopicRecordSchema(), "dead-letters", DeliveryGuarantee.AT_LEAST_ONCE);
     }
 
     private static DeliveryGuarantee guarantee(JobOptions options) {
@@ -153,16 +153,16 @@ public final class KafkaConnectors {
     }
 
     /**
-     * Event time = record timestamp, behind by the job's out-of-orderness; see {@link ReceiptBoundWatermarks}. That of a replay, which
+     * Event time = record timestamp, behind by the job's out-of-orderness; see {@link ClockBoundedWatermarks}. That of a replay, which
      * one subtask must read, is reported by its records alone; see {@link Epochs}.
      */
     public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options) {
-        ReceiptBoundWatermarks.Hold hold = new ReceiptBoundWatermarks.Hold(
+        ClockBoundedWatermarks.Hold hold = new ClockBoundedWatermarks.Hold(
                 options.idleTimeout(), options.idleAdvance(), options.clocks().maxBehind());
         return options.inputTopics().replay().isPresent()
                 ? ReplayWatermarks.strategy(options.outOfOrderness(), hold.idleTimeout())
                 : WatermarkStrategy.forGenerator(
-                        new ReceiptBoundWatermarks.Supplier(Receipt.of(options), options.outOfOrderness(), hold));
+                        new ClockBoundedWatermarks.Supplier(ReceiptTime.of(options), options.outOfOrderness(), hold));
     }
 
     /**

@@ -10,7 +10,7 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.flink.time.AdvanceQuietInput;
+import io.furrow.flink.time.AdvanceIdleInput;
 
 /** Where the analytics jobs' records come from. */
 public final class KafkaInput {
@@ -32,6 +32,6 @@ public final class KafkaInput {
         if (replay) {
             records.setParallelism(1); // only who reads all partitions sees that the replay is paused
         }
-        return AdvanceQuietInput.of(records.uid("read-events"), options);
+        return AdvanceIdleInput.of(records.uid("read-events"), options);
     }
 }

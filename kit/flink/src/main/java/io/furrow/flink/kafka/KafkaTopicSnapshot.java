@@ -9,7 +9,7 @@ import org.apache.kafka.clients.consumer.ConsumerConfig;
 import org.apache.kafka.common.KafkaException;
 
 import io.furrow.flink.job.JobOptions;
-import io.furrow.flink.record.HeaderTexts;
+import io.furrow.flink.record.TextHeaders;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.kafka.CommittedReader;
 
@@ -53,7 +53,7 @@ public final class KafkaTopicSnapshot implements TopicSnapshot {
                     record.timestamp(),
                     record.key(),
                     record.value(),
-                    HeaderTexts.of(record.headers().toArray()))));
+                    TextHeaders.of(record.headers().toArray()))));
         } catch (KafkaException e) {
             throw new IOException(
                     "topic " + topic + " could not be read; does its broker respond? It may take the time that "

@@ -5,7 +5,7 @@ import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.record.MemoryRecords;
 import org.apache.kafka.common.record.SimpleRecord;
 
-import io.furrow.flink.record.HeaderTexts;
+import io.furrow.flink.record.TextHeaders;
 import io.furrow.flink.record.TopicRecord;
 
 /** What a record weighs: in a producer, which counts it generously, and at the broker, as a batch of its own. */
@@ -20,7 +20,7 @@ final class RecordSize {
     /** In bytes, at least what the producer compares with {@code max.request.size}, and what the broker gets uncompressed. */
     static long atMost(TopicRecord record) {
         long bytes = OVERHEAD + length(record.key()) + length(record.value());
-        for (Header header : HeaderTexts.of(record.headers()).bytes()) {
+        for (Header header : TextHeaders.of(record.headers()).bytes()) {
             bytes += PER_HEADER + utf8Length(header.key()) + header.value().length;
         }
         return bytes;
@@ -28,7 +28,7 @@ final class RecordSize {
 
     /** In bytes, exactly what the broker compares with {@code max.message.bytes}: costs as much as writing it. */
     static long atTheBroker(TopicRecord record, Compression compression) {
-        Header[] headers = HeaderTexts.of(record.headers()).bytes().toArray(Header[]::new);
+        Header[] headers = TextHeaders.of(record.headers()).bytes().toArray(Header[]::new);
         SimpleRecord alone = new SimpleRecord(Math.max(0, record.timestamp()), record.key(), record.value(), headers);
         return MemoryRecords.withRecords(compression, alone).sizeInBytes();
     }

@@ -2,7 +2,7 @@ package io.furrow.flink.record;
 
 import java.util.Arrays;
 
-import io.furrow.model.event.Original;
+import io.furrow.model.event.OriginalReference;
 
 /**
  * Stands for a large record by where it is, because what is late or dead is written beside it, perhaps by several jobs. Large is
@@ -20,14 +20,15 @@ public final class LargeRecords {
         return record.value() != null && record.value().length > LARGE && record.offset() >= 0;
     }
 
-    /** The record itself, or, where it is large, the beginning of its value, with the headers of its {@link Original}. */
+    /** The record itself, or, where it is large, the beginning of its value, with the headers of its {@link OriginalReference}. */
     static TopicRecord beginning(TopicRecord record) {
         return isLarge(record) ? reduced(record, Arrays.copyOf(record.value(), BEGINNING)) : record;
     }
 
-    /** A large record with a value in its place, and the headers of its {@link Original}. */
+    /** A large record with a value in its place, and the headers of its {@link OriginalReference}. */
     public static TopicRecord reduced(TopicRecord record, byte[] value) {
-        Original original = new Original(record.topic(), record.partition(), record.offset(), record.value().length);
-        return record.withValue(value).with(original.headers());
+        OriginalReference originalReference =
+                new OriginalReference(record.topic(), record.partition(), record.offset(), record.value().length);
+        return record.withValue(value).with(originalReference.headers());
     }
 }

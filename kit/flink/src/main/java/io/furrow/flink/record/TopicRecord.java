@@ -66,7 +66,7 @@ public record TopicRecord(
                 timestamp,
                 key,
                 value,
-                HeaderTexts.of(headers).with(more));
+                TextHeaders.of(headers).with(more));
     }
 
     /** {@code <topic>-<partition>@<offset>}. */

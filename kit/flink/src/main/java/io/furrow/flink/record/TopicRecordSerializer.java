@@ -9,14 +9,14 @@ import org.apache.flink.core.memory.DataOutputView;
 import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.header.internals.RecordHeader;
 
-import io.furrow.flink.format.Format;
+import io.furrow.flink.format.VersionedSerializer;
 
 /**
  * Writes a {@link TopicRecord} for other subtasks and for state: the fields in their order, numbers in full, texts as UTF-8
  * behind their length, null as length −1. Records between subtasks are most of what a job sends, and Flink's own serializer
  * of records writes texts character by character.
  */
-public final class TopicRecordSerializer extends Format<TopicRecord> {
+public final class TopicRecordSerializer extends VersionedSerializer<TopicRecord> {
     private static final long serialVersionUID = 1L;
     /** Topic, partition, offset, timestamp, key, value, headers. */
     private static final int VERSION = 1;
@@ -41,7 +41,7 @@ public final class TopicRecordSerializer extends Format<TopicRecord> {
         out.writeLong(record.timestamp());
         writeBytes(record.key(), out);
         writeBytes(record.value(), out);
-        List<Header> headers = HeaderTexts.of(record.headers()).bytes();
+        List<Header> headers = TextHeaders.of(record.headers()).bytes();
         out.writeInt(headers.size());
         for (Header header : headers) {
             writeText(header.key(), out);
@@ -64,7 +64,7 @@ public final class TopicRecordSerializer extends Format<TopicRecord> {
         for (int i = 0; i < headers.length; i++) {
             headers[i] = new RecordHeader(readText(in), readBytes(in));
         }
-        return new TopicRecord(topic, partition, offset, timestamp, key, value, HeaderTexts.of(headers));
+        return new TopicRecord(topic, partition, offset, timestamp, key, value, TextHeaders.of(headers));
     }
 
     private static void writeText(String text, DataOutputView out) throws IOException {

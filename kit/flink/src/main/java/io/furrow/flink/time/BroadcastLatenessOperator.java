@@ -12,9 +12,9 @@ import org.apache.flink.streaming.api.watermark.Watermark;
 public final class BroadcastLatenessOperator<K, I, B, O> extends KeyedTimelessBroadcastOperator<K, I, B, O> {
     private static final long serialVersionUID = 1L;
 
-    private transient EventTimeReached reached;
+    private transient EventTimeProgress reached;
 
-    public <F extends KeyedBroadcastProcessFunction<K, I, B, O> & JudgesLateness> BroadcastLatenessOperator(
+    public <F extends KeyedBroadcastProcessFunction<K, I, B, O> & LatenessAware> BroadcastLatenessOperator(
             F function, List<MapStateDescriptor<?, ?>> broadcastState) {
         super(function, broadcastState);
     }
@@ -22,9 +22,9 @@ public final class BroadcastLatenessOperator<K, I, B, O> extends KeyedTimelessBr
     @Override
     public void initializeState(StateInitializationContext context) throws Exception {
         super.initializeState(context);
-        reached = EventTimeReached.restore(
+        reached = EventTimeProgress.restore(
                 context.getOperatorStateStore(), getRuntimeContext().getTaskInfo());
-        ((JudgesLateness) userFunction).judgeBy(reached);
+        ((LatenessAware) userFunction).judgeBy(reached);
     }
 
     @Override

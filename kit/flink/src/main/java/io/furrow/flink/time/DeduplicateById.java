@@ -15,7 +15,7 @@ import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.job.PerMission;
+import io.furrow.flink.job.PerMissionMetrics;
 
 /**
  * Deduplicates events by id within a time after the first one; keyed by entity, so that their order is preserved.
@@ -24,7 +24,7 @@ import io.furrow.flink.job.PerMission;
  * Late: an event behind the watermark, of this run or an earlier one, is remembered from there on. Emits: first appearances, in order; the rest are
  * counted as {@code repeated}.
  */
-public final class DeduplicateById<T> extends KeyedProcessFunction<String, T, T> implements JudgesLateness {
+public final class DeduplicateById<T> extends KeyedProcessFunction<String, T, T> implements LatenessAware {
     private static final long serialVersionUID = 1L;
     private static final int TIMERS_PER_WINDOW = 10;
 
@@ -40,8 +40,8 @@ public final class DeduplicateById<T> extends KeyedProcessFunction<String, T, T>
     private final long windowMillis;
     private transient MapState<String, Long> forgetAt;
     private transient Counter repeated;
-    private transient PerMission<Counter> repeatedPerMission;
-    private transient EventTimeReached reached;
+    private transient PerMissionMetrics<Counter> repeatedPerMission;
+    private transient EventTimeProgress reached;
 
     public DeduplicateById(Duration window, IdOf<T> idOf) {
         this(window, idOf, null, null);
@@ -56,7 +56,7 @@ public final class DeduplicateById<T> extends KeyedProcessFunction<String, T, T>
     }
 
     @Override
-    public void judgeBy(EventTimeReached reached) {
+    public void judgeBy(EventTimeProgress reached) {
         this.reached = reached;
     }
 
@@ -65,7 +65,8 @@ public final class DeduplicateById<T> extends KeyedProcessFunction<String, T, T>
         forgetAt = getRuntimeContext().getMapState(new MapStateDescriptor<>("forget-at", Types.STRING, Types.LONG));
         MetricGroup metrics = getRuntimeContext().getMetricGroup();
         repeated = metrics.counter("repeated");
-        repeatedPerMission = new PerMission<>(metrics, PerMission.USUAL_LIMIT, group -> group.counter("repeated"));
+        repeatedPerMission =
+                new PerMissionMetrics<>(metrics, PerMissionMetrics.USUAL_LIMIT, group -> group.counter("repeated"));
     }
 
     @Override

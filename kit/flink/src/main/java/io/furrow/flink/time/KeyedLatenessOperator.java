@@ -13,18 +13,18 @@ import org.apache.flink.streaming.api.watermark.Watermark;
 public final class KeyedLatenessOperator<K, I, O> extends KeyedProcessOperator<K, I, O> {
     private static final long serialVersionUID = 1L;
 
-    private transient EventTimeReached reached;
+    private transient EventTimeProgress reached;
 
-    public <F extends KeyedProcessFunction<K, I, O> & JudgesLateness> KeyedLatenessOperator(F function) {
+    public <F extends KeyedProcessFunction<K, I, O> & LatenessAware> KeyedLatenessOperator(F function) {
         super(function);
     }
 
     @Override
     public void initializeState(StateInitializationContext context) throws Exception {
         super.initializeState(context);
-        reached = EventTimeReached.restore(
+        reached = EventTimeProgress.restore(
                 context.getOperatorStateStore(), getRuntimeContext().getTaskInfo());
-        ((JudgesLateness) userFunction).judgeBy(reached);
+        ((LatenessAware) userFunction).judgeBy(reached);
     }
 
     @Override

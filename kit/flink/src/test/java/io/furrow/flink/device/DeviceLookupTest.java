@@ -78,7 +78,7 @@ class DeviceLookupTest {
     /** The stream from an offset to another. */
     private void pass(DeviceLookup book, int from, int to) throws Exception {
         for (TopicRecord record : topic.subList(from, to)) {
-            book.note(RecognizeDevices.read(record), state);
+            book.note(ParseDevices.read(record), state);
         }
     }
 

@@ -6,7 +6,7 @@ import java.util.Map;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.event.DeadLetter;
-import io.furrow.model.event.Original;
+import io.furrow.model.event.OriginalReference;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -21,7 +21,7 @@ class DeadLettersTest {
 
         assertThat(letter.value()).hasSize(LargeRecords.LARGE);
         assertThat(letter.headers()).containsEntry(DeadLetter.SOURCE, "data.raw-3@17");
-        assertThat(letter.headers().keySet()).doesNotContainAnyElementsOf(Original.HEADERS);
+        assertThat(letter.headers().keySet()).doesNotContainAnyElementsOf(OriginalReference.HEADERS);
     }
 
     @Test
@@ -35,8 +35,8 @@ class DeadLettersTest {
         assertThat(letter.headers())
                 .containsEntry("ce_id", "7f")
                 .containsEntry(DeadLetter.REASON, "not-json")
-                .containsEntry(Original.POSITION, "data.raw-3@17")
-                .containsEntry(Original.BYTES, Integer.toString(LargeRecords.LARGE + 1));
+                .containsEntry(OriginalReference.POSITION, "data.raw-3@17")
+                .containsEntry(OriginalReference.BYTES, Integer.toString(LargeRecords.LARGE + 1));
     }
 
     @Test

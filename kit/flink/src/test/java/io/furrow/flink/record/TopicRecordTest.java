@@ -18,7 +18,7 @@ import org.apache.kafka.common.header.internals.RecordHeaders;
 import org.apache.kafka.common.record.TimestampType;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.kafka.TopicRecordFormat;
+import io.furrow.flink.kafka.TopicRecordSchema;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -84,7 +84,7 @@ class TopicRecordTest {
                 "t", 2, 5, 77, TimestampType.CREATE_TIME, 1, 1, utf8("k"), utf8("v"), headers, Optional.empty());
         java.util.List<TopicRecord> out = new java.util.ArrayList<>();
 
-        new TopicRecordFormat().deserialize(in, new org.apache.flink.api.common.functions.util.ListCollector<>(out));
+        new TopicRecordSchema().deserialize(in, new org.apache.flink.api.common.functions.util.ListCollector<>(out));
 
         assertThat(out)
                 .singleElement()
@@ -98,7 +98,7 @@ class TopicRecordTest {
         TopicRecord record =
                 TopicRecord.of("t", -1, "k", null, Map.of("a", "1")).with("b", "ñ");
 
-        ProducerRecord<byte[], byte[]> out = new TopicRecordFormat().serialize(record, null, null);
+        ProducerRecord<byte[], byte[]> out = new TopicRecordSchema().serialize(record, null, null);
 
         assertThat(out.topic()).isEqualTo("t");
         assertThat(out.partition()).isNull();

@@ -11,7 +11,7 @@ import org.apache.flink.api.common.eventtime.WatermarkOutputMultiplexer;
 import org.apache.flink.metrics.SimpleCounter;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 
@@ -33,7 +33,7 @@ class DelayedPartitionsTest {
     private long now = START;
     private long reached = Long.MIN_VALUE;
     private boolean idle;
-    private final ReceiptBoundWatermarks.Reader reader = new ReceiptBoundWatermarks.Reader(new SimpleCounter());
+    private final ClockBoundedWatermarks.Reader reader = new ClockBoundedWatermarks.Reader(new SimpleCounter());
     private final WatermarkOutputMultiplexer combined = new WatermarkOutputMultiplexer(new Reached());
     private final Partition one = new Partition("one");
     private final Partition other = new Partition("other");
@@ -183,11 +183,11 @@ class DelayedPartitionsTest {
     }
 
     private final class Partition {
-        private final ReceiptBoundWatermarks watermarks = new ReceiptBoundWatermarks(
-                new Receipt(Duration.ofSeconds(10)),
+        private final ClockBoundedWatermarks watermarks = new ClockBoundedWatermarks(
+                new ReceiptTime(Duration.ofSeconds(10)),
                 Duration.ofSeconds(2),
-                new ReceiptBoundWatermarks.Hold(Duration.ofSeconds(10), false, Duration.ofMinutes(1)),
-                new ReceiptBoundWatermarks.Clocks(() -> now, () -> now),
+                new ClockBoundedWatermarks.Hold(Duration.ofSeconds(10), false, Duration.ofMinutes(1)),
+                new ClockBoundedWatermarks.Clocks(() -> now, () -> now),
                 reader);
         private final String name;
 

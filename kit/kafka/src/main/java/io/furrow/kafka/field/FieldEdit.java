@@ -9,7 +9,7 @@ import java.util.TreeSet;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.field.FieldVersion;
 
 /**
@@ -28,16 +28,16 @@ public record FieldEdit(List<FieldVersion> written, List<String> removed) {
      *
      * @param at event time, epoch ms
      * @param known every version of {@code service.fields}
-     * @throws RefusedException if there is no such field, or it does not hold at that time
+     * @throws RejectedException if there is no such field, or it does not hold at that time
      */
-    public static FieldEdit end(String id, long at, List<FieldVersion> known) throws RefusedException {
+    public static FieldEdit end(String id, long at, List<FieldVersion> known) throws RejectedException {
         List<FieldVersion> own = of(id, known);
         if (!FieldChange.asOf(at, own).containsKey(id)) {
             FieldVersion last = own.stream()
                     .filter(version -> version.validFrom() <= at)
                     .reduce((one, next) -> next)
                     .orElse(null);
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.WRONG_STATE,
                     last == null
                             ? "field '%s' begins at %s; end it then or later, or delete it"
@@ -61,7 +61,7 @@ public record FieldEdit(List<FieldVersion> written, List<String> removed) {
     }
 
     /** Gives a field another name, in all its versions: it is the field that is called so, whatever its border was. */
-    public static FieldEdit rename(String id, String name, List<FieldVersion> known) throws RefusedException {
+    public static FieldEdit rename(String id, String name, List<FieldVersion> known) throws RejectedException {
         List<FieldVersion> renamed = new ArrayList<>();
         for (FieldVersion version : of(id, known)) {
             if (!version.isEnd() && !version.name().equals(name)) {
@@ -81,9 +81,9 @@ public record FieldEdit(List<FieldVersion> written, List<String> removed) {
     }
 
     /** That there is no field of an id, and which there are. */
-    public static RefusedException unknown(String id, List<FieldVersion> known) {
+    public static RejectedException unknown(String id, List<FieldVersion> known) {
         List<String> ids = known.stream().map(FieldVersion::id).distinct().toList();
-        return new RefusedException(
+        return new RejectedException(
                 ErrorCode.UNKNOWN_FIELD,
                 "there is no field '%s'; there %s"
                         .formatted(
@@ -121,7 +121,7 @@ public record FieldEdit(List<FieldVersion> written, List<String> removed) {
     }
 
     /** In the order of their times. */
-    private static List<FieldVersion> of(String id, List<FieldVersion> known) throws RefusedException {
+    private static List<FieldVersion> of(String id, List<FieldVersion> known) throws RejectedException {
         List<FieldVersion> own = known.stream()
                 .filter(version -> version.id().equals(id))
                 .sorted(Comparator.comparingLong(FieldVersion::validFrom))

@@ -7,7 +7,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.field.FieldVersion;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -77,7 +77,7 @@ class FieldEditTest {
             ErrorCode code, String reason, org.assertj.core.api.ThrowableAssert.ThrowingCallable edit) {
         assertThatThrownBy(edit)
                 .isInstanceOfSatisfying(
-                        RefusedException.class, e -> assertThat(e.code()).isEqualTo(code))
+                        RejectedException.class, e -> assertThat(e.code()).isEqualTo(code))
                 .hasMessageContaining(reason);
     }
 

@@ -94,7 +94,7 @@ public sealed interface AlarmCommand extends Command {
     String ALARM = "alarm";
     String USER = "user";
 
-    static AlarmCommand read(String verb, RequestMembers members) throws RefusedException {
+    static AlarmCommand read(String verb, JsonObjectReader members) throws RejectedException {
         return switch (verb == null ? "" : verb) {
             case "acknowledge" -> new Acknowledge(members.name(ALARM), members.textOrNull(USER));
             case "close" -> new Close(members.name(ALARM), members.textOrNull(USER));
@@ -104,26 +104,26 @@ public sealed interface AlarmCommand extends Command {
         };
     }
 
-    private static Target target(RequestMembers members) throws RefusedException {
+    private static Target target(JsonObjectReader members) throws RejectedException {
         if (members.has(ALARM)) {
             return new OfAlarm(members.name(ALARM));
         }
         if (!members.has("kind")) {
-            throw new RefusedException(ErrorCode.MISSING_MEMBER, "the request needs a member 'alarm' or 'kind'");
+            throw new RejectedException(ErrorCode.MISSING_MEMBER, "the request needs a member 'alarm' or 'kind'");
         }
         try {
             return new OfKind(AlarmKind.of(members.text("kind")), members.textOrNull("subject"));
         } catch (IllegalArgumentException e) {
             String kinds =
                     Arrays.stream(AlarmKind.values()).map(AlarmKind::code).collect(Collectors.joining(", "));
-            throw RequestMembers.wrong("kind", "one of " + kinds);
+            throw JsonObjectReader.wrong("kind", "one of " + kinds);
         }
     }
 
-    private static Duration time(RequestMembers members) throws RefusedException {
+    private static Duration time(JsonObjectReader members) throws RejectedException {
         Duration time = members.durationOrNull("for");
         if (time == null) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.MISSING_MEMBER, "the request needs a member 'for', a time such as PT1H");
         }
         return time;

@@ -28,7 +28,7 @@ public record CommandResult(ObjectNode json) {
         return new CommandResult(json.put("type", "response").put("status", status));
     }
 
-    static CommandResult refused(RefusedException refusal) {
+    static CommandResult refused(RejectedException refusal) {
         return of(ERROR).with("error", refusal.code().code()).with("reason", refusal.getMessage());
     }
 

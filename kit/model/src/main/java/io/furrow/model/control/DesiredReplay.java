@@ -49,11 +49,11 @@ public record DesiredReplay(
      * @param to epoch ms, after the last event
      */
     public record Range(long from, long to) {
-        static Range read(RequestMembers members) throws RefusedException {
+        static Range read(JsonObjectReader members) throws RejectedException {
             long from = members.time("from").toEpochMilli();
             long to = members.time("to").toEpochMilli();
             if (from >= to) {
-                throw RequestMembers.wrong("to", "after 'from'");
+                throw JsonObjectReader.wrong("to", "after 'from'");
             }
             return new Range(from, to);
         }
@@ -217,13 +217,13 @@ public record DesiredReplay(
             throw new UnreadableException(Reason.NOT_AN_EVENT, "it is no object");
         }
         try {
-            DesiredReplay replay = read(new RequestMembers(json));
+            DesiredReplay replay = read(new JsonObjectReader(json));
             if (!replay.belongsTogether()) {
                 throw new UnreadableException(
                         Reason.NOT_AN_EVENT, "'replay', 'mission' and 'topic' do not belong together");
             }
             return replay;
-        } catch (RefusedException e) {
+        } catch (RejectedException e) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
         }
     }
@@ -238,7 +238,7 @@ public record DesiredReplay(
         }
     }
 
-    private static DesiredReplay read(RequestMembers members) throws RefusedException {
+    private static DesiredReplay read(JsonObjectReader members) throws RejectedException {
         return new DesiredReplay(
                 members.text("replay"),
                 members.text("mission"),
@@ -255,28 +255,28 @@ public record DesiredReplay(
                 members.number("sequence"));
     }
 
-    private static Range range(RequestMembers members) throws RefusedException {
+    private static Range range(JsonObjectReader members) throws RejectedException {
         return members == null ? null : Range.read(members);
     }
 
-    private static Seek seek(RequestMembers members) throws RefusedException {
+    private static Seek seek(JsonObjectReader members) throws RejectedException {
         return members == null ? null : new Seek(members.number("to"), members.number("sequence"));
     }
 
-    private static Step step(RequestMembers members) throws RefusedException {
+    private static Step step(JsonObjectReader members) throws RejectedException {
         return members == null ? null : new Step(members.number("total"), members.number("sequence"));
     }
 
-    private static Clock clock(RequestMembers members) throws RefusedException {
+    private static Clock clock(JsonObjectReader members) throws RejectedException {
         return members == null ? null : new Clock(members.number("at"), members.number("shows"));
     }
 
-    private static ReplayStatus.State desired(RequestMembers members) throws RefusedException {
+    private static ReplayStatus.State desired(JsonObjectReader members) throws RejectedException {
         return switch (members.text("wanted")) {
             case "running" -> ReplayStatus.State.RUNNING;
             case "paused" -> ReplayStatus.State.PAUSED;
             case "stopped" -> ReplayStatus.State.STOPPED;
-            default -> throw RequestMembers.wrong("wanted", "running, paused or stopped");
+            default -> throw JsonObjectReader.wrong("wanted", "running, paused or stopped");
         };
     }
 
@@ -297,7 +297,7 @@ public record DesiredReplay(
         if (range != null) {
             range.describe(json.putObject("range"));
         }
-        json.put("wanted", desired.word());
+        json.put("wanted", desired.code());
         if (seek != null) {
             json.putObject("seek").put("to", seek.to).put("sequence", seek.sequence);
         }

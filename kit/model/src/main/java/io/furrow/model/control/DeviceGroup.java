@@ -63,22 +63,22 @@ public record DeviceGroup(
         return name == null ? id : name;
     }
 
-    static DeviceGroup read(JsonNode json) throws RefusedException {
+    static DeviceGroup read(JsonNode json) throws RejectedException {
         if (json.isTextual()) {
             return entity(entityId(json.textValue()));
         }
         if (!(json instanceof ObjectNode object)) {
-            throw RequestMembers.wrong("devices", "a list of objects and entity ids");
+            throw JsonObjectReader.wrong("devices", "a list of objects and entity ids");
         }
-        RequestMembers members = new RequestMembers(object);
+        JsonObjectReader members = new JsonObjectReader(object);
         String id = members.has("id") ? entityId(members.text("id")) : null;
         String type = members.text("type");
         if (!TYPE.matcher(type).matches()) {
-            throw RequestMembers.wrong("type", "1 to 64 letters and digits that begin with a letter");
+            throw JsonObjectReader.wrong("type", "1 to 64 letters and digits that begin with a letter");
         }
         int count = members.wholeNumber("count", 1, MAX, 1);
         if (id != null && count > 1) {
-            throw RequestMembers.wrong("count", "1 where the device has an 'id'");
+            throw JsonObjectReader.wrong("count", "1 where the device has an 'id'");
         }
         check(members);
         MeasuredAttribute.check(members);
@@ -114,36 +114,36 @@ public record DeviceGroup(
         return own.isEmpty() ? 0 : (long) count * NgsiJson.write(own).length;
     }
 
-    private static String entityId(String id) throws RefusedException {
+    private static String entityId(String id) throws RejectedException {
         if (!ENTITY_ID.matcher(id).matches()) {
-            throw RequestMembers.wrong("id", "1 to 200 characters that are allowed in an entity id");
+            throw JsonObjectReader.wrong("id", "1 to 200 characters that are allowed in an entity id");
         }
         return id;
     }
 
-    private static void check(RequestMembers members) throws RefusedException {
+    private static void check(JsonObjectReader members) throws RejectedException {
         members.numberOrNull("speed", 0, FASTEST);
         members.objectOrNull("parameters");
         JsonNode area = members.json().path("area");
         boolean field = area.isTextual() && ENTITY_ID.matcher(area.textValue()).matches();
         if (members.has("area") && !field && !isArea(area)) {
-            throw RequestMembers.wrong("area", "the id of a field, or a GeoJSON Polygon or MultiPolygon");
+            throw JsonObjectReader.wrong("area", "the id of a field, or a GeoJSON Polygon or MultiPolygon");
         }
         ArrayNode path = members.arrayOrNull("path", MAX);
         for (JsonNode point : path == null ? List.<JsonNode>of() : path) {
             if (point.size() != 2 || !isDegrees(point.get(0), 180) || !isDegrees(point.get(1), 90)) {
-                throw RequestMembers.wrong("path", "a list of [longitude, latitude]");
+                throw JsonObjectReader.wrong("path", "a list of [longitude, latitude]");
             }
         }
         ArrayNode faults = members.arrayOrNull("faults", MAX);
         for (JsonNode fault : faults == null ? List.<JsonNode>of() : faults) {
             if (!FAULTS.contains(fault.path("kind").asText())) {
-                throw RequestMembers.wrong("faults", "a list of objects with 'kind' stuck, drift, spikes or silent");
+                throw JsonObjectReader.wrong("faults", "a list of objects with 'kind' stuck, drift, spikes or silent");
             }
         }
     }
 
-    private static void checkPlaces(JsonNode at, int count) throws RefusedException {
+    private static void checkPlaces(JsonNode at, int count) throws RejectedException {
         boolean fits = at.isMissingNode() || at.isNull() || isPlace(at);
         if (at.isArray() && at.size() == count) {
             fits = true;
@@ -152,7 +152,7 @@ public record DeviceGroup(
             }
         }
         if (!fits) {
-            throw RequestMembers.wrong(
+            throw JsonObjectReader.wrong(
                     AT,
                     "an object with 'latitude' and 'longitude' in degrees, or a list of one for each of the devices");
         }

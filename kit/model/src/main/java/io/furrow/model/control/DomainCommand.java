@@ -47,7 +47,7 @@ public sealed interface DomainCommand extends Command {
     }
 
     /** A request without {@code command} creates: that is how the WeLASER dashboard asks. */
-    static DomainCommand read(String verb, RequestMembers members) throws RefusedException {
+    static DomainCommand read(String verb, JsonObjectReader members) throws RejectedException {
         String domain = members.name("domain");
         return switch (verb == null ? "create" : verb) {
             case "create" -> new Create(domain, DomainDetails.read(members));

@@ -28,10 +28,10 @@ public record DomainDetails(String name, String description, ObjectNode area, Li
                 fields == null ? others.fields : fields);
     }
 
-    static DomainDetails read(RequestMembers members) throws RefusedException {
+    static DomainDetails read(JsonObjectReader members) throws RejectedException {
         ObjectNode area = members.objectOrNull("area");
         if (area != null) {
-            RequestMembers.checkArea(area, "'area'");
+            JsonObjectReader.checkArea(area, "'area'");
         }
         return new DomainDetails(
                 members.textOrNull("name"),

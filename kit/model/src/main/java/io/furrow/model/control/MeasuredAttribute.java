@@ -101,7 +101,7 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
     }
 
     /** Checks the member {@code attributes} of a group. */
-    static void check(RequestMembers group) throws RefusedException {
+    static void check(JsonObjectReader group) throws RejectedException {
         JsonNode list = group.arrayOrNull("attributes", MAX);
         for (JsonNode each : list == null ? List.<JsonNode>of() : list) {
             MeasuredAttribute attribute = parse(each);
@@ -112,7 +112,7 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
                     && (attribute.unit() == null
                             || UNIT.matcher(attribute.unit()).matches());
             if (!fits) {
-                throw RequestMembers.wrong(
+                throw JsonObjectReader.wrong(
                         "attributes",
                         "a list of objects with 'object_id' (the member of a message), 'name' (of the attribute), and perhaps 'type' (Number)"
                                 + " and 'unit' (a code of UN/CEFACT, as CEL)");

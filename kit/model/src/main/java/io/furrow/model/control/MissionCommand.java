@@ -128,7 +128,7 @@ public sealed interface MissionCommand extends Command {
         }
     }
 
-    static MissionCommand read(String verb, RequestMembers members) throws RefusedException {
+    static MissionCommand read(String verb, JsonObjectReader members) throws RejectedException {
         return switch (verb == null ? "" : verb) {
             case "create" -> new Create(members.name("mission"), members.name("domain"), MissionPlan.read(members));
             case "start" ->
@@ -156,9 +156,9 @@ public sealed interface MissionCommand extends Command {
         };
     }
 
-    private static MissionDevices added(RequestMembers members) throws RefusedException {
+    private static MissionDevices added(JsonObjectReader members) throws RejectedException {
         if (!members.has("devices")) {
-            throw new RefusedException(ErrorCode.MISSING_MEMBER, "the request needs a member 'devices'");
+            throw new RejectedException(ErrorCode.MISSING_MEMBER, "the request needs a member 'devices'");
         }
         return MissionDevices.readPart(members).withValidAreas();
     }

@@ -36,8 +36,9 @@ public record MissionDevices(List<DeviceGroup> groups) {
      */
     public static MissionDevices of(ArrayNode json) {
         try {
-            return read(new RequestMembers(JsonNodeFactory.instance.objectNode().set("devices", json)));
-        } catch (RefusedException e) {
+            return read(
+                    new JsonObjectReader(JsonNodeFactory.instance.objectNode().set("devices", json)));
+        } catch (RejectedException e) {
             throw new IllegalArgumentException("these are no devices of a mission: " + e.getMessage(), e);
         }
     }
@@ -46,19 +47,19 @@ public record MissionDevices(List<DeviceGroup> groups) {
     public static MissionDevices ofPart(ArrayNode json) {
         try {
             return readPart(
-                    new RequestMembers(JsonNodeFactory.instance.objectNode().set("devices", json)));
-        } catch (RefusedException e) {
+                    new JsonObjectReader(JsonNodeFactory.instance.objectNode().set("devices", json)));
+        } catch (RejectedException e) {
             throw new IllegalArgumentException("these are no devices of a mission: " + e.getMessage(), e);
         }
     }
 
     /** The member {@code devices} of a request or a template. */
-    static MissionDevices read(RequestMembers members) throws RefusedException {
+    static MissionDevices read(JsonObjectReader members) throws RejectedException {
         return readPart(members).checked();
     }
 
     /** The same of a request that adds to a list: whether names and carriers fit shows with the rest of the list. */
-    static MissionDevices readPart(RequestMembers members) throws RefusedException {
+    static MissionDevices readPart(JsonObjectReader members) throws RejectedException {
         ArrayNode array = members.arrayOrNull("devices", DeviceGroup.MAX);
         List<DeviceGroup> groups = new ArrayList<>();
         long count = 0;
@@ -72,16 +73,16 @@ public record MissionDevices(List<DeviceGroup> groups) {
         return new MissionDevices(groups);
     }
 
-    private static RefusedException tooMany() {
-        return RequestMembers.wrong("devices", "at most " + DeviceGroup.MAX + " devices in all");
+    private static RejectedException tooMany() {
+        return JsonObjectReader.wrong("devices", "at most " + DeviceGroup.MAX + " devices in all");
     }
 
     /**
      * These, and behind them others.
      *
-     * @throws RefusedException where they do not fit together, or are too many
+     * @throws RejectedException where they do not fit together, or are too many
      */
-    public MissionDevices plus(MissionDevices others) throws RefusedException {
+    public MissionDevices plus(MissionDevices others) throws RejectedException {
         List<DeviceGroup> all = new ArrayList<>(groups);
         all.addAll(others.groups);
         MissionDevices devices = new MissionDevices(all).checked();
@@ -99,9 +100,9 @@ public record MissionDevices(List<DeviceGroup> groups) {
         return groups.stream().mapToLong(DeviceGroup::settingsBytes).sum();
     }
 
-    private MissionDevices checked() throws RefusedException {
+    private MissionDevices checked() throws RejectedException {
         if (settingsBytes() > Limits.MISSION_BYTES) {
-            throw new RefusedException(
+            throw new RejectedException(
                     ErrorCode.TOO_LARGE,
                     "'path', 'faults' and 'parameters' of all devices together may have %d bytes, and have %d; give less to so many"
                             .formatted(Limits.MISSION_BYTES, settingsBytes()));
@@ -111,14 +112,14 @@ public record MissionDevices(List<DeviceGroup> groups) {
         for (DeviceGroup group : groups) {
             boolean known = group.label() != null && named.put(group.label(), group) != null;
             if (known || group.id() != null && !ids.add(group.id())) {
-                throw RequestMembers.wrong("devices", "a list in which no name and no id comes twice");
+                throw JsonObjectReader.wrong("devices", "a list in which no name and no id comes twice");
             }
         }
         for (DeviceGroup group : groups) {
             Set<String> seen = new HashSet<>();
             for (DeviceGroup at = group; at != null && at.carriedBy() != null; at = named.get(at.carriedBy())) {
                 if (!named.containsKey(at.carriedBy()) || !seen.add(at.carriedBy())) {
-                    throw RequestMembers.wrong(
+                    throw JsonObjectReader.wrong(
                             "carriedBy", "the name of another group of the list, and not in a circle");
                 }
             }
@@ -127,11 +128,11 @@ public record MissionDevices(List<DeviceGroup> groups) {
     }
 
     /** The same of a request, whose areas must be valid; a list that was stored may be older than that rule. */
-    MissionDevices withValidAreas() throws RefusedException {
+    MissionDevices withValidAreas() throws RejectedException {
         for (int group = 0; group < groups.size(); group++) {
             JsonNode area = groups.get(group).settings().path("area");
             if (area.isObject()) {
-                RequestMembers.checkArea(area, "'area' of devices[" + group + "]");
+                JsonObjectReader.checkArea(area, "'area' of devices[" + group + "]");
             }
         }
         return this;

@@ -13,19 +13,19 @@ public sealed interface MissionPlan {
     record OfDevices(MissionDevices devices) implements MissionPlan {}
 
     /** Nothing said: the mission keeps the devices it has, a new one has none. */
-    record Unsaid() implements MissionPlan {}
+    record Unspecified() implements MissionPlan {}
 
     /** {@code template}: a name, or {@code <name>@<version>}. */
     Pattern TEMPLATE = Pattern.compile("([A-Za-z0-9_-]{1,64})(?:@([1-9][0-9]{0,8}))?");
 
-    static MissionPlan read(RequestMembers members) throws RefusedException {
+    static MissionPlan read(JsonObjectReader members) throws RejectedException {
         if (members.has("template") && members.has("devices")) {
-            throw RequestMembers.wrong("devices", "missing where there is a 'template'");
+            throw JsonObjectReader.wrong("devices", "missing where there is a 'template'");
         }
         if (members.has("template")) {
             Matcher template = TEMPLATE.matcher(members.text("template"));
             if (!template.matches()) {
-                throw new RefusedException(
+                throw new RejectedException(
                         ErrorCode.ILLEGAL_NAME, "'template' must be the name of one, or <name>@<version>");
             }
             String version = template.group(2);
@@ -33,7 +33,7 @@ public sealed interface MissionPlan {
         }
         return members.has("devices")
                 ? new OfDevices(MissionDevices.read(members).withValidAreas())
-                : new Unsaid();
+                : new Unspecified();
     }
 
     /** Puts {@code template} or {@code devices}. */

@@ -28,22 +28,22 @@ public record MissionTemplate(String name, int version, String description, Miss
     /**
      * Reads an exported template, its version too where it has one.
      *
-     * @throws RefusedException if it is none; the message names the member
+     * @throws RejectedException if it is none; the message names the member
      */
-    public static MissionTemplate read(byte[] value) throws RefusedException {
+    public static MissionTemplate read(byte[] value) throws RejectedException {
         try {
             JsonNode json = NgsiJson.read(value);
             if (!(json instanceof ObjectNode object)) {
-                throw new RefusedException(ErrorCode.NOT_JSON, "the template is no object");
+                throw new RejectedException(ErrorCode.NOT_JSON, "the template is no object");
             }
-            RequestMembers.checkReadable(json);
-            return read(new RequestMembers(object));
+            JsonObjectReader.checkReadable(json);
+            return read(new JsonObjectReader(object));
         } catch (UnreadableException e) {
-            throw new RefusedException(ErrorCode.NOT_JSON, RequestMembers.quotable(e.getMessage()));
+            throw new RejectedException(ErrorCode.NOT_JSON, JsonObjectReader.quotable(e.getMessage()));
         }
     }
 
-    public static MissionTemplate read(RequestMembers members) throws RefusedException {
+    public static MissionTemplate read(JsonObjectReader members) throws RejectedException {
         return new MissionTemplate(
                 members.name("template"),
                 members.wholeNumber("version", 0, Integer.MAX_VALUE, 0),

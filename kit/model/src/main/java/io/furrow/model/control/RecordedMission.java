@@ -27,10 +27,10 @@ public record RecordedMission(String mission, long first, long last) {
         if (!(NgsiJson.read(value) instanceof ObjectNode json)) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "it is no object");
         }
-        RequestMembers members = new RequestMembers(json);
+        JsonObjectReader members = new JsonObjectReader(json);
         try {
             return new RecordedMission(members.text(MISSION), members.number(FIRST), members.number(LAST));
-        } catch (RefusedException e) {
+        } catch (RejectedException e) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
         }
     }

@@ -67,28 +67,28 @@ public sealed interface ReplayCommand extends Command {
             plan.describe(request);
         }
 
-        private static Start read(RequestMembers members) throws RefusedException {
+        private static Start read(JsonObjectReader members) throws RejectedException {
             List<String> missions = missions(members);
             String topic = members.textOrNull("topic");
             if (topic != null && (missions.size() > 1 || !TOPIC.matcher(topic).matches())) {
-                throw RequestMembers.wrong(
+                throw JsonObjectReader.wrong(
                         "topic", "data.<name>.replay.<eight hexadecimal digits>, and is for one mission only");
             }
             ReplayPlan plan = ReplayPlan.read(members);
             double speed = ReplayCommand.speed(members, false);
             if (missions.size() > 1 && (speed == MAX || plan.maxGap() != null || plan.source() != null)) {
-                throw RequestMembers.wrong("missions", "one where 'speed' is max, or 'maxGap' or 'source' is given");
+                throw JsonObjectReader.wrong("missions", "one where 'speed' is max, or 'maxGap' or 'source' is given");
             }
             ObjectNode range = members.objectOrNull("range");
             return new Start(
                     missions,
                     topic,
                     speed,
-                    range == null ? null : DesiredReplay.Range.read(new RequestMembers(range)),
+                    range == null ? null : DesiredReplay.Range.read(new JsonObjectReader(range)),
                     plan);
         }
 
-        private static List<String> missions(RequestMembers members) throws RefusedException {
+        private static List<String> missions(JsonObjectReader members) throws RejectedException {
             if (!members.has("missions")) {
                 return List.of(members.name("mission"));
             }
@@ -96,12 +96,12 @@ public sealed interface ReplayCommand extends Command {
             List<String> missions = new ArrayList<>();
             for (JsonNode name : names) {
                 if (!TopicName.isLegal(name.asText()) || missions.contains(name.asText())) {
-                    throw RequestMembers.wrong("missions", "a list of different names of missions");
+                    throw JsonObjectReader.wrong("missions", "a list of different names of missions");
                 }
                 missions.add(name.asText());
             }
             if (missions.isEmpty() || members.has("mission")) {
-                throw RequestMembers.wrong("missions", "a list of missions, without 'mission' beside it");
+                throw JsonObjectReader.wrong("missions", "a list of missions, without 'mission' beside it");
             }
             return missions;
         }
@@ -127,29 +127,29 @@ public sealed interface ReplayCommand extends Command {
             return new Target(replay, null);
         }
 
-        private static Target read(RequestMembers members) throws RefusedException {
+        private static Target read(JsonObjectReader members) throws RejectedException {
             String group = members.textOrNull("group");
             if (group == null) {
                 return of(named(members.text("replay")));
             }
             if (members.has("replay")) {
-                throw RequestMembers.wrong("group", "without 'replay' beside it");
+                throw JsonObjectReader.wrong("group", "without 'replay' beside it");
             }
             if (!GROUP.matcher(group).matches()) {
-                throw new RefusedException(
+                throw new RejectedException(
                         ErrorCode.ILLEGAL_NAME,
                         "'%s' is no group; one is called by eight hexadecimal digits"
-                                .formatted(RequestMembers.quotable(group)));
+                                .formatted(JsonObjectReader.quotable(group)));
             }
             return new Target(null, group);
         }
 
-        private static String named(String replay) throws RefusedException {
+        private static String named(String replay) throws RejectedException {
             if (!REPLAY.matcher(replay).matches()) {
-                throw new RefusedException(
+                throw new RejectedException(
                         ErrorCode.ILLEGAL_NAME,
                         "'%s' is no replay; one is called <mission>.<eight hexadecimal digits>"
-                                .formatted(RequestMembers.quotable(replay)));
+                                .formatted(JsonObjectReader.quotable(replay)));
             }
             return replay;
         }
@@ -240,7 +240,7 @@ public sealed interface ReplayCommand extends Command {
         }
     }
 
-    static ReplayCommand read(String verb, RequestMembers members) throws RefusedException {
+    static ReplayCommand read(String verb, JsonObjectReader members) throws RejectedException {
         return switch (verb == null ? "" : verb) {
             case "start" -> Start.read(members);
             case "stop" -> new Simple(Target.read(members), Verb.STOP);
@@ -254,23 +254,23 @@ public sealed interface ReplayCommand extends Command {
         };
     }
 
-    private static int steps(RequestMembers members) throws RefusedException {
+    private static int steps(JsonObjectReader members) throws RejectedException {
         int count = members.wholeNumber("count", -1_000_000, 1_000_000, 1);
         if (count == 0) {
-            throw RequestMembers.wrong("count", "a whole number from -1000000 to 1000000, and not 0");
+            throw JsonObjectReader.wrong("count", "a whole number from -1000000 to 1000000, and not 0");
         }
         return count;
     }
 
-    private static DesiredReplay.Range range(RequestMembers members) throws RefusedException {
+    private static DesiredReplay.Range range(JsonObjectReader members) throws RejectedException {
         return members.has("from") || members.has("to") ? DesiredReplay.Range.read(members) : null;
     }
 
-    static double speed(RequestMembers members, boolean needed) throws RefusedException {
+    static double speed(JsonObjectReader members, boolean needed) throws RejectedException {
         JsonNode speed = members.json().path("speed");
         if (!members.has("speed")) {
             if (needed) {
-                throw RequestMembers.missing("speed");
+                throw JsonObjectReader.missing("speed");
             }
             return 1;
         }
@@ -279,7 +279,7 @@ public sealed interface ReplayCommand extends Command {
         }
         double number = speed.isNumber() ? speed.doubleValue() : Double.NaN;
         if (!(number >= 0.1 && number <= 1000)) {
-            throw RequestMembers.wrong("speed", "a number from 0.1 to 1000, or max");
+            throw JsonObjectReader.wrong("speed", "a number from 0.1 to 1000, or max");
         }
         return number;
     }

@@ -44,17 +44,17 @@ public record ReplayPlan(
 
     /** A recording that is not in MongoDB: one of the two. */
     public record Source(String topic, String file) {
-        private static Source read(ObjectNode json) throws RefusedException {
-            RequestMembers members = new RequestMembers(json);
+        private static Source read(ObjectNode json) throws RejectedException {
+            JsonObjectReader members = new JsonObjectReader(json);
             Source source = new Source(members.textOrNull("topic"), members.textOrNull("file"));
             if ((source.topic == null) == (source.file == null)) {
-                throw RequestMembers.wrong("source", "an object with either 'topic' or 'file'");
+                throw JsonObjectReader.wrong("source", "an object with either 'topic' or 'file'");
             }
             if (source.topic != null && !TOPIC.matcher(source.topic).matches()) {
-                throw RequestMembers.wrong("topic", "a topic that begins with data.");
+                throw JsonObjectReader.wrong("topic", "a topic that begins with data.");
             }
             if (source.file != null && !FILE.matcher(source.file).matches()) {
-                throw RequestMembers.wrong("file", "the name of a file in the job's --recordings, without a folder");
+                throw JsonObjectReader.wrong("file", "the name of a file in the job's --recordings, without a folder");
             }
             return source;
         }
@@ -67,7 +67,7 @@ public record ReplayPlan(
         /** The time at which the event is played. */
         NOW;
 
-        String word() {
+        String code() {
             return name().toLowerCase(Locale.ROOT);
         }
     }
@@ -77,17 +77,17 @@ public record ReplayPlan(
         analytics = List.copyOf(analytics);
     }
 
-    static ReplayPlan read(RequestMembers members) throws RefusedException {
+    static ReplayPlan read(JsonObjectReader members) throws RejectedException {
         Instant from = members.timeOrNull("from");
         Instant to = members.timeOrNull("to");
         if (from != null && to != null && !from.isBefore(to)) {
-            throw RequestMembers.wrong("to", "after 'from'");
+            throw JsonObjectReader.wrong("to", "after 'from'");
         }
         ObjectNode source = members.objectOrNull("source");
         Duration maxGap = members.durationOrNull("maxGap");
         List<String> analytics = members.texts("analytics", Pattern.compile("[a-z]{1,20}"), "analytics jobs");
         if (!ANALYTICS.containsAll(analytics)) {
-            throw RequestMembers.wrong("analytics", "a list of " + String.join(", ", ANALYTICS));
+            throw JsonObjectReader.wrong("analytics", "a list of " + String.join(", ", ANALYTICS));
         }
         return new ReplayPlan(
                 source == null ? null : Source.read(source),
@@ -101,17 +101,17 @@ public record ReplayPlan(
                 analytics.stream().distinct().sorted().toList());
     }
 
-    private static Stamps stamps(RequestMembers members) throws RefusedException {
+    private static Stamps stamps(JsonObjectReader members) throws RejectedException {
         String word = members.textOrNull("stamps");
         if (word == null) {
             return Stamps.ORIGINAL;
         }
         for (Stamps stamps : Stamps.values()) {
-            if (stamps.word().equals(word)) {
+            if (stamps.code().equals(word)) {
                 return stamps;
             }
         }
-        throw RequestMembers.wrong("stamps", "original or now");
+        throw JsonObjectReader.wrong("stamps", "original or now");
     }
 
     private static Long millis(Instant time) {
@@ -133,7 +133,7 @@ public record ReplayPlan(
                 "maxGap",
                 maxGap == null ? null : Duration.ofMillis(maxGap).toString());
         if (stamps != Stamps.ORIGINAL) {
-            json.put("stamps", stamps.word());
+            json.put("stamps", stamps.code());
         }
         put(json, "startAt", startAt);
         put(json, "analytics", analytics);

@@ -40,7 +40,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
         }
 
         /** As the record has it. */
-        public String word() {
+        public String code() {
             return name().toLowerCase(Locale.ROOT);
         }
     }
@@ -117,7 +117,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
             throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is no whole number");
         }
         for (State state : State.values()) {
-            if (state.word().equals(json.path(STATE).textValue())) {
+            if (state.code().equals(json.path(STATE).textValue())) {
                 return new ReplayStatus(
                         sequence.longValue(),
                         state,
@@ -132,7 +132,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
 
     public byte[] toBytes() {
         ObjectNode json = JsonNodeFactory.instance.objectNode();
-        json.put(SEQUENCE, sequence).put(STATE, state.word());
+        json.put(SEQUENCE, sequence).put(STATE, state.code());
         DeviceGroup.put(json, REASON, Limits.reason(reason));
         if (state.isOver()) {
             json.put(SETTLED, settled);

@@ -12,7 +12,7 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.TopicName;
 
 /**
- * Requests to and from JSON. Reading never throws: what cannot be understood is {@link Received.Refused} with a code and a
+ * Requests to and from JSON. Reading never throws: what cannot be understood is {@link ParsedRequest.Refused} with a code and a
  * sentence. Members of names that no command has are skipped, because older clients send more than is asked for.
  */
 public final class Requests {
@@ -24,26 +24,26 @@ public final class Requests {
 
     /** Makes a command of a request's members. */
     private interface Reader<C> {
-        C read(String verb, RequestMembers members) throws RefusedException;
+        C read(String verb, JsonObjectReader members) throws RejectedException;
     }
 
     /** A record of {@code service.domainmanager}; the value may be null. */
-    public static Received<DomainCommand> domain(byte[] value) {
+    public static ParsedRequest<DomainCommand> domain(byte[] value) {
         return read(value, DomainCommand::read);
     }
 
     /** A record of {@code service.missionmanager}; the value may be null. */
-    public static Received<MissionCommand> mission(byte[] value) {
+    public static ParsedRequest<MissionCommand> mission(byte[] value) {
         return read(value, MissionCommand::read);
     }
 
     /** A record of {@code service.replaymanager}; the value may be null. */
-    public static Received<ReplayCommand> replay(byte[] value) {
+    public static ParsedRequest<ReplayCommand> replay(byte[] value) {
         return read(value, ReplayCommand::read);
     }
 
     /** A record of {@code service.alarmmanager}; the value may be null. */
-    public static Received<AlarmCommand> alarm(byte[] value) {
+    public static ParsedRequest<AlarmCommand> alarm(byte[] value) {
         return read(value, AlarmCommand::read);
     }
 
@@ -57,24 +57,24 @@ public final class Requests {
     }
 
     /** The answer to a command that was understood and not granted. */
-    public static CommandResult refusal(RefusedException refusal, Command command) {
+    public static CommandResult refusal(RejectedException refusal, Command command) {
         ObjectNode request = json();
         command.describe(request);
         return aboutSubjects(CommandResult.refused(refusal), request);
     }
 
-    private static <C> Received<C> read(byte[] value, Reader<C> reader) {
+    private static <C> ParsedRequest<C> read(byte[] value, Reader<C> reader) {
         if (value == null) {
-            return new Received.Passed<>();
+            return new ParsedRequest.Passed<>();
         }
         JsonNode json;
         try {
             json = NgsiJson.read(value);
         } catch (UnreadableException e) {
-            return refused(ErrorCode.NOT_JSON, RequestMembers.quotable(e.getMessage()));
+            return refused(ErrorCode.NOT_JSON, JsonObjectReader.quotable(e.getMessage()));
         }
         if ("response".equals(json.path("type").textValue())) {
-            return new Received.Passed<>();
+            return new ParsedRequest.Passed<>();
         }
         if (!(json instanceof ObjectNode object)
                 || !"request".equals(json.path("type").textValue())) {
@@ -83,23 +83,23 @@ public final class Requests {
         return read(object, reader);
     }
 
-    private static <C> Received<C> read(ObjectNode json, Reader<C> reader) {
-        RequestMembers members = new RequestMembers(json);
+    private static <C> ParsedRequest<C> read(ObjectNode json, Reader<C> reader) {
+        JsonObjectReader members = new JsonObjectReader(json);
         String requestId = null;
         try {
             requestId = requestId(members);
-            RequestMembers.checkReadable(json);
+            JsonObjectReader.checkReadable(json);
             C command = reader.read(members.textOrNull("command"), members);
-            return new Received.Request<>(requestId, command);
-        } catch (RefusedException e) {
-            return new Received.Refused<>(requestId, aboutSubjects(CommandResult.refused(e), json));
+            return new ParsedRequest.Request<>(requestId, command);
+        } catch (RejectedException e) {
+            return new ParsedRequest.Refused<>(requestId, aboutSubjects(CommandResult.refused(e), json));
         }
     }
 
-    private static String requestId(RequestMembers members) throws RefusedException {
+    private static String requestId(JsonObjectReader members) throws RejectedException {
         String id = members.textOrNull("requestId");
         if (id != null && !isRequestId(id)) {
-            throw RequestMembers.wrong("requestId", "1 to 200 printable ASCII characters without spaces");
+            throw JsonObjectReader.wrong("requestId", "1 to 200 printable ASCII characters without spaces");
         }
         return id;
     }
@@ -109,8 +109,8 @@ public final class Requests {
         return text != null && REQUEST_ID.matcher(text).matches();
     }
 
-    private static <C> Received<C> refused(ErrorCode code, String reason) {
-        return new Received.Refused<>(null, CommandResult.refused(new RefusedException(code, reason)));
+    private static <C> ParsedRequest<C> refused(ErrorCode code, String reason) {
+        return new ParsedRequest.Refused<>(null, CommandResult.refused(new RejectedException(code, reason)));
     }
 
     static CommandResult aboutSubjects(CommandResult refusal, ObjectNode request) {
@@ -128,12 +128,12 @@ public final class Requests {
         return JsonNodeFactory.instance.objectNode();
     }
 
-    static RefusedException unknown(String verb, String known) {
+    static RejectedException unknown(String verb, String known) {
         return verb == null
-                ? new RefusedException(
+                ? new RejectedException(
                         ErrorCode.MISSING_MEMBER, "the request needs a member 'command': one of " + known)
-                : new RefusedException(
+                : new RejectedException(
                         ErrorCode.UNKNOWN_COMMAND,
-                        "there is no command '%s' here, but %s".formatted(RequestMembers.quotable(verb), known));
+                        "there is no command '%s' here, but %s".formatted(JsonObjectReader.quotable(verb), known));
     }
 }

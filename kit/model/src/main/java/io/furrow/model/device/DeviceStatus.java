@@ -27,7 +27,7 @@ public record DeviceStatus(long sequence, State state, String reason) {
         FAILED;
 
         /** As the record has it. */
-        public String word() {
+        public String code() {
             return name().toLowerCase(Locale.ROOT);
         }
     }
@@ -48,7 +48,7 @@ public record DeviceStatus(long sequence, State state, String reason) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is no whole number");
         }
         for (State state : State.values()) {
-            if (state.word().equals(json.path("state").textValue())) {
+            if (state.code().equals(json.path("state").textValue())) {
                 return new DeviceStatus(
                         sequence.longValue(),
                         state,
@@ -60,7 +60,7 @@ public record DeviceStatus(long sequence, State state, String reason) {
 
     public byte[] toBytes() {
         ObjectNode json = JsonNodeFactory.instance.objectNode();
-        json.put("sequence", sequence).put("state", state.word());
+        json.put("sequence", sequence).put("state", state.code());
         if (reason != null) {
             json.put("reason", reason);
         }

@@ -71,13 +71,13 @@ public record EventTimeRule(List<Source> order, Duration maxSkew) implements Ser
         }
 
         /** As options name it. */
-        public String word() {
+        public String code() {
             return name().toLowerCase(Locale.ROOT);
         }
 
         private static Source of(String word) {
             return List.of(values()).stream()
-                    .filter(source -> source.word().equals(word))
+                    .filter(source -> source.code().equals(word))
                     .findFirst()
                     .orElseThrow(() -> new IllegalArgumentException(
                             "'%s' is no event time; give some of device, attributes, entity in the order of their weight"

@@ -13,5 +13,5 @@ public record FieldFile(
         String crs,
         double accuracyMeters,
         List<ImportedField> fields,
-        List<RefusedFeature> refused,
+        List<RejectedFeature> refused,
         List<String> notes) {}

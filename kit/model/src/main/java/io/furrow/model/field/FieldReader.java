@@ -6,10 +6,10 @@ import java.nio.file.Path;
 public interface FieldReader {
     /** For a process without these libraries. */
     FieldReader NONE = (file, options) -> {
-        throw new UnusableFileException(
+        throw new InvalidFileException(
                 "no field files are read here; import %s with ./furrow fields import".formatted(file));
     };
 
-    /** @throws UnusableFileException if the file cannot be read at all */
-    FieldFile read(Path file, ImportOptions options) throws UnusableFileException;
+    /** @throws InvalidFileException if the file cannot be read at all */
+    FieldFile read(Path file, ImportOptions options) throws InvalidFileException;
 }

@@ -35,7 +35,7 @@ public record Entity(ObjectNode json) {
      * @throws UnreadableException with {@link Reason#NOT_AN_ENTITY}
      */
     public static Entity of(JsonNode json) throws UnreadableException {
-        return EntityForm.NORMALIZED.read(json);
+        return NgsiV2Representation.NORMALIZED.read(json);
     }
 
     /**
@@ -46,7 +46,7 @@ public record Entity(ObjectNode json) {
     public static Entity ofAnyForm(JsonNode json) throws UnreadableException {
         return NgsiLdEntity.looksLike(json)
                 ? NgsiLdEntity.read(json)
-                : EntityForm.of(json).read(json);
+                : NgsiV2Representation.of(json).read(json);
     }
 
     /** An entity from the UTF-8 JSON of its normalized form, which is what every {@code data.*} topic carries. */
@@ -59,7 +59,7 @@ public record Entity(ObjectNode json) {
      * over. What is refused is the same.
      */
     public static Entity parse(byte[] normalized, Set<String> desired) throws UnreadableException {
-        return EntityExcerpt.read(normalized, desired);
+        return PartialEntityReader.read(normalized, desired);
     }
 
     /** A new entity with the given id and type and no attributes. */

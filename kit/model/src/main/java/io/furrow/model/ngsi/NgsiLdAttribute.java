@@ -109,7 +109,7 @@ final class NgsiLdAttribute {
         if (isNormalized(reported)) {
             return Optional.of(reported.get("type").textValue());
         }
-        if (!reported.isObject() || EntityForm.isGeoJson(reported)) {
+        if (!reported.isObject() || NgsiV2Representation.isGeoJson(reported)) {
             return Optional.empty();
         }
         return KIND_OF.entrySet().stream()
@@ -130,7 +130,7 @@ final class NgsiLdAttribute {
             case "Property" ->
                 typed
                         ? plain(value.get("@type").textValue(), value.get("@value"))
-                        : plain(EntityForm.typeOf(value), value);
+                        : plain(NgsiV2Representation.typeOf(value), value);
             case "GeoProperty" -> plain("geo:json", value);
             default -> plain(kind, value);
         };

@@ -111,10 +111,10 @@ public record Notification(
         if (attrsFormat == null) {
             return Entity.ofAnyForm(reported);
         }
-        EntityForm form = switch (attrsFormat) {
-            case "keyValues", "simplifiedKeyValues" -> EntityForm.KEY_VALUES;
-            case "normalized", "simplifiedNormalized" -> EntityForm.NORMALIZED;
-            default -> EntityForm.of(reported);
+        NgsiV2Representation form = switch (attrsFormat) {
+            case "keyValues", "simplifiedKeyValues" -> NgsiV2Representation.KEY_VALUES;
+            case "normalized", "simplifiedNormalized" -> NgsiV2Representation.NORMALIZED;
+            default -> NgsiV2Representation.of(reported);
         };
         return form.read(reported);
     }

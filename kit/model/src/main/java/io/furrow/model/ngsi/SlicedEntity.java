@@ -103,8 +103,8 @@ public record SlicedEntity(String type, List<Slice> attributes) {
         int to = (int) parser.currentLocation().getByteOffset();
         String json = new String(bytes, from, to - from, StandardCharsets.UTF_8);
         if (type == null || !described || members != 3) {
-            ObjectNode attribute =
-                    EntityForm.NORMALIZED.attribute(name, NgsiJson.read(json.getBytes(StandardCharsets.UTF_8)));
+            ObjectNode attribute = NgsiV2Representation.NORMALIZED.attribute(
+                    name, NgsiJson.read(json.getBytes(StandardCharsets.UTF_8)));
             type = attribute.path("type").textValue();
             json = new String(NgsiJson.write(attribute), StandardCharsets.UTF_8);
         }

@@ -146,11 +146,11 @@ public final class EntityReader {
         if (location.isPresent() && !location.isBlank()) {
             return location.position();
         }
-        for (PositionRules.Pair names : PositionRules.PAIRS) {
+        for (PositionParser.Pair names : PositionParser.PAIRS) {
             AttributeValue latitude = values.get(names.latitude());
             AttributeValue longitude = values.get(names.longitude());
             if (latitude.isPresent() || longitude.isPresent()) {
-                return PositionRules.of(latitude.finite(), longitude.finite());
+                return PositionParser.of(latitude.finite(), longitude.finite());
             }
         }
         String message = text("gnss").or(() -> text("pose")).orElse(null);

@@ -16,7 +16,7 @@ final class FirosMessage {
     private double longitude;
 
     PositionReading read(String escaped) {
-        return readTokens(escaped) ? PositionRules.of(latitude, longitude) : PositionRules.ofFiros(escaped);
+        return readTokens(escaped) ? PositionParser.of(latitude, longitude) : PositionParser.ofFiros(escaped);
     }
 
     /** Whether the text could be read so; where not, something in it is wrong or rare. */

@@ -70,8 +70,8 @@ final class LocationValue extends AttributeValue {
     PositionReading position() {
         String text = textOrNull();
         if (text != null) {
-            return PositionRules.ofGeoPoint(text);
+            return PositionParser.ofGeoPoint(text);
         }
-        return typeIsPoint && coordinates >= 2 ? PositionRules.of(latitude, longitude) : PositionRules.NO_POINT;
+        return typeIsPoint && coordinates >= 2 ? PositionParser.of(latitude, longitude) : PositionParser.NO_POINT;
     }
 }

@@ -41,18 +41,18 @@ public sealed interface PositionReading {
         Optional<JsonNode> location = entity.value("location")
                 .filter(value -> !value.isTextual() || !value.textValue().isBlank());
         if (location.isPresent()) {
-            return PositionRules.ofLocation(location.get());
+            return PositionParser.ofLocation(location.get());
         }
-        for (PositionRules.Pair names : PositionRules.PAIRS) {
+        for (PositionParser.Pair names : PositionParser.PAIRS) {
             if (entity.value(names.latitude()).isPresent()
                     || entity.value(names.longitude()).isPresent()) {
-                return PositionRules.of(
+                return PositionParser.of(
                         entity.number(names.latitude()).orElse(Double.NaN),
                         entity.number(names.longitude()).orElse(Double.NaN));
             }
         }
         Optional<String> firos = entity.text("gnss").or(() -> entity.text("pose"));
-        return firos.map(PositionRules::ofFiros).orElseGet(Absent::new);
+        return firos.map(PositionParser::ofFiros).orElseGet(Absent::new);
     }
 
     /** The position, if there is one that can be used. */

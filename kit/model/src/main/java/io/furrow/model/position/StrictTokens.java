@@ -14,7 +14,7 @@ import io.furrow.model.ngsi.NgsiJson;
  * something that is wrong or rare; the reader of trees finds out which.
  */
 final class StrictTokens {
-    /** Names that come twice are found by {@link OpenNames}, which makes no set for each object. */
+    /** Names that come twice are found by {@link DuplicateNameDetector}, which makes no set for each object. */
     private static final JsonFactory FACTORY = NgsiJson.mapper()
             .getFactory()
             .rebuild()
@@ -22,7 +22,7 @@ final class StrictTokens {
             .enable(StreamReadFeature.USE_FAST_DOUBLE_PARSER)
             .build();
 
-    private final OpenNames names = new OpenNames();
+    private final DuplicateNameDetector names = new DuplicateNameDetector();
     private JsonParser parser;
     /** Whether no text of the document can hold a surrogate or be too long: then those that nobody wants stay undecoded. */
     private boolean plain;

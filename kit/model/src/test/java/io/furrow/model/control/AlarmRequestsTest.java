@@ -19,7 +19,8 @@ class AlarmRequestsTest {
             new AlarmCommand.Mute(new AlarmCommand.OfKind(AlarmKind.SILENT_DEVICE, "urn:x"), Duration.ofDays(1)),
             new AlarmCommand.Unmute(new AlarmCommand.OfKind(AlarmKind.COLLISION, null))
         }) {
-            assertThat(Requests.alarm(Requests.write("r", command))).isEqualTo(new Received.Request<>("r", command));
+            assertThat(Requests.alarm(Requests.write("r", command)))
+                    .isEqualTo(new ParsedRequest.Request<>("r", command));
         }
     }
 
@@ -36,10 +37,10 @@ class AlarmRequestsTest {
             """)
     void answersWhatIsNoRequest(String request, String code) {
         String whole = request.replace("{'", "{'type':'request','").replace('\'', '"');
-        Received<AlarmCommand> received = Requests.alarm(whole.getBytes(StandardCharsets.UTF_8));
-        assertThat(received)
+        ParsedRequest<AlarmCommand> parsedRequest = Requests.alarm(whole.getBytes(StandardCharsets.UTF_8));
+        assertThat(parsedRequest)
                 .isInstanceOfSatisfying(
-                        Received.Refused.class,
+                        ParsedRequest.Refused.class,
                         refused -> assertThat(refused.answer().error()).hasValue(code));
     }
 }

@@ -93,7 +93,7 @@ public final class MadeUpCommands {
         return switch (random.nextInt(3)) {
             case 0 -> new MissionPlan.FromTemplate(name(), random.nextInt(3));
             case 1 -> new MissionPlan.OfDevices(devices());
-            default -> new MissionPlan.Unsaid();
+            default -> new MissionPlan.Unspecified();
         };
     }
 

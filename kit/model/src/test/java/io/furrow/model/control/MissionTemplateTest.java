@@ -26,10 +26,10 @@ class MissionTemplateTest {
     @Test
     void saysWhatIsWrongWithAFile() {
         assertThatThrownBy(() -> MissionTemplate.read("{\"template\":\"a b\"}".getBytes(StandardCharsets.UTF_8)))
-                .isInstanceOf(RefusedException.class)
+                .isInstanceOf(RejectedException.class)
                 .hasMessageContaining("'a b' is no name for 'template'");
         assertThatThrownBy(() -> MissionTemplate.read("nonsense".getBytes(StandardCharsets.UTF_8)))
                 .isInstanceOfSatisfying(
-                        RefusedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.NOT_JSON));
+                        RejectedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.NOT_JSON));
     }
 }

@@ -33,7 +33,7 @@ class RequestIdentityTest {
 
     @Test
     void readsWhoseARequestIsThoughTheRestIsNotRead() {
-        RequestExcerpt excerpt = excerpt("{'devices':[{'mission':'other'},['x']],'type':'request','mission':'m',"
+        RequestSummary excerpt = excerpt("{'devices':[{'mission':'other'},['x']],'type':'request','mission':'m',"
                 + "'requestId':'r-1','description':'" + "x".repeat(9000) + "','domain':7,'command':'start'");
         assertThat(excerpt.json())
                 .hasToString("{'type':'request','mission':'m','requestId':'r-1','command':'start'}".replace('\'', '"'));
@@ -63,8 +63,8 @@ class RequestIdentityTest {
         return RequestFingerprint.of(bytes(json));
     }
 
-    private static RequestExcerpt excerpt(String json) {
-        return RequestExcerpt.of(bytes(json));
+    private static RequestSummary excerpt(String json) {
+        return RequestSummary.of(bytes(json));
     }
 
     private static byte[] bytes(String json) {

@@ -40,13 +40,13 @@ class RequestsPropertyTest {
 
             assertThat(Requests.domain(Requests.write(id, domain)))
                     .as("seed %d", seed)
-                    .isEqualTo(new Received.Request<>(id, domain));
+                    .isEqualTo(new ParsedRequest.Request<>(id, domain));
             assertThat(Requests.mission(Requests.write(id, mission)))
                     .as("seed %d", seed)
-                    .isEqualTo(new Received.Request<>(id, mission));
+                    .isEqualTo(new ParsedRequest.Request<>(id, mission));
             assertThat(Requests.replay(Requests.write(id, replay)))
                     .as("seed %d", seed)
-                    .isEqualTo(new Received.Request<>(id, replay));
+                    .isEqualTo(new ParsedRequest.Request<>(id, replay));
         }
     }
 
@@ -65,15 +65,15 @@ class RequestsPropertyTest {
     }
 
     /** Whatever is understood can be written and read again; whatever is not has an answer that can be read. */
-    private static <C extends Command> int refusals(byte[] request, Function<byte[], Received<C>> reader, long seed)
-            throws Exception {
-        Received<C> received = reader.apply(request);
+    private static <C extends Command> int refusals(
+            byte[] request, Function<byte[], ParsedRequest<C>> reader, long seed) throws Exception {
+        ParsedRequest<C> parsedRequest = reader.apply(request);
         String said = "seed %d: %s".formatted(seed, new String(request, StandardCharsets.UTF_8));
-        if (received instanceof Received.Request<C> understood) {
+        if (parsedRequest instanceof ParsedRequest.Request<C> understood) {
             assertThat(reader.apply(Requests.write(understood.requestId(), understood.command())))
                     .as(said)
-                    .isEqualTo(received);
-        } else if (received instanceof Received.Refused<C> refused) {
+                    .isEqualTo(parsedRequest);
+        } else if (parsedRequest instanceof ParsedRequest.Refused<C> refused) {
             CommandResult answer =
                     CommandResult.read(refused.answer().to(refused.requestId()).toBytes());
             assertThat(answer.status()).as(said).isEqualTo("error");

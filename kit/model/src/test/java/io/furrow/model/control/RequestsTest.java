@@ -17,34 +17,34 @@ class RequestsTest {
     @Test
     void takesARequestWithoutCommandForANewDomain() {
         assertThat(Requests.domain(json("{'type':'request','domain':'canary'}")))
-                .isEqualTo(new Received.Request<>(null, new DomainCommand.Create("canary", DomainDetails.NONE)));
+                .isEqualTo(new ParsedRequest.Request<>(null, new DomainCommand.Create("canary", DomainDetails.NONE)));
     }
 
     @Test
     void takesTheOriginalRequestsForMissionsAndReplays() {
         assertThat(Requests.mission(json("{'type':'request','command':'start','mission':'m','domain':'d'}")))
-                .isEqualTo(new Received.Request<>(
-                        null, new MissionCommand.Start("m", "d", new MissionPlan.Unsaid(), null, null)));
+                .isEqualTo(new ParsedRequest.Request<>(
+                        null, new MissionCommand.Start("m", "d", new MissionPlan.Unspecified(), null, null)));
         assertThat(Requests.mission(json("{'type':'request','command':'stop','mission':'m','sent':{'by':'them'}}")))
-                .isEqualTo(new Received.Request<>(null, new MissionCommand.Stop("m")));
+                .isEqualTo(new ParsedRequest.Request<>(null, new MissionCommand.Stop("m")));
         assertThat(Requests.replay(json("{'type':'request','command':'start','mission':'m'}")))
-                .isEqualTo(new Received.Request<>(
+                .isEqualTo(new ParsedRequest.Request<>(
                         null, new ReplayCommand.Start(List.of("m"), null, 1, null, ReplayPlan.PLAIN)));
         assertThat(Requests.replay(json("{'type':'request','command':'stop','replay':'m.0a1b2c3d'}")))
-                .isEqualTo(new Received.Request<>(
+                .isEqualTo(new ParsedRequest.Request<>(
                         null,
                         new ReplayCommand.Simple(ReplayCommand.Target.of("m.0a1b2c3d"), ReplayCommand.Verb.STOP)));
     }
 
     @Test
     void readsEveryMemberOfAStart() {
-        Received<MissionCommand> received = Requests.mission(json("""
+        ParsedRequest<MissionCommand> parsedRequest = Requests.mission(json("""
                 {'type':'request','requestId':'r-1','command':'start','mission':'m','domain':'d','start':'2026-03-01T08:00:00+01:00',
                  'duration':'PT2H','devices':['urn:robot:1',{'name':'tractor','type':'Robot','count':2,'simulated':true,'period':'PT0.5S','speed':1.5,
                  'path':[[-3.48,40.31],[-3.47,40.31]]},{'type':'Camera','count':4,'carriedBy':'tractor','area':'field-1',
                  'faults':[{'kind':'silent','from':5}],'parameters':{'width':64}}]}"""));
 
-        assertThat(received).isInstanceOfSatisfying(Received.Request.class, request -> {
+        assertThat(parsedRequest).isInstanceOfSatisfying(ParsedRequest.Request.class, request -> {
             assertThat(request.requestId()).isEqualTo("r-1");
             MissionCommand.Start start = (MissionCommand.Start) request.command();
             assertThat(start.start()).isEqualTo(Instant.parse("2026-03-01T07:00:00Z"));
@@ -64,10 +64,10 @@ class RequestsTest {
 
     @Test
     void passesOverResponsesAndRecordsWithoutAValue() {
-        assertThat(Requests.domain(null)).isEqualTo(new Received.Passed<>());
+        assertThat(Requests.domain(null)).isEqualTo(new ParsedRequest.Passed<>());
         assertThat(Requests.domain(CommandResult.of("created").to("r").toBytes()))
-                .isEqualTo(new Received.Passed<>());
-        assertThat(Requests.domain(json("{'type':'response'}"))).isEqualTo(new Received.Passed<>());
+                .isEqualTo(new ParsedRequest.Passed<>());
+        assertThat(Requests.domain(json("{'type':'response'}"))).isEqualTo(new ParsedRequest.Passed<>());
     }
 
     @ParameterizedTest
@@ -189,16 +189,16 @@ class RequestsTest {
         String request = "{'type':'request','command':'create','mission':'m','domain':'d','devices':"
                 + "[{'type':'Robot','count':%d,'parameters':{'note':'" + "x".repeat(1000) + "'}}]}";
 
-        assertThat(Requests.mission(json(request.formatted(4000)))).isInstanceOf(Received.Request.class);
+        assertThat(Requests.mission(json(request.formatted(4000)))).isInstanceOf(ParsedRequest.Request.class);
         assertThat(refusal(Requests.mission(json(request.formatted(5000))))).isEqualTo("too-large");
     }
 
     @Test
     void answersAnErrorWithTheIdAndWhatItIsAbout() {
-        Received<MissionCommand> received = Requests.mission(
+        ParsedRequest<MissionCommand> parsedRequest = Requests.mission(
                 json("{'type':'request','requestId':'r','command':'launch','mission':'m','domain':'a.b'}"));
 
-        assertThat(received).isInstanceOfSatisfying(Received.Refused.class, refused -> {
+        assertThat(parsedRequest).isInstanceOfSatisfying(ParsedRequest.Refused.class, refused -> {
             assertThat(refused.requestId()).isEqualTo("r");
             assertThat(new String(refused.answer().toBytes(), StandardCharsets.UTF_8))
                     .isEqualTo(
@@ -209,9 +209,9 @@ class RequestsTest {
         });
     }
 
-    private static String refusal(Received<?> received) {
-        assertThat(received).isInstanceOf(Received.Refused.class);
-        CommandResult answer = ((Received.Refused<?>) received).answer();
+    private static String refusal(ParsedRequest<?> parsedRequest) {
+        assertThat(parsedRequest).isInstanceOf(ParsedRequest.Refused.class);
+        CommandResult answer = ((ParsedRequest.Refused<?>) parsedRequest).answer();
         assertThat(answer.json().path("reason").asText()).isNotBlank();
         return answer.error().orElseThrow();
     }

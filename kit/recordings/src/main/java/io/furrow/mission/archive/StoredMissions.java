@@ -36,7 +36,7 @@ import io.furrow.model.ngsi.UnreadableException;
 /** The missions that are stored in MongoDB: listed, exported as lines, and imported from lines. */
 public final class StoredMissions implements AutoCloseable {
     private static final int BATCH = 1_000;
-    private static final int TELL_EVERY = 10_000;
+    private static final int REPORT_INTERVAL = 10_000;
     private static final MongoAccess.Waits WAITS = MongoAccess.Waits.of(Duration.ofSeconds(20));
 
     private final MongoClient client;
@@ -142,7 +142,7 @@ public final class StoredMissions implements AutoCloseable {
             while (events.hasNext()) {
                 out.write(ArchiveLine.write(events.next()));
                 out.write('\n');
-                if (++count % TELL_EVERY == 0) {
+                if (++count % REPORT_INTERVAL == 0) {
                     told.accept(count);
                 }
             }
@@ -170,7 +170,7 @@ public final class StoredMissions implements AutoCloseable {
                 if (bulk.size() == BATCH) {
                     send(sender, bulk, source);
                 }
-                if (count % TELL_EVERY == 0) {
+                if (count % REPORT_INTERVAL == 0) {
                     told.accept(count);
                 }
             }

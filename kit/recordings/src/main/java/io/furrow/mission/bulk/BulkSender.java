@@ -87,18 +87,19 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
                     .computeIfAbsent(document.collection(), ignored -> new ArrayList<>())
                     .add(document);
         }
-        Doubt doubt = new Doubt(waits.unknown(), learned); // one for all: a checkpoint waits for them together
-        List<Refusal<D>> refused = send(byCollection, doubt);
-        judge(byCollection.keySet(), documents.size(), refused.size(), doubt);
+        UnknownErrorPolicy unknownErrorPolicy =
+                new UnknownErrorPolicy(waits.unknown(), learned); // one for all: a checkpoint waits for them together
+        List<Refusal<D>> refused = send(byCollection, unknownErrorPolicy);
+        judge(byCollection.keySet(), documents.size(), refused.size(), unknownErrorPolicy);
         return refused;
     }
 
-    private List<Refusal<D>> send(Map<String, List<D>> byCollection, Doubt doubt)
+    private List<Refusal<D>> send(Map<String, List<D>> byCollection, UnknownErrorPolicy unknownErrorPolicy)
             throws IOException, InterruptedException {
         List<Future<List<Refusal<D>>>> answers = new ArrayList<>();
         byCollection.forEach((collection, documents) -> answers.add(threads.submit(() -> {
             List<Refusal<D>> refused = new ArrayList<>();
-            send(collection, documents, doubt, refused);
+            send(collection, documents, unknownErrorPolicy, refused);
             return refused;
         })));
         List<Refusal<D>> refused = new ArrayList<>();
@@ -117,21 +118,23 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
     }
 
     /** Where none at all was taken, no document is at fault, unless its code is known for that. */
-    private void judge(Set<String> sentTo, int documents, int refused, Doubt doubt) throws IOException {
+    private void judge(Set<String> sentTo, int documents, int refused, UnknownErrorPolicy unknownErrorPolicy)
+            throws IOException {
         if (refused < documents) {
-            learned.addAll(doubt.givenUp());
-        } else if (documents > 1 && !learned.containsAll(doubt.givenUp())) {
+            learned.addAll(unknownErrorPolicy.givenUp());
+        } else if (documents > 1 && !learned.containsAll(unknownErrorPolicy.givenUp())) {
             throw new IOException(
                     "MongoDB took none of %d documents of %s for %d s, codes %s. Look into its log; see --mongo-refusal-timeout."
                             .formatted(
                                     documents,
                                     String.join(", ", sentTo),
                                     waits.unknown().toSeconds(),
-                                    doubt.givenUp()));
+                                    unknownErrorPolicy.givenUp()));
         }
     }
 
-    private void send(String collection, List<D> documents, Doubt doubt, List<Refusal<D>> refused)
+    private void send(
+            String collection, List<D> documents, UnknownErrorPolicy unknownErrorPolicy, List<Refusal<D>> refused)
             throws IOException, InterruptedException {
         RetryTimer left = new RetryTimer(waits.away());
         List<D> open = documents;
@@ -144,23 +147,24 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
                 target.bulkWrite(upserts(open), UNORDERED);
                 return;
             } catch (MongoBulkWriteException e) {
-                Answer<D> answer = read(e, open, doubt, refused);
-                boolean progressed = answer.open().size() < open.size();
-                open = answer.open();
+                BulkResponse<D> bulkResponse = read(e, open, unknownErrorPolicy, refused);
+                boolean progressed = bulkResponse.open().size() < open.size();
+                open = bulkResponse.open();
                 if (!open.isEmpty()) {
-                    pause(answer.isAway() && !progressed, left, e);
+                    pause(bulkResponse.isAway() && !progressed, left, e);
                 }
             } catch (MongoInterruptedException e) {
                 throw (InterruptedException) new InterruptedException(e.getMessage()).initCause(e);
             } catch (MongoException | BsonSerializationException | BsonInvalidOperationException e) {
                 breaks += e instanceof MongoSocketException && collections.serverAnswers() ? 1 : 0;
                 // What fails before is the making of indexes: another writer may be making them at this moment.
-                MongoFailure failure = prepared ? failure(e, collection, doubt, open.size()) : failureToPrepare(e);
+                MongoFailure failure =
+                        prepared ? failure(e, collection, unknownErrorPolicy, open.size()) : failureToPrepare(e);
                 if (failure == MongoFailure.REFUSED || prepared && breaks == BREAKS) {
-                    findRefused(collection, open, e, doubt, refused);
+                    findRefused(collection, open, e, unknownErrorPolicy, refused);
                     return;
                 }
-                pause(failure == MongoFailure.AWAY, left, e);
+                pause(failure == MongoFailure.UNAVAILABLE, left, e);
             }
             countRetried(open.size());
         }
@@ -182,11 +186,12 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
         if (e instanceof MongoException known && MongoFailure.of(known) == MongoFailure.SETTING) {
             throw wrongSetting(e);
         }
-        return MongoFailure.AWAY;
+        return MongoFailure.UNAVAILABLE;
     }
 
     /** Of all documents together; what is in doubt long enough is refused. */
-    private MongoFailure failure(Exception e, String collection, Doubt doubt, int documents) throws IOException {
+    private MongoFailure failure(Exception e, String collection, UnknownErrorPolicy unknownErrorPolicy, int documents)
+            throws IOException {
         if (!(e instanceof MongoException known)) {
             return MongoFailure.REFUSED; // the driver found that it is no document
         }
@@ -198,26 +203,31 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
         if (failure != MongoFailure.UNKNOWN && !ofCommand) {
             return failure;
         }
-        doubt(collection, known.getCode(), known.getMessage(), doubt);
-        if (!doubt.isOver(collection, known.getCode())) {
+        judgeUnknownError(collection, known.getCode(), known.getMessage(), unknownErrorPolicy);
+        if (!unknownErrorPolicy.isOver(collection, known.getCode())) {
             return MongoFailure.UNKNOWN;
         }
         if (documents == 1) {
-            doubt.giveUp(known.getCode());
+            unknownErrorPolicy.giveUp(known.getCode());
         }
         return MongoFailure.REFUSED;
     }
 
     /** One of several was refused, and with it all: halves are tried until it stands alone. */
-    private void findRefused(String collection, List<D> documents, Exception why, Doubt doubt, List<Refusal<D>> refused)
+    private void findRefused(
+            String collection,
+            List<D> documents,
+            Exception why,
+            UnknownErrorPolicy unknownErrorPolicy,
+            List<Refusal<D>> refused)
             throws IOException, InterruptedException {
         if (documents.size() == 1) {
             refused.add(new Refusal<>(documents.get(0), why.getMessage()));
             return;
         }
         int half = documents.size() / 2;
-        send(collection, documents.subList(0, half), doubt, refused);
-        send(collection, documents.subList(half, documents.size()), doubt, refused);
+        send(collection, documents.subList(0, half), unknownErrorPolicy, refused);
+        send(collection, documents.subList(half, documents.size()), unknownErrorPolicy, refused);
     }
 
     /**
@@ -226,10 +236,11 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
      * @param open worth another attempt
      * @param isAway whether some of it is so because the server is unavailable
      */
-    private record Answer<D>(List<D> open, boolean isAway) {}
+    private record BulkResponse<D>(List<D> open, boolean isAway) {}
 
     /** Where the write concern was not met, all is worth another attempt. */
-    private Answer<D> read(MongoBulkWriteException e, List<D> sent, Doubt doubt, List<Refusal<D>> refused)
+    private BulkResponse<D> read(
+            MongoBulkWriteException e, List<D> sent, UnknownErrorPolicy unknownErrorPolicy, List<Refusal<D>> refused)
             throws IOException {
         boolean unsure = e.getWriteConcernError() != null;
         boolean away = unsure;
@@ -243,27 +254,28 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
             }
             if (failure == MongoFailure.UNKNOWN && !attempted) {
                 attempted = true; // however many documents it fails for
-                doubt(document.collection(), error.getCode(), error.getMessage(), doubt);
+                judgeUnknownError(document.collection(), error.getCode(), error.getMessage(), unknownErrorPolicy);
             }
-            boolean givenUp = failure == MongoFailure.UNKNOWN && doubt.isOver(document.collection(), error.getCode());
+            boolean givenUp = failure == MongoFailure.UNKNOWN
+                    && unknownErrorPolicy.isOver(document.collection(), error.getCode());
             if (givenUp) {
-                doubt.giveUp(error.getCode());
+                unknownErrorPolicy.giveUp(error.getCode());
             }
             if (givenUp || failure == MongoFailure.REFUSED) {
                 refused.add(new Refusal<>(document, error.getMessage()));
                 open.remove(document);
             } else {
-                away |= failure == MongoFailure.AWAY;
+                away |= failure == MongoFailure.UNAVAILABLE;
                 if (!unsure) {
                     open.add(document);
                 }
             }
         }
-        return new Answer<>(open, away);
+        return new BulkResponse<>(open, away);
     }
 
-    private void doubt(String collection, int code, String message, Doubt doubt) {
-        doubt.failed(collection);
+    private void judgeUnknownError(String collection, int code, String message, UnknownErrorPolicy unknownErrorPolicy) {
+        unknownErrorPolicy.failed(collection);
         if (doubted.add(code)) {
             LOG.warn(
                     "MongoDB does not take documents, code {}: {}. They are tried again for {} s, then they are dead letters",

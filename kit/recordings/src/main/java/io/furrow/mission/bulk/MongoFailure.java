@@ -17,7 +17,7 @@ import com.mongodb.MongoWriteConcernException;
 /** What a failure of MongoDB means for what was to be written. */
 enum MongoFailure {
     /** The server is not there, or is busy with itself: try again. */
-    AWAY,
+    UNAVAILABLE,
     /** Nothing can be written until somebody changes a setting. */
     SETTING,
     /** The server will never take this document. */
@@ -41,7 +41,7 @@ enum MongoFailure {
                 || failure instanceof MongoWriteConcernException
                 || PASSING.stream().anyMatch(failure::hasErrorLabel);
         if (away || failure.getCause() instanceof MongoSocketException) {
-            return AWAY;
+            return UNAVAILABLE;
         }
         if (failure instanceof MongoServerException) {
             return of(failure.getCode(), failure.getMessage());
@@ -50,15 +50,15 @@ enum MongoFailure {
         boolean hopeless = failure instanceof MongoSecurityException
                 || failure instanceof MongoIncompatibleDriverException
                 || failure instanceof MongoConfigurationException;
-        return hopeless ? SETTING : AWAY;
+        return hopeless ? SETTING : UNAVAILABLE;
     }
 
     static MongoFailure of(int code, String message) {
         if (code == DUPLICATE_KEY && OF_ID.matcher(message).find()) {
-            return AWAY; // two upserts of one new id at once: the second try finds the document and replaces it
+            return UNAVAILABLE; // two upserts of one new id at once: the second try finds the document and replaces it
         }
         if (MongoCodes.OF_TIME.contains(code)) {
-            return AWAY;
+            return UNAVAILABLE;
         }
         if (MongoCodes.OF_SETTING.contains(code)) {
             return SETTING;

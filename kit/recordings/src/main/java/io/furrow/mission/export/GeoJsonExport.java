@@ -27,9 +27,9 @@ import io.furrow.model.position.PositionReading;
  */
 public final class GeoJsonExport implements MissionExport {
     @Override
-    public Exported write(Source mission, OutputStream out, LongConsumer progress) throws IOException {
+    public ExportResult write(Source mission, OutputStream out, LongConsumer progress) throws IOException {
         TreeMap<String, Track> tracks = new TreeMap<>();
-        Exported read = new ExportRun(progress).over(mission.recording(), event -> add(event, tracks));
+        ExportResult read = new Exporter(progress).over(mission.recording(), event -> add(event, tracks));
         try (JsonGenerator json = NgsiJson.mapper().getFactory().createGenerator(out)) {
             json.disable(JsonGenerator.Feature.AUTO_CLOSE_TARGET);
             json.writeStartObject();

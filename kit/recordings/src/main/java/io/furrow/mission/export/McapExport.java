@@ -29,22 +29,22 @@ public final class McapExport implements MissionExport {
     static final long LAST_MILLIS = Long.divideUnsigned(-1L, NANOS);
 
     @Override
-    public Exported write(Source mission, OutputStream out, LongConsumer progress) throws IOException {
+    public ExportResult write(Source mission, OutputStream out, LongConsumer progress) throws IOException {
         McapWriter file = new McapWriter(out, "furrow");
         McapMarkers markers = new McapMarkers(mission, file);
         Channels channels = new Channels(mission.name(), file);
-        Exported exported = new ExportRun(progress).over(mission.recording(), event -> {
+        ExportResult exportResult = new Exporter(progress).over(mission.recording(), event -> {
             markers.writeUntil(event.time());
             return channels.write(event);
         });
         markers.writeUntil(LAST_MILLIS);
         file.finish();
         return markers.left() == 0
-                ? exported
-                : new Exported(
-                        exported.events(),
-                        exported.leftOut() + markers.left(),
-                        exported.example().or(() -> Optional.of("a marker: " + NO_TIME)));
+                ? exportResult
+                : new ExportResult(
+                        exportResult.events(),
+                        exportResult.leftOut() + markers.left(),
+                        exportResult.example().or(() -> Optional.of("a marker: " + NO_TIME)));
     }
 
     static ObjectNode emptySchema(String title) {

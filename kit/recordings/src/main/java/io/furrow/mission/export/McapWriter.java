@@ -45,17 +45,17 @@ final class McapWriter {
     private final CRC32 crc = new CRC32();
     private long offset;
 
-    private final McapBytes schemas = new McapBytes();
-    private final McapBytes channels = new McapBytes();
-    private final McapBytes chunkIndexes = new McapBytes();
+    private final McapBuffer schemas = new McapBuffer();
+    private final McapBuffer channels = new McapBuffer();
+    private final McapBuffer chunkIndexes = new McapBuffer();
     private int schemaCount;
     private int chunkCount;
     private final SortedMap<Integer, Long> messages = new TreeMap<>();
     private final Extent all = new Extent();
 
-    private McapBytes chunk = new McapBytes();
+    private McapBuffer chunk = new McapBuffer();
     private Extent chunkExtent = new Extent();
-    private final SortedMap<Integer, McapBytes> chunkMessages = new TreeMap<>();
+    private final SortedMap<Integer, McapBuffer> chunkMessages = new TreeMap<>();
 
     /** First and last log time, in nanoseconds; zero if there is none. */
     private static final class Extent {
@@ -73,16 +73,16 @@ final class McapWriter {
     McapWriter(OutputStream out, String library) throws IOException {
         this.out = out;
         write(MAGIC);
-        write(new McapBytes()
-                .record(Opcode.HEADER, new McapBytes().text("").text(library))
+        write(new McapBuffer()
+                .record(Opcode.HEADER, new McapBuffer().text("").text(library))
                 .toArray());
     }
 
     /** The id of a new schema. */
     int schema(String name, String encoding, byte[] data) {
         schemaCount++;
-        McapBytes content =
-                new McapBytes().u16(schemaCount).text(name).text(encoding).prefixed(data);
+        McapBuffer content =
+                new McapBuffer().u16(schemaCount).text(name).text(encoding).prefixed(data);
         schemas.record(Opcode.SCHEMA, content);
         chunk.record(Opcode.SCHEMA, content);
         return schemaCount;
@@ -91,8 +91,8 @@ final class McapWriter {
     /** The id of a new channel, of which there are at most {@value #MAX_CHANNELS}. */
     int channel(int schema, String topic, String encoding, SortedMap<String, String> metadata) {
         int id = messages.size() + 1;
-        McapBytes content =
-                new McapBytes().u16(id).u16(schema).text(topic).text(encoding).texts(metadata);
+        McapBuffer content =
+                new McapBuffer().u16(id).u16(schema).text(topic).text(encoding).texts(metadata);
         channels.record(Opcode.CHANNEL, content);
         chunk.record(Opcode.CHANNEL, content);
         messages.put(id, 0L);
@@ -107,12 +107,17 @@ final class McapWriter {
     void message(int channel, long nanos, byte[] data) throws IOException {
         long sequence = messages.merge(channel, 1L, Long::sum) - 1;
         chunkMessages
-                .computeIfAbsent(channel, ignored -> new McapBytes())
+                .computeIfAbsent(channel, ignored -> new McapBuffer())
                 .u64(nanos)
                 .u64(chunk.size());
         chunk.record(
                 Opcode.MESSAGE,
-                new McapBytes().u16(channel).u32(sequence).u64(nanos).u64(nanos).raw(data));
+                new McapBuffer()
+                        .u16(channel)
+                        .u32(sequence)
+                        .u64(nanos)
+                        .u64(nanos)
+                        .raw(data));
         chunkExtent.add(nanos);
         all.add(nanos);
         if (chunk.size() >= CHUNK_BYTES) {
@@ -125,10 +130,10 @@ final class McapWriter {
         CRC32 ofRecords = new CRC32();
         ofRecords.update(records);
         long start = offset;
-        write(new McapBytes()
+        write(new McapBuffer()
                 .record(
                         Opcode.CHUNK,
-                        new McapBytes()
+                        new McapBuffer()
                                 .u64(chunkExtent.first)
                                 .u64(chunkExtent.last)
                                 .u64(records.length)
@@ -141,17 +146,17 @@ final class McapWriter {
         SortedMap<Integer, Long> indexes = new TreeMap<>();
         for (var messagesOfChannel : chunkMessages.entrySet()) {
             indexes.put(messagesOfChannel.getKey(), offset);
-            write(new McapBytes()
+            write(new McapBuffer()
                     .record(
                             Opcode.MESSAGE_INDEX,
-                            new McapBytes()
+                            new McapBuffer()
                                     .u16(messagesOfChannel.getKey())
                                     .prefixed(messagesOfChannel.getValue().toArray()))
                     .toArray());
         }
         chunkIndexes.record(
                 Opcode.CHUNK_INDEX,
-                new McapBytes()
+                new McapBuffer()
                         .u64(chunkExtent.first)
                         .u64(chunkExtent.last)
                         .u64(start)
@@ -162,7 +167,7 @@ final class McapWriter {
                         .u64(records.length)
                         .u64(records.length));
         chunkCount++;
-        chunk = new McapBytes();
+        chunk = new McapBuffer();
         chunkExtent = new Extent();
         chunkMessages.clear();
     }
@@ -172,15 +177,15 @@ final class McapWriter {
         if (chunk.size() > 0) {
             endChunk();
         }
-        write(new McapBytes()
-                .record(Opcode.DATA_END, new McapBytes().u32(crc.getValue()))
+        write(new McapBuffer()
+                .record(Opcode.DATA_END, new McapBuffer().u32(crc.getValue()))
                 .toArray());
         crc.reset();
         long summary = offset;
-        McapBytes offsets = new McapBytes();
+        McapBuffer offsets = new McapBuffer();
         group(Opcode.SCHEMA, schemas, offsets);
         group(Opcode.CHANNEL, channels, offsets);
-        group(Opcode.STATISTICS, new McapBytes().record(Opcode.STATISTICS, statistics()), offsets);
+        group(Opcode.STATISTICS, new McapBuffer().record(Opcode.STATISTICS, statistics()), offsets);
         group(Opcode.CHUNK_INDEX, chunkIndexes, offsets);
         long summaryOffsets = offset;
         write(offsets.toArray());
@@ -189,18 +194,18 @@ final class McapWriter {
         out.flush();
     }
 
-    private void group(Opcode opcode, McapBytes records, McapBytes offsets) throws IOException {
+    private void group(Opcode opcode, McapBuffer records, McapBuffer offsets) throws IOException {
         if (records.size() > 0) {
             offsets.record(
                     Opcode.SUMMARY_OFFSET,
-                    new McapBytes().u8(opcode.code()).u64(offset).u64(records.size()));
+                    new McapBuffer().u8(opcode.code()).u64(offset).u64(records.size()));
             write(records.toArray());
         }
     }
 
-    private McapBytes statistics() {
+    private McapBuffer statistics() {
         long count = messages.values().stream().mapToLong(Long::longValue).sum();
-        return new McapBytes()
+        return new McapBuffer()
                 .u64(count)
                 .u16(schemaCount)
                 .u32(messages.size())
@@ -214,13 +219,13 @@ final class McapWriter {
 
     /** Its checksum is of the summary and of the footer up to the checksum. */
     private void footer(long summary, long summaryOffsets) throws IOException {
-        McapBytes start = new McapBytes()
+        McapBuffer start = new McapBuffer()
                 .u8(Opcode.FOOTER.code())
                 .u64(2 * Long.BYTES + Integer.BYTES)
                 .u64(summary)
                 .u64(summaryOffsets);
         write(start.toArray());
-        write(new McapBytes().u32(crc.getValue()).toArray());
+        write(new McapBuffer().u32(crc.getValue()).toArray());
     }
 
     private void write(byte[] bytes) throws IOException {

@@ -23,10 +23,10 @@ public interface MissionExport {
      *
      * @param progress takes the number of events so far now and then
      */
-    Exported write(Source mission, OutputStream out, LongConsumer progress) throws IOException;
+    ExportResult write(Source mission, OutputStream out, LongConsumer progress) throws IOException;
 
     /** Writes a mission that has no markers. */
-    default Exported write(String mission, Recording recording, OutputStream out, LongConsumer progress)
+    default ExportResult write(String mission, Recording recording, OutputStream out, LongConsumer progress)
             throws IOException {
         return write(new Source(mission, recording, List.of()), out, progress);
     }

@@ -10,7 +10,7 @@ import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Reads the lines of one file, which must be in the order of events. Of each line only id and time are looked at. */
@@ -66,7 +66,7 @@ final class ArchiveFile implements AutoCloseable {
         Cursor at = position.get();
         int order = at.compareTo(last);
         if (order < 0) {
-            throw new RecordingGoneException(
+            throw new RecordingDeletedException(
                     "%s is out of order: its event is of %d, that above of %d. Import the file into "
                                     .formatted(where, at.time(), last.time())
                             + "a mission (./furrow mission import) and export that.");
@@ -112,7 +112,7 @@ final class ArchiveFile implements AutoCloseable {
                 end++;
             }
             if (line.size() + end - next > MAX_LINE_LENGTH) {
-                throw new RecordingGoneException("%s, line %d is longer than %d MiB: this is no exported mission"
+                throw new RecordingDeletedException("%s, line %d is longer than %d MiB: this is no exported mission"
                         .formatted(name, number, MAX_LINE_LENGTH >> 20));
             }
             line.write(buffer, next, end - next);

@@ -9,7 +9,7 @@ import java.util.List;
 import java.util.PriorityQueue;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingInterruptedException;
 
 /** Reads the lines of files in the order of events: group after group, those of a group merged; from a cursor on. */
@@ -71,7 +71,7 @@ final class ArchiveFiles implements AutoCloseable {
         }
         ArchiveFile.Line line = heads.peek().line();
         if (line.broken() == null && line.at().compareTo(last) < 0) {
-            throw new RecordingGoneException(
+            throw new RecordingDeletedException(
                     "%s is out of order: files before this one hold later events".formatted(line.where()));
         }
         return line;

@@ -11,14 +11,14 @@ import java.util.Optional;
 import java.util.zip.ZipException;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
+import io.furrow.mission.EventPage;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.RecordingExtent;
 import io.furrow.mission.RecordingInterruptedException;
-import io.furrow.mission.Skipped;
-import io.furrow.mission.Span;
+import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -31,7 +31,7 @@ final class FileRecording implements Recording {
     private ArchiveFiles lines;
 
     private Cursor position = Cursor.START;
-    private Optional<Span> span;
+    private Optional<RecordingExtent> span;
 
     FileRecording(String mission, RecordingFiles files, List<List<String>> groups) {
         this.mission = mission;
@@ -41,20 +41,20 @@ final class FileRecording implements Recording {
 
     /** Reads all of it at the first call. */
     @Override
-    public Optional<Span> span() throws RecordingException {
+    public Optional<RecordingExtent> span() throws RecordingException {
         if (span == null) {
             span = answer(this::measured);
         }
         return span;
     }
 
-    private Optional<Span> measured() throws IOException {
-        Span found = null;
+    private Optional<RecordingExtent> measured() throws IOException {
+        RecordingExtent found = null;
         try (ArchiveFiles all = new ArchiveFiles(files, groups)) {
             for (ArchiveFile.Line line = all.peek(); line != null; line = all.peek()) {
                 if (line.broken() == null) {
                     long time = line.at().time();
-                    found = new Span(found == null ? time : found.first(), time);
+                    found = new RecordingExtent(found == null ? time : found.first(), time);
                 }
                 all.remove();
                 RecordingInterruptedException.check();
@@ -64,8 +64,8 @@ final class FileRecording implements Recording {
     }
 
     @Override
-    public Page read(Cursor after, PageLimits limits) throws RecordingException {
-        Page page = answer(() -> {
+    public EventPage read(Cursor after, PageLimits limits) throws RecordingException {
+        EventPage eventPage = answer(() -> {
             if (lines == null || !after.equals(position)) {
                 begin();
                 lines = new ArchiveFiles(files, groups);
@@ -73,13 +73,13 @@ final class FileRecording implements Recording {
             }
             return page(after, limits);
         });
-        position = page.next();
-        return page;
+        position = eventPage.next();
+        return eventPage;
     }
 
-    private Page page(Cursor after, PageLimits limits) throws IOException {
+    private EventPage page(Cursor after, PageLimits limits) throws IOException {
         List<StoredEvent> events = new ArrayList<>();
-        List<Skipped> skipped = new ArrayList<>();
+        List<SkippedRecords> skipped = new ArrayList<>();
         Cursor next = after;
         int read = 0;
         long bytes = 0;
@@ -92,11 +92,12 @@ final class FileRecording implements Recording {
             lines.remove();
             head = lines.peek();
         }
-        return new Page(events, skipped, next, head == null);
+        return new EventPage(events, skipped, next, head == null);
     }
 
     /** @param again whether an event of this time and id was read just before, from another file */
-    private static void read(ArchiveFile.Line line, boolean again, List<StoredEvent> events, List<Skipped> skipped) {
+    private static void read(
+            ArchiveFile.Line line, boolean again, List<StoredEvent> events, List<SkippedRecords> skipped) {
         String reason = again && line.broken() == null ? "the event is in another file, too" : line.broken();
         if (reason == null) {
             try {
@@ -106,7 +107,7 @@ final class FileRecording implements Recording {
             }
         }
         if (reason != null) {
-            skipped.add(new Skipped(line.where(), reason, 1));
+            skipped.add(new SkippedRecords(line.where(), reason, 1));
         }
     }
 
@@ -124,12 +125,13 @@ final class FileRecording implements Recording {
             throw e;
         } catch (NoSuchFileException | FileNotFoundException e) {
             begin();
-            throw new RecordingGoneException(
+            throw new RecordingDeletedException(
                     "A file of mission %s has been deleted: %s".formatted(mission, e.getMessage()));
         } catch (EOFException | ZipException e) {
             begin();
-            throw new RecordingGoneException("A file of mission %s is damaged or not whole (%s): %s. Export it again."
-                    .formatted(mission, groups, e.getMessage()));
+            throw new RecordingDeletedException(
+                    "A file of mission %s is damaged or not whole (%s): %s. Export it again."
+                            .formatted(mission, groups, e.getMessage()));
         } catch (IOException e) {
             begin();
             throw new RecordingException(

@@ -9,8 +9,8 @@ import java.util.stream.Collectors;
 import java.util.stream.Stream;
 
 import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.RecordingGoneException;
 import io.furrow.mission.Recordings;
 import io.furrow.mission.marker.MarkerFile;
 import io.furrow.mission.mongo.MissionCollections;
@@ -40,7 +40,7 @@ public record FileRecordings(String path, RecordingFiles files) implements Recor
                         "There is no file or folder %s, where mission %s was looked for".formatted(path, mission));
             }
             if (MarkerFile.isOne(path)) {
-                throw new RecordingGoneException(
+                throw new RecordingDeletedException(
                         "%s holds markers and no events; name the file of the mission, which lies beside it"
                                 .formatted(path));
             }

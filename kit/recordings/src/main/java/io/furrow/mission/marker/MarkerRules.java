@@ -13,7 +13,7 @@ final class MarkerRules {
 
     private MarkerRules() {}
 
-    static void check(Marker marker) throws RefusedMarkerException {
+    static void check(Marker marker) throws RejectedMarkerException {
         text(marker.id(), "id", MAX_ID_LENGTH, "write a shorter one, for instance a UUID");
         text(marker.mission(), "mission", Integer.MAX_VALUE, "write the name of a mission");
         text(marker.note(), "note", MAX_NOTE_LENGTH, "write what is to be seen at that moment, in fewer words");
@@ -24,28 +24,28 @@ final class MarkerRules {
         time(marker.created(), "created");
     }
 
-    private static void text(String text, String name, int longest, String remedy) throws RefusedMarkerException {
+    private static void text(String text, String name, int longest, String remedy) throws RejectedMarkerException {
         if (text == null || text.isBlank()) {
-            throw new RefusedMarkerException("The %s of the marker is missing or blank; %s".formatted(name, remedy));
+            throw new RejectedMarkerException("The %s of the marker is missing or blank; %s".formatted(name, remedy));
         }
         int length = text.codePointCount(0, text.length());
         if (length > longest) {
-            throw new RefusedMarkerException("The %s of the marker has %,d characters, at most %,d are stored; %s"
+            throw new RejectedMarkerException("The %s of the marker has %,d characters, at most %,d are stored; %s"
                     .formatted(name, length, longest, remedy));
         }
         if (text.codePoints().anyMatch(sign -> Character.isISOControl(sign) && sign != '\n')) {
-            throw new RefusedMarkerException(
+            throw new RejectedMarkerException(
                     "The %s of the marker holds control characters; write plain text".formatted(name));
         }
         if (!StandardCharsets.UTF_8.newEncoder().canEncode(text)) {
-            throw new RefusedMarkerException(
+            throw new RejectedMarkerException(
                     "The %s of the marker holds half a character (a lone surrogate); leave it out".formatted(name));
         }
     }
 
-    private static void time(long time, String name) throws RefusedMarkerException {
+    private static void time(long time, String name) throws RejectedMarkerException {
         if (time < 0 || time > LATEST) {
-            throw new RefusedMarkerException(
+            throw new RejectedMarkerException(
                     "The %s %d of the marker is not between 1970 and 9999; write milliseconds since 1970"
                             .formatted(name, time));
         }

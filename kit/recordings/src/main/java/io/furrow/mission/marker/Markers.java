@@ -24,7 +24,7 @@ import io.furrow.mission.RecordingException;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.MongoRecordings;
-import io.furrow.mission.mongo.SharedClient;
+import io.furrow.mission.mongo.SharedMongoClient;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -45,14 +45,14 @@ public final class Markers implements AutoCloseable {
     private static final Comparator<Marker> BY_TIME =
             Comparator.comparingLong(Marker::time).thenComparing(Marker::id);
 
-    private final SharedClient client;
+    private final SharedMongoClient client;
     private final MongoDatabase database;
     private final MongoCollection<Document> collection;
     private final String where;
     private final int most;
     private boolean indexed;
 
-    private Markers(SharedClient client, MongoDatabase database, String where, int most) {
+    private Markers(SharedMongoClient client, MongoDatabase database, String where, int most) {
         this.client = client;
         this.database = database;
         this.collection = database.getCollection(COLLECTION);
@@ -71,7 +71,7 @@ public final class Markers implements AutoCloseable {
     }
 
     static Markers open(MongoRecordings at, int most) {
-        SharedClient client = SharedClient.of(at.uri(), at.selectionTimeout());
+        SharedMongoClient client = SharedMongoClient.of(at.uri(), at.selectionTimeout());
         return new Markers(client, client.client().getDatabase(at.database()), at.toString(), most);
     }
 
@@ -79,11 +79,11 @@ public final class Markers implements AutoCloseable {
      * Stores a marker. One that is stored already stays once, so that this can be tried again. Whether there is such a mission, or
      * such a moment in it, is not asked.
      *
-     * @throws RefusedMarkerException if the mission or the id is missing or longer than 100 characters, the note is blank or longer than 1,000, the author longer
+     * @throws RejectedMarkerException if the mission or the id is missing or longer than 100 characters, the note is blank or longer than 1,000, the author longer
      *     than 200, a time is not between 1970 and 9999, another marker has the id, or the mission has {@value #MAX}
      * @throws RecordingException if MongoDB cannot be asked now
      */
-    public void add(Marker marker) throws RefusedMarkerException, RecordingException {
+    public void add(Marker marker) throws RejectedMarkerException, RecordingException {
         MarkerRules.check(marker);
         Optional<String> refusal = answer(marker.mission(), () -> {
             if (!indexed) {
@@ -93,7 +93,7 @@ public final class Markers implements AutoCloseable {
             return insert(marker, missionOf(marker.mission()));
         });
         if (refusal.isPresent()) {
-            throw new RefusedMarkerException(refusal.get());
+            throw new RejectedMarkerException(refusal.get());
         }
     }
 

@@ -28,12 +28,12 @@ public final class EventDensity implements AutoCloseable {
     /** The bucket of an array of dates, which a comparison with a date finds too. */
     private static final int NONE = -1;
 
-    private final SharedClient client;
+    private final SharedMongoClient client;
     private final MongoDatabase database;
     private final String where;
 
     private EventDensity(MongoRecordings at) {
-        this.client = SharedClient.of(at.uri(), at.selectionTimeout());
+        this.client = SharedMongoClient.of(at.uri(), at.selectionTimeout());
         this.database = client.client().getDatabase(at.database());
         this.where = at.toString();
     }

@@ -20,12 +20,12 @@ import io.furrow.model.text.FailureText;
  * index on event time.
  */
 public final class MissionCatalog implements AutoCloseable {
-    private final SharedClient client;
+    private final SharedMongoClient client;
     private final MongoDatabase database;
     private final String where;
 
     private MissionCatalog(MongoRecordings at) {
-        this.client = SharedClient.of(at.uri(), at.selectionTimeout());
+        this.client = SharedMongoClient.of(at.uri(), at.selectionTimeout());
         this.database = client.client().getDatabase(at.database());
         this.where = at.toString();
     }

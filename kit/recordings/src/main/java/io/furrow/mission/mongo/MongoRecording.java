@@ -25,14 +25,14 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.CursorsBack;
-import io.furrow.mission.Page;
+import io.furrow.mission.EventPage;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.RecordingGoneException;
-import io.furrow.mission.Skipped;
-import io.furrow.mission.Span;
+import io.furrow.mission.RecordingExtent;
+import io.furrow.mission.SkippedRecords;
+import io.furrow.mission.StepBack;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -49,12 +49,12 @@ final class MongoRecording implements Recording {
     private static final int COUNT_SECONDS = 3;
 
     private final String mission;
-    private final SharedClient client;
+    private final SharedMongoClient client;
     private final MongoCollection<RawBsonDocument> collection;
     private final String where;
-    private final OrderedDocuments.Sizes sizes;
+    private final OrderedDocumentReader.Sizes sizes;
     /** What the next page may continue with; null if it begins again. */
-    private OrderedDocuments documents;
+    private OrderedDocumentReader documents;
 
     private Cursor position = Cursor.START;
     /** Counted once, as no index helps; null until then. */
@@ -66,10 +66,10 @@ final class MongoRecording implements Recording {
     /** @param where for messages */
     MongoRecording(
             String mission,
-            SharedClient client,
+            SharedMongoClient client,
             MongoCollection<RawBsonDocument> collection,
             String where,
-            OrderedDocuments.Sizes sizes) {
+            OrderedDocumentReader.Sizes sizes) {
         this.mission = mission;
         this.client = client;
         this.collection = collection;
@@ -78,43 +78,43 @@ final class MongoRecording implements Recording {
     }
 
     @Override
-    public Optional<Span> span() throws RecordingException {
+    public Optional<RecordingExtent> span() throws RecordingException {
         return answer(() -> span(collection));
     }
 
-    static Optional<Span> span(MongoCollection<RawBsonDocument> collection) {
+    static Optional<RecordingExtent> span(MongoCollection<RawBsonDocument> collection) {
         RawBsonDocument first = outermost(collection, Sorts.ascending(EventDocumentCodec.TIME));
         RawBsonDocument last = outermost(collection, Sorts.descending(EventDocumentCodec.TIME));
         return first == null || last == null
                 ? Optional.empty()
-                : Optional.of(new Span(OrderedDocuments.time(first), OrderedDocuments.time(last)));
+                : Optional.of(new RecordingExtent(OrderedDocumentReader.time(first), OrderedDocumentReader.time(last)));
     }
 
     private static RawBsonDocument outermost(MongoCollection<RawBsonDocument> collection, Bson order) {
         return collection
-                .find(Filters.and(TIMED, OrderedDocuments.ONE_TIME))
+                .find(Filters.and(TIMED, OrderedDocumentReader.ONE_TIME))
                 .sort(order)
                 .projection(Projections.include(EventDocumentCodec.TIME))
                 .first();
     }
 
     @Override
-    public Page read(Cursor after, PageLimits limits) throws RecordingException {
+    public EventPage read(Cursor after, PageLimits limits) throws RecordingException {
         boolean goesOn = documents != null && after.equals(position);
-        Page page = goesOn ? retried(after, limits) : begun(after, limits);
-        position = page.next();
-        if (page.last()) {
+        EventPage eventPage = goesOn ? retried(after, limits) : begun(after, limits);
+        position = eventPage.next();
+        if (eventPage.last()) {
             begin(); // what comes later is asked for again
             if (!answer(this::exists)) {
-                throw new RecordingGoneException(
+                throw new RecordingDeletedException(
                         "Mission %s has been deleted from %s while it was read".formatted(mission, where));
             }
         }
-        return page;
+        return eventPage;
     }
 
     /** A query that rests for long is forgotten by the server, and lost with its connection: then it begins once more. */
-    private Page retried(Cursor after, PageLimits limits) throws RecordingException {
+    private EventPage retried(Cursor after, PageLimits limits) throws RecordingException {
         try {
             return page(after, limits);
         } catch (MongoException e) {
@@ -122,27 +122,27 @@ final class MongoRecording implements Recording {
         }
     }
 
-    private Page begun(Cursor after, PageLimits limits) throws RecordingException {
+    private EventPage begun(Cursor after, PageLimits limits) throws RecordingException {
         begin();
         return answer(() -> {
-            documents = new OrderedDocuments(collection, after, sizes);
+            documents = new OrderedDocumentReader(collection, after, sizes);
             return page(after, limits);
         });
     }
 
-    private Page page(Cursor after, PageLimits limits) {
+    private EventPage page(Cursor after, PageLimits limits) {
         List<StoredEvent> events = new ArrayList<>();
-        List<Skipped> skipped = new ArrayList<>();
+        List<SkippedRecords> skipped = new ArrayList<>();
         if (after.equals(Cursor.START)) {
             untimed = untimed == null ? countUntimed() : untimed;
             if (untimed > 0) {
-                skipped.add(new Skipped("documents", "no event time: _time is missing or no date", untimed));
+                skipped.add(new SkippedRecords("documents", "no event time: _time is missing or no date", untimed));
             }
         }
         Cursor next = after;
         int read = 0;
         long bytes = 0;
-        OrderedDocuments.Ordered head = documents.peek();
+        OrderedDocumentReader.Ordered head = documents.peek();
         while (head != null && read < limits.events() && (read == 0 || bytes + head.bytes() <= limits.bytes())) {
             read(head, events, skipped);
             read++;
@@ -151,7 +151,7 @@ final class MongoRecording implements Recording {
             documents.remove();
             head = documents.peek();
         }
-        return new Page(events, skipped, next, head == null);
+        return new EventPage(events, skipped, next, head == null);
     }
 
     /** Zero where that is not known within a few seconds: a mission begins though it is long. */
@@ -164,11 +164,12 @@ final class MongoRecording implements Recording {
         }
     }
 
-    private static void read(OrderedDocuments.Ordered head, List<StoredEvent> events, List<Skipped> skipped) {
+    private static void read(
+            OrderedDocumentReader.Ordered head, List<StoredEvent> events, List<SkippedRecords> skipped) {
         try {
             events.add(head.event());
         } catch (UnreadableException e) {
-            skipped.add(new Skipped("document " + head.id(), e.getMessage(), 1));
+            skipped.add(new SkippedRecords("document " + head.id(), e.getMessage(), 1));
         }
     }
 
@@ -176,8 +177,8 @@ final class MongoRecording implements Recording {
     @Override
     public Cursor back(Cursor from, Cursor first, long count, Predicate<StoredEvent> desired, PageLimits limits)
             throws RecordingException {
-        CursorsBack.check(count);
-        DocumentsBack documents = new DocumentsBack(collection, first, desired, sizes);
+        StepBack.check(count);
+        ReverseEventCounter documents = new ReverseEventCounter(collection, first, desired, sizes);
         try {
             return documents.cursor(from, count);
         } catch (MongoException e) {
@@ -222,7 +223,7 @@ final class MongoRecording implements Recording {
 
     private void begin() {
         if (documents != null) {
-            OrderedDocuments open = documents;
+            OrderedDocumentReader open = documents;
             documents = null;
             open.close();
         }

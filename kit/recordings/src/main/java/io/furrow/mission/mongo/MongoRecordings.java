@@ -35,7 +35,7 @@ public record MongoRecordings(String uri, String database, Duration selectionTim
 
     @Override
     public Optional<Recording> open(String mission) throws RecordingException {
-        SharedClient client = SharedClient.of(uri, selectionTimeout);
+        SharedMongoClient client = SharedMongoClient.of(uri, selectionTimeout);
         boolean known = false;
         try {
             MongoDatabase missions = client.client().getDatabase(database);
@@ -46,7 +46,7 @@ public record MongoRecordings(String uri, String database, Duration selectionTim
                     client,
                     missions.getCollection(name, RawBsonDocument.class),
                     where() + "." + name,
-                    OrderedDocuments.Sizes.DEFAULT));
+                    OrderedDocumentReader.Sizes.DEFAULT));
         } catch (MongoException e) {
             throw unreadable(mission, where(), e);
         } finally {

@@ -78,7 +78,7 @@ final class StateBefore {
         this.entities = entities;
         this.bounds = bounds;
         Bson earlier = Filters.lt(EventDocumentCodec.TIME, new BsonDateTime(time));
-        before = Filters.and(OrderedDocuments.ONE_TIME, earlier);
+        before = Filters.and(OrderedDocumentReader.ONE_TIME, earlier);
     }
 
     /** The states, in the order of their newest events; empty if that takes more than the bounds allow. */
@@ -147,12 +147,12 @@ final class StateBefore {
                 .sort(Sorts.descending(EventDocumentCodec.TIME))
                 .limit(limit)
                 .batchSize(limit);
-        List<OrderedDocuments.Ordered> read = new ArrayList<>();
+        List<OrderedDocumentReader.Ordered> read = new ArrayList<>();
         long bytes = 0;
         try (MongoCursor<RawBsonDocument> documents = newest.cursor()) {
             while (bytes <= bounds.bytes() && documents.hasNext()) {
                 RecordingInterruptedException.check();
-                read.add(OrderedDocuments.Ordered.of(documents.next()));
+                read.add(OrderedDocumentReader.Ordered.of(documents.next()));
                 bytes += read.get(read.size() - 1).bytes();
             }
         }
@@ -161,7 +161,7 @@ final class StateBefore {
                 ? Long.MIN_VALUE
                 : read.get(read.size() - 1).time();
         List<StoredEvent> events = new ArrayList<>();
-        for (OrderedDocuments.Ordered document : read) {
+        for (OrderedDocumentReader.Ordered document : read) {
             if (all || document.time() > cutOff) { // of the oldest millisecond there may be more
                 event(document.document()).ifPresent(events::add);
             }
@@ -217,7 +217,7 @@ final class StateBefore {
 
     private static Optional<StoredEvent> event(BsonDocument document) {
         try {
-            return Optional.of(OrderedDocuments.event(document));
+            return Optional.of(OrderedDocumentReader.event(document));
         } catch (UnreadableException e) { // a page names it
             return Optional.empty();
         }

@@ -2,7 +2,7 @@ package io.furrow.mission.mongo;
 
 import java.util.Optional;
 
-import io.furrow.mission.Span;
+import io.furrow.mission.RecordingExtent;
 
 /**
  * A mission that is stored.
@@ -11,4 +11,4 @@ import io.furrow.mission.Span;
  * @param collection of its documents
  * @param span its first and last event time; empty if it has no event with a time yet
  */
-public record StoredMission(String name, String collection, Optional<Span> span) {}
+public record StoredMission(String name, String collection, Optional<RecordingExtent> span) {}

@@ -24,7 +24,7 @@ final class EventSorter {
     /** Room is looked for before each so many bytes that are merged. */
     private static final long STEP_BYTES = 8L * 1024 * 1024;
 
-    private final DiskRoom room;
+    private final DiskSpace room;
     private final long mostBytes;
     private final List<SortedEvent> events = new ArrayList<>();
     private long bytes;
@@ -40,7 +40,7 @@ final class EventSorter {
      * @param room for its files, which stay
      * @param mostBytes of events that are held in memory, about
      */
-    EventSorter(DiskRoom room, long mostBytes) {
+    EventSorter(DiskSpace room, long mostBytes) {
         this.room = room;
         this.mostBytes = mostBytes;
     }

@@ -13,12 +13,12 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
+import io.furrow.mission.EventPage;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.Skipped;
-import io.furrow.mission.Span;
+import io.furrow.mission.RecordingExtent;
+import io.furrow.mission.SkippedRecords;
 
 /** The events of a topic in a file of this recording's own, which goes with it. */
 final class TopicRecording implements Recording {
@@ -26,33 +26,33 @@ final class TopicRecording implements Recording {
 
     private final Recording lines;
     private final Path folder;
-    private final List<Skipped> skipped;
+    private final List<SkippedRecords> skipped;
 
     /**
      * @param lines of the file
      * @param folder of the file
      * @param skipped records of the topic that hold no event
      */
-    TopicRecording(Recording lines, Path folder, List<Skipped> skipped) {
+    TopicRecording(Recording lines, Path folder, List<SkippedRecords> skipped) {
         this.lines = lines;
         this.folder = folder;
         this.skipped = skipped;
     }
 
     @Override
-    public Optional<Span> span() throws RecordingException {
+    public Optional<RecordingExtent> span() throws RecordingException {
         return lines.span();
     }
 
     @Override
-    public Page read(Cursor after, PageLimits limits) throws RecordingException {
-        Page page = lines.read(after, limits);
+    public EventPage read(Cursor after, PageLimits limits) throws RecordingException {
+        EventPage eventPage = lines.read(after, limits);
         if (!after.equals(Cursor.START) || skipped.isEmpty()) {
-            return page;
+            return eventPage;
         }
-        List<Skipped> all = new ArrayList<>(skipped);
-        all.addAll(page.skipped());
-        return new Page(page.events(), all, page.next(), page.last());
+        List<SkippedRecords> all = new ArrayList<>(skipped);
+        all.addAll(eventPage.skipped());
+        return new EventPage(eventPage.events(), all, eventPage.next(), eventPage.last());
     }
 
     @Override

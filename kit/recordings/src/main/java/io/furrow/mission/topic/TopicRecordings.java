@@ -19,11 +19,11 @@ import org.apache.kafka.common.errors.InterruptException;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
 import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.RecordingGoneException;
 import io.furrow.mission.RecordingInterruptedException;
 import io.furrow.mission.Recordings;
-import io.furrow.mission.Skipped;
+import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.file.FileRecordings;
 import io.furrow.model.text.FailureText;
 
@@ -54,23 +54,23 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
     /**
      * Opens a topic; empty if there is none.
      *
-     * @throws RecordingGoneException if it is no topic of events, or larger than the disk
+     * @throws RecordingDeletedException if it is no topic of events, or larger than the disk
      * @throws RecordingInterruptedException if the thread is interrupted
      * @throws RecordingException if Kafka or the disk cannot be used now
      */
     @Override
     public Optional<Recording> open(String topic) throws RecordingException {
-        return open(topic, DiskRoom::of);
+        return open(topic, DiskSpace::of);
     }
 
     /** What room there is for the files in a folder. */
     interface Room {
-        DiskRoom in(Path folder) throws IOException;
+        DiskSpace in(Path folder) throws IOException;
     }
 
     Optional<Recording> open(String topic, Room room) throws RecordingException {
         if (!topic.startsWith(EVENTS)) {
-            throw new RecordingGoneException(
+            throw new RecordingDeletedException(
                     "Topic %s holds no events; name one that begins with %s".formatted(topic, EVENTS));
         }
         Path own = null;
@@ -107,18 +107,19 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
     }
 
     /** What the records of a topic are sorted with. */
-    private record Sorted(KafkaConsumer<byte[], byte[]> consumer, List<TopicPartition> partitions, DiskRoom room) {}
+    private record Sorted(KafkaConsumer<byte[], byte[]> consumer, List<TopicPartition> partitions, DiskSpace room) {}
 
     private Recording sorted(String topic, Sorted sorted) throws IOException {
         EventSorter sorter = new EventSorter(sorted.room(), SORTED_BYTES);
-        TopicReader reader = new TopicReader(sorted.consumer(), sorted.partitions(), until, sorter);
+        EventTopicReader reader = new EventTopicReader(sorted.consumer(), sorted.partitions(), until, sorter);
         String timeout = kafka.getOrDefault(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, TIMEOUT_MILLIS);
         reader.read(Duration.ofMillis(Long.parseLong(timeout)));
         Path lines = sorted.room().folder().resolve("events.ndjson");
         sorter.writeLines(lines);
-        List<Skipped> skipped = reader.skipped() == 0
+        List<SkippedRecords> skipped = reader.skipped() == 0
                 ? List.of()
-                : List.of(new Skipped("records of " + topic, "the first is " + reader.example(), reader.skipped()));
+                : List.of(new SkippedRecords(
+                        "records of " + topic, "the first is " + reader.example(), reader.skipped()));
         Recording events = new FileRecordings(lines.toString()).open(topic).orElseThrow();
         return new TopicRecording(events, sorted.room().folder(), skipped);
     }

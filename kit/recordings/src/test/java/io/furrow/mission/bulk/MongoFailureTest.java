@@ -74,7 +74,7 @@ class MongoFailureTest {
                 .append("errmsg", new BsonString("shed"))
                 .append("errorLabels", new BsonArray(List.of(new BsonString("SystemOverloadedError"))));
 
-        assertThat(MongoFailure.of(new MongoCommandException(answer, SERVER))).isEqualTo(MongoFailure.AWAY);
+        assertThat(MongoFailure.of(new MongoCommandException(answer, SERVER))).isEqualTo(MongoFailure.UNAVAILABLE);
     }
 
     @Test
@@ -89,10 +89,10 @@ class MongoFailureTest {
     static Stream<Arguments> whatTheDriverSays() {
         MongoSocketOpenException refused = new MongoSocketOpenException("refused", SERVER);
         return Stream.of(
-                arguments(refused, MongoFailure.AWAY),
-                arguments(new MongoTimeoutException("no server"), MongoFailure.AWAY),
-                arguments(new MongoClientException("the pool is paused"), MongoFailure.AWAY),
-                arguments(new MongoSecurityException(USER, "while it asked", refused), MongoFailure.AWAY),
+                arguments(refused, MongoFailure.UNAVAILABLE),
+                arguments(new MongoTimeoutException("no server"), MongoFailure.UNAVAILABLE),
+                arguments(new MongoClientException("the pool is paused"), MongoFailure.UNAVAILABLE),
+                arguments(new MongoSecurityException(USER, "while it asked", refused), MongoFailure.UNAVAILABLE),
                 arguments(new MongoSecurityException(USER, "wrong password"), MongoFailure.SETTING));
     }
 

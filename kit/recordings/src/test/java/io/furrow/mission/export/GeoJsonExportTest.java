@@ -32,8 +32,8 @@ class GeoJsonExportTest {
                 .open("hoeing")
                 .orElseThrow()) {
             assertThat(new GeoJsonExport().write("hoeing", recording, out, ignored -> {}))
-                    .isEqualTo(
-                            new Exported(9, 1, Optional.of("event e06: 0,0 is what a receiver without a fix reports")));
+                    .isEqualTo(new ExportResult(
+                            9, 1, Optional.of("event e06: 0,0 is what a receiver without a fix reports")));
         }
 
         assertThat(out.toString(StandardCharsets.UTF_8)).isEqualTo("""

@@ -26,7 +26,7 @@ class McapExportTest {
     /** The file was read with mcap 1.6.0 of PyPI, its checksums checked: {@code ./furrow soak mcap} does that again. */
     @Test
     void writesTheBytesThatAnIndependentReaderUnderstands() throws Exception {
-        byte[] written = exported(RESOURCES.resolve("mission.ndjson"), new Exported(10, 0, Optional.empty()));
+        byte[] written = exported(RESOURCES.resolve("mission.ndjson"), new ExportResult(10, 0, Optional.empty()));
 
         assertThat(written).isEqualTo(Files.readAllBytes(RESOURCES.resolve("mission.mcap")));
     }
@@ -34,7 +34,7 @@ class McapExportTest {
     @Test
     void givesEachEntityAChannelAndEachTypeASchema() throws Exception {
         McapFile file =
-                new McapFile(exported(RESOURCES.resolve("mission.ndjson"), new Exported(10, 0, Optional.empty())));
+                new McapFile(exported(RESOURCES.resolve("mission.ndjson"), new ExportResult(10, 0, Optional.empty())));
 
         assertThat(file.channels.values())
                 .extracting(McapFile.Channel::topic)
@@ -67,7 +67,7 @@ class McapExportTest {
         Path mission = folder.resolve("mission.ndjson");
         Files.write(mission, lines);
 
-        McapFile file = new McapFile(exported(mission, new Exported(9_000, 0, Optional.empty())));
+        McapFile file = new McapFile(exported(mission, new ExportResult(9_000, 0, Optional.empty())));
 
         assertThat(file.chunks).isGreaterThan(3);
         assertThat(file.messages).hasSize(9_000);
@@ -78,13 +78,13 @@ class McapExportTest {
     void writesAMissionWithoutEventsAndLeavesOutTimesThatMcapDoesNotHave() throws Exception {
         Path mission = folder.resolve("mission.ndjson");
         Files.write(mission, List.of());
-        assertThat(new McapFile(exported(mission, new Exported(0, 0, Optional.empty()))).messages)
+        assertThat(new McapFile(exported(mission, new ExportResult(0, 0, Optional.empty()))).messages)
                 .isEmpty();
 
         String line = "{\"id\":\"e\",\"time\":%d,\"headers\":{},\"entity\":{\"id\":\"t\"}}";
         Files.write(
                 mission, List.of(line.formatted(-1), line.formatted(18_446_744_073_709L), line.formatted(1L << 53)));
-        Exported two = new Exported(1, 2, Optional.of("event e: MCAP has no times before 1970 or after 2554"));
+        ExportResult two = new ExportResult(1, 2, Optional.of("event e: MCAP has no times before 1970 or after 2554"));
         assertThat(new McapFile(exported(mission, two)).messages)
                 .extracting(McapFile.Message::nanos)
                 .containsExactly(18_446_744_073_709L * 1_000_000);
@@ -102,7 +102,7 @@ class McapExportTest {
         McapFile file = new McapFile(exported(
                 mission,
                 markers,
-                new Exported(1, 1, Optional.of("a marker: MCAP has no times before 1970 or after 2554"))));
+                new ExportResult(1, 1, Optional.of("a marker: MCAP has no times before 1970 or after 2554"))));
 
         assertThat(file.messages)
                 .containsExactly(
@@ -120,11 +120,11 @@ class McapExportTest {
                 .contains("\"note\":{\"type\":\"string\"}");
     }
 
-    private static byte[] exported(Path lines, Exported expected) throws Exception {
+    private static byte[] exported(Path lines, ExportResult expected) throws Exception {
         return exported(lines, List.of(), expected);
     }
 
-    private static byte[] exported(Path lines, List<Marker> markers, Exported expected) throws Exception {
+    private static byte[] exported(Path lines, List<Marker> markers, ExportResult expected) throws Exception {
         ByteArrayOutputStream out = new ByteArrayOutputStream();
         try (Recording recording =
                 new FileRecordings(lines.toString()).open("hoeing").orElseThrow()) {

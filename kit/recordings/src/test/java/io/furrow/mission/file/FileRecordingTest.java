@@ -19,15 +19,15 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.mission.Cursor;
 import io.furrow.mission.EventOrder;
-import io.furrow.mission.Page;
+import io.furrow.mission.EventPage;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.RandomEvents;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingContract;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.RecordingExtent;
 import io.furrow.mission.RecordingInterruptedException;
-import io.furrow.mission.Span;
 import io.furrow.mission.StoredEvent;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -119,7 +119,8 @@ class FileRecordingTest extends RecordingContract {
                         .isEqualTo(rest);
             }
             assertThat(recording.span())
-                    .contains(new Span(ordered.get(0).time(), ordered.get(299).time()));
+                    .contains(new RecordingExtent(
+                            ordered.get(0).time(), ordered.get(299).time()));
         }
     }
 
@@ -145,14 +146,14 @@ class FileRecordingTest extends RecordingContract {
         Files.writeString(file, "nonsense\n" + good + good + noEntity + "\n[]\n" + cut);
         try (Recording recording =
                 new FileRecordings(file.toString()).open("any").orElseThrow()) {
-            Page page = recording.read(Cursor.START, ALL);
+            EventPage eventPage = recording.read(Cursor.START, ALL);
 
-            assertThat(page.events()).extracting(StoredEvent::id).containsExactly("a");
-            assertThat(page.skipped())
-                    .extracting(
-                            skipped -> skipped.what().substring(file.toString().length()))
+            assertThat(eventPage.events()).extracting(StoredEvent::id).containsExactly("a");
+            assertThat(eventPage.skipped())
+                    .extracting(skippedRecords ->
+                            skippedRecords.what().substring(file.toString().length()))
                     .containsExactly(", line 1", ", line 3", ", line 4", ", line 5", ", line 6", ", line 7");
-            assertThat(page.last()).isTrue();
+            assertThat(eventPage.last()).isTrue();
         }
     }
 
@@ -227,7 +228,7 @@ class FileRecordingTest extends RecordingContract {
                     .hasMessageContaining("is damaged or not whole")
                     .hasMessageEndingWith("Export it again.");
             Files.delete(file);
-            assertThatThrownBy(() -> recording.read(Cursor.START, ALL)).isInstanceOf(RecordingGoneException.class);
+            assertThatThrownBy(() -> recording.read(Cursor.START, ALL)).isInstanceOf(RecordingDeletedException.class);
         }
     }
 

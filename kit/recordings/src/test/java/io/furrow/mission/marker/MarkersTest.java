@@ -44,7 +44,7 @@ class MarkersTest {
     void refusesWhatATerminalWouldObey() {
         try (Markers markers = Markers.open(mongo.uri(), "refused")) {
             assertThatThrownBy(() -> markers.add(new Marker("e", "hoeing", TIME, "\u001b[2J", "Ada", TIME)))
-                    .isInstanceOf(RefusedMarkerException.class)
+                    .isInstanceOf(RejectedMarkerException.class)
                     .hasMessageContaining("control characters");
         }
     }
@@ -195,7 +195,7 @@ class MarkersTest {
 
     private static void assertRefused(Markers markers, Marker marker, String message) {
         assertThatThrownBy(() -> markers.add(marker))
-                .isInstanceOf(RefusedMarkerException.class)
+                .isInstanceOf(RejectedMarkerException.class)
                 .hasMessageStartingWith(message);
     }
 }

@@ -24,7 +24,7 @@ import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.embedded.FreePort;
 import io.furrow.mission.RandomEvents;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.Span;
+import io.furrow.mission.RecordingExtent;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -56,8 +56,10 @@ class MissionCatalogTest {
         database.createCollection("mission_sowing");
         database.createCollection("markers");
         try (MissionCatalog catalog = MissionCatalog.open(mongo.uri(), MongoAccess.DATABASE)) {
-            StoredMission encoded = new StoredMission("a.b", "mission__x-a-2Eb", Optional.of(new Span(5, 5)));
-            StoredMission weeding = new StoredMission("weeding", "mission_weeding", Optional.of(new Span(10, 30)));
+            StoredMission encoded =
+                    new StoredMission("a.b", "mission__x-a-2Eb", Optional.of(new RecordingExtent(5, 5)));
+            StoredMission weeding =
+                    new StoredMission("weeding", "mission_weeding", Optional.of(new RecordingExtent(10, 30)));
             assertThat(catalog.list())
                     .containsExactly(encoded, new StoredMission("sowing", "mission_sowing", Optional.empty()), weeding);
             assertThat(catalog.topicNames()).containsExactly("_x-a-2Eb", "sowing", "weeding");

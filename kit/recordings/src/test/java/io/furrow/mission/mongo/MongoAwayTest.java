@@ -25,12 +25,12 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.embedded.FreePort;
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
+import io.furrow.mission.EventPage;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.RandomEvents;
 import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.RecordingGoneException;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -60,18 +60,19 @@ class MongoAwayTest {
         EmbeddedMongo first = EmbeddedMongo.start(directory, port);
         store("mongodb://127.0.0.1:" + port);
         try (Recording recording = reachable.open("hoeing").orElseThrow()) {
-            Page page = recording.read(Cursor.START, TWO);
+            EventPage eventPage = recording.read(Cursor.START, TWO);
             first.close();
 
-            assertThatThrownBy(() -> readTwice(recording, page.next()))
+            assertThatThrownBy(() -> readTwice(recording, eventPage.next()))
                     .isInstanceOf(RecordingException.class)
-                    .isNotInstanceOf(RecordingGoneException.class);
+                    .isNotInstanceOf(RecordingDeletedException.class);
 
             try (EmbeddedMongo second = EmbeddedMongo.start(directory, port)) {
                 await().ignoreExceptionsInstanceOf(RecordingException.class)
-                        .until(() -> recording.read(page.next(), TWO).events().size() == 2);
+                        .until(() ->
+                                recording.read(eventPage.next(), TWO).events().size() == 2);
                 List<String> rest = new ArrayList<>();
-                Page next = page;
+                EventPage next = eventPage;
                 do {
                     next = recording.read(next.next(), TWO);
                     next.events().forEach(event -> rest.add(event.id()));
@@ -103,18 +104,18 @@ class MongoAwayTest {
                             command.getArray("indexes").get(0).asDocument().getDocument("key"))
                     .findFirst()
                     .orElseThrow();
-            Page page;
+            EventPage eventPage;
             try (MongoRecording recording = new MongoRecording(
                     "hoeing",
-                    SharedClient.of(mongo.uri(), MongoAccess.SELECTION_TIMEOUT),
+                    SharedMongoClient.of(mongo.uri(), MongoAccess.SELECTION_TIMEOUT),
                     collection,
                     "here",
-                    OrderedDocuments.Sizes.DEFAULT)) {
-                page = recording.read(Cursor.before(0), TWO);
+                    OrderedDocumentReader.Sizes.DEFAULT)) {
+                eventPage = recording.read(Cursor.before(0), TWO);
             }
 
             BsonDocument find = commands.get(commands.size() - 1);
-            assertThat(page.events()).hasSize(1);
+            assertThat(eventPage.events()).hasSize(1);
             assertThat(key).isEqualTo(BsonDocument.parse("{_time: 1}"));
             assertThat(find.getDocument("sort")).isEqualTo(key);
             assertThat(find.getDocument("filter"))

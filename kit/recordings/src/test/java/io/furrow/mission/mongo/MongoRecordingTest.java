@@ -32,14 +32,14 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
+import io.furrow.mission.EventPage;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.RandomEvents;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingContract;
-import io.furrow.mission.RecordingGoneException;
-import io.furrow.mission.Skipped;
-import io.furrow.mission.Span;
+import io.furrow.mission.RecordingDeletedException;
+import io.furrow.mission.RecordingExtent;
+import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.StoredEvent;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -54,7 +54,7 @@ class MongoRecordingTest extends RecordingContract {
     private static String uri;
     private static MongoClient client;
 
-    private final OrderedDocuments.Sizes sizes = new OrderedDocuments.Sizes(9, 0, 4, 700);
+    private final OrderedDocumentReader.Sizes sizes = new OrderedDocumentReader.Sizes(9, 0, 4, 700);
 
     @BeforeAll
     static void connect() {
@@ -83,7 +83,7 @@ class MongoRecordingTest extends RecordingContract {
     }
 
     private Recording recording(MongoCollection<RawBsonDocument> collection) {
-        SharedClient shared = SharedClient.of(uri, MongoAccess.SELECTION_TIMEOUT);
+        SharedMongoClient shared = SharedMongoClient.of(uri, MongoAccess.SELECTION_TIMEOUT);
         return new MongoRecording("m", shared, collection, "here", sizes);
     }
 
@@ -147,11 +147,11 @@ class MongoRecordingTest extends RecordingContract {
                 .addCommandListener(finds)
                 .build();
         try (MongoClient watched = MongoClients.create(settings);
-                OrderedDocuments documents = new OrderedDocuments(
+                OrderedDocumentReader documents = new OrderedDocumentReader(
                         watched.getDatabase(DATABASE)
                                 .getCollection(collection.getNamespace().getCollectionName(), RawBsonDocument.class),
                         Cursor.START,
-                        new OrderedDocuments.Sizes(4, queryBytes, 2, 700))) {
+                        new OrderedDocumentReader.Sizes(4, queryBytes, 2, 700))) {
             for (int read = 0; read < 60; read++) {
                 documents.peek();
                 documents.remove();
@@ -185,15 +185,16 @@ class MongoRecordingTest extends RecordingContract {
             events.add(RandomEvents.event("e" + i, 1, i % 50 == 0 ? 4_000 : i % 7 * 100));
         }
         MongoCollection<RawBsonDocument> collection = stored("mission_crowded", events);
-        CrowdedMillisecond crowd = new CrowdedMillisecond(collection, 1, Cursor.START, 2_000);
+        SameTimeCursor crowd = new SameTimeCursor(collection, 1, Cursor.START, 2_000);
         List<StoredEvent> read = new ArrayList<>();
         while (crowd.hasNext()) {
-            List<OrderedDocuments.Ordered> some = crowd.next();
-            int bytes = some.stream().mapToInt(OrderedDocuments.Ordered::bytes).sum();
+            List<OrderedDocumentReader.Ordered> some = crowd.next();
+            int bytes =
+                    some.stream().mapToInt(OrderedDocumentReader.Ordered::bytes).sum();
             assertThat(some.size() == 1 || bytes <= 2_000)
                     .as("%d documents of %d bytes", some.size(), bytes)
                     .isTrue();
-            for (OrderedDocuments.Ordered document : some) {
+            for (OrderedDocumentReader.Ordered document : some) {
                 read.add(document.event());
             }
         }
@@ -237,14 +238,16 @@ class MongoRecordingTest extends RecordingContract {
 
         try (Recording recording =
                 new MongoRecordings(uri, DATABASE).open("broken").orElseThrow()) {
-            Page page = recording.read(Cursor.START, ALL);
+            EventPage eventPage = recording.read(Cursor.START, ALL);
 
-            assertThat(page.events()).extracting(StoredEvent::id).containsExactly("a", "z");
-            assertThat(page.skipped())
+            assertThat(eventPage.events()).extracting(StoredEvent::id).containsExactly("a", "z");
+            assertThat(eventPage.skipped())
                     .hasSize(7)
-                    .anySatisfy(skipped -> assertThat(skipped.what()).isEqualTo("document b-no-entity"))
-                    .allSatisfy(skipped -> assertThat(skipped.reason()).isNotBlank());
-            assertThat(page.skipped().get(0).count()).isEqualTo(3);
+                    .anySatisfy(
+                            skippedRecords -> assertThat(skippedRecords.what()).isEqualTo("document b-no-entity"))
+                    .allSatisfy(skippedRecords ->
+                            assertThat(skippedRecords.reason()).isNotBlank());
+            assertThat(eventPage.skipped().get(0).count()).isEqualTo(3);
             assertThat(recording.read(Cursor.before(0), ALL).skipped()).hasSize(6);
         }
     }
@@ -268,11 +271,11 @@ class MongoRecordingTest extends RecordingContract {
         }
         collection.insertMany(arrays);
         try (Recording recording = recording(collection.withDocumentClass(RawBsonDocument.class))) {
-            Page page = recording.read(Cursor.START, ALL);
+            EventPage eventPage = recording.read(Cursor.START, ALL);
 
-            assertThat(page.events()).extracting(StoredEvent::id).containsExactly("a", "b", "z");
-            assertThat(page.skipped()).extracting(Skipped::count).containsExactly(30L);
-            assertThat(recording.span()).contains(new Span(1, 9));
+            assertThat(eventPage.events()).extracting(StoredEvent::id).containsExactly("a", "b", "z");
+            assertThat(eventPage.skipped()).extracting(SkippedRecords::count).containsExactly(30L);
+            assertThat(recording.span()).contains(new RecordingExtent(1, 9));
             assertThat(recording.back(Cursor.before(20), Cursor.START, 2, event -> true, ALL))
                     .isEqualTo(new Cursor(1, "a"));
         }
@@ -297,11 +300,11 @@ class MongoRecordingTest extends RecordingContract {
     void sharesAClientUntilTheLastRecordingIsClosed() throws Exception {
         stored("mission_shared", List.of(RandomEvents.event("a", 1, 0), RandomEvents.event("b", 2, 0)));
         MongoRecordings recordings = new MongoRecordings(uri, DATABASE);
-        int before = SharedClient.open();
+        int before = SharedMongoClient.open();
         Recording first = recordings.open("shared").orElseThrow();
         Recording second = recordings.open("shared").orElseThrow();
         assertThat(recordings.open("unknown")).isEmpty();
-        assertThat(SharedClient.open()).isEqualTo(before + 1);
+        assertThat(SharedMongoClient.open()).isEqualTo(before + 1);
 
         first.read(Cursor.START, new PageLimits(1, 1));
         first.close();
@@ -309,7 +312,7 @@ class MongoRecordingTest extends RecordingContract {
 
         assertThat(second.read(Cursor.START, ALL).events()).hasSize(2);
         second.close();
-        assertThat(SharedClient.open()).isEqualTo(before);
+        assertThat(SharedMongoClient.open()).isEqualTo(before);
         assertThatThrownBy(() -> second.read(Cursor.START, ALL)).isInstanceOf(IllegalStateException.class);
     }
 
@@ -319,12 +322,12 @@ class MongoRecordingTest extends RecordingContract {
                 stored("mission_going", List.of(RandomEvents.event("a", 1, 0), RandomEvents.event("b", 2, 0)));
         try (Recording recording =
                 new MongoRecordings(uri, DATABASE).open("going").orElseThrow()) {
-            Page first = recording.read(Cursor.START, new PageLimits(1, 1));
+            EventPage first = recording.read(Cursor.START, new PageLimits(1, 1));
             assertThat(first.last()).isFalse();
             collection.drop();
 
             assertThatThrownBy(() -> recording.read(Cursor.after(first.events().get(0)), ALL))
-                    .isInstanceOf(RecordingGoneException.class)
+                    .isInstanceOf(RecordingDeletedException.class)
                     .hasMessageContaining("Mission going has been deleted from MongoDB at 127.0.0.1");
         }
     }
@@ -333,10 +336,10 @@ class MongoRecordingTest extends RecordingContract {
     void beginsThoughTheServerIsTooSlowToCountDocumentsWithoutATime() throws Exception {
         MongoCollection<RawBsonDocument> collection = stored("mission_slow", List.of(RandomEvents.event("a", 1, 0)));
         try (Recording recording = recording(slowToCount(collection))) {
-            Page page = recording.read(Cursor.START, ALL);
+            EventPage eventPage = recording.read(Cursor.START, ALL);
 
-            assertThat(page.events()).hasSize(1);
-            assertThat(page.skipped()).isEmpty();
+            assertThat(eventPage.events()).hasSize(1);
+            assertThat(eventPage.skipped()).isEmpty();
         }
     }
 
@@ -361,7 +364,7 @@ class MongoRecordingTest extends RecordingContract {
         MongoCollection<RawBsonDocument> collection = stored("mission_growing", List.of(RandomEvents.event("a", 1, 0)));
         try (Recording recording =
                 new MongoRecordings(uri, DATABASE).open("growing").orElseThrow()) {
-            Page first = recording.read(Cursor.START, ALL);
+            EventPage first = recording.read(Cursor.START, ALL);
             collection.insertOne(new RawBsonDocument(EventDocumentCodec.write(RandomEvents.event("b", 1, 0))));
 
             assertThat(first.last()).isTrue();

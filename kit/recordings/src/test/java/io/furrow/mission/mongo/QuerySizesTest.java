@@ -10,6 +10,6 @@ class QuerySizesTest {
     @ParameterizedTest
     @CsvSource({"256, 2", "1024, 4", "6144, 24", "65536, 64"})
     void growsWithTheHeapThatTheEmbeddedServerShares(long heap, long most) {
-        assertThat(OrderedDocuments.Sizes.queryBytes(heap << 20)).isEqualTo(most << 20);
+        assertThat(OrderedDocumentReader.Sizes.queryBytes(heap << 20)).isEqualTo(most << 20);
     }
 }

@@ -13,7 +13,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingInterruptedException;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -30,7 +30,7 @@ class EventSorterTest {
         long seed = System.nanoTime();
         Random random = new Random(seed);
         for (int events : new int[] {0, 1, 30, 3_000}) {
-            EventSorter sorter = new EventSorter(new DiskRoom(folder, 0, () -> Long.MAX_VALUE), 2_000);
+            EventSorter sorter = new EventSorter(new DiskSpace(folder, 0, () -> Long.MAX_VALUE), 2_000);
             TreeMap<Cursor, SortedEvent> expected = new TreeMap<>();
             for (int i = 0; i < events; i++) {
                 String id = SIGNS[random.nextInt(SIGNS.length)] + random.nextInt(events);
@@ -58,7 +58,7 @@ class EventSorterTest {
 
     @Test
     void stopsMergingWhenItsThreadIsInterrupted() throws Exception {
-        EventSorter sorter = new EventSorter(new DiskRoom(folder, 0, () -> Long.MAX_VALUE), 2_000);
+        EventSorter sorter = new EventSorter(new DiskSpace(folder, 0, () -> Long.MAX_VALUE), 2_000);
         sorter.add(new SortedEvent(new Cursor(1, "a"), 0, 0, new byte[0]));
         Thread.currentThread().interrupt();
         assertThatThrownBy(() -> sorter.writeLines(folder.resolve("lines")))
@@ -69,15 +69,15 @@ class EventSorterTest {
     @Test
     void leavesRoomOnTheDiskAlsoWhileItMerges() throws Exception {
         AtomicLong free = new AtomicLong(30_000_000);
-        EventSorter sorter = new EventSorter(new DiskRoom(folder, 20_000_000, free::get), 2_000);
+        EventSorter sorter = new EventSorter(new DiskSpace(folder, 20_000_000, free::get), 2_000);
         sorter.add(new SortedEvent(new Cursor(1, "a"), 0, 0, new byte[3_000]));
         free.set(20_002_000);
 
         assertThatThrownBy(() -> sorter.writeLines(folder.resolve("lines")))
-                .isInstanceOf(RecordingGoneException.class)
+                .isInstanceOf(RecordingDeletedException.class)
                 .hasMessageContaining("19 MiB are free there, and 19 MiB have to stay free");
         assertThatThrownBy(() -> sorter.add(new SortedEvent(new Cursor(1, "b"), 0, 0, new byte[3_000])))
-                .isInstanceOf(RecordingGoneException.class);
+                .isInstanceOf(RecordingDeletedException.class);
     }
 
     private static SortedEvent first(SortedEvent one, SortedEvent other) {

@@ -27,14 +27,14 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
+import io.furrow.mission.EventPage;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingException;
-import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.RecordingExtent;
 import io.furrow.mission.RecordingInterruptedException;
-import io.furrow.mission.Skipped;
-import io.furrow.mission.Span;
+import io.furrow.mission.SkippedRecords;
 import io.furrow.mission.StoredEvent;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -79,18 +79,18 @@ class TopicRecordingsIT {
         }
 
         try (Recording recording = recordings(40).open("data.farm.realtime").orElseThrow()) {
-            Page page = recording.read(Cursor.START, ALL);
+            EventPage eventPage = recording.read(Cursor.START, ALL);
 
-            assertThat(page.events())
+            assertThat(eventPage.events())
                     .extracting(event -> event.time() + " " + event.id() + " " + event.entityId() + " "
                             + (event.entity() == null
                                     ? "deleted"
                                     : event.entity().path("type").asText()))
                     .containsExactly("10 data.farm.realtime-3-0 t1 T", "20 a key deleted", "20 b t2 T", "30 c t3 T");
-            assertThat(page.events().get(2).headers()).isEqualTo(Map.of("fiware-service", "farm"));
-            assertThat(page.skipped()).isEmpty();
-            assertThat(recording.span()).contains(new Span(10, 30));
-            assertThat(recording.read(page.next(), ALL).events()).isEmpty();
+            assertThat(eventPage.events().get(2).headers()).isEqualTo(Map.of("fiware-service", "farm"));
+            assertThat(eventPage.skipped()).isEmpty();
+            assertThat(recording.span()).contains(new RecordingExtent(10, 30));
+            assertThat(recording.read(eventPage.next(), ALL).events()).isEmpty();
             assertThat(recording.read(Cursor.before(20), new PageLimits(1, 1)).events())
                     .extracting(StoredEvent::id)
                     .containsExactly("a");
@@ -123,8 +123,8 @@ class TopicRecordingsIT {
         }
 
         assertThatThrownBy(() -> recordings(NEVER)
-                        .open("data.large", folder -> new DiskRoom(folder, 1_000_000, () -> 1_000_001)))
-                .isInstanceOf(RecordingGoneException.class)
+                        .open("data.large", folder -> new DiskSpace(folder, 1_000_000, () -> 1_000_001)))
+                .isInstanceOf(RecordingDeletedException.class)
                 .hasMessageContaining("do not fit into " + temporary);
         assertThat(temporary).isEmptyDirectory();
     }
@@ -161,15 +161,15 @@ class TopicRecordingsIT {
             send(producer, event("data.broken", 0, 4, "c", "{\"id\":\"t\",\"type\":\"T\"}"));
         }
         try (Recording recording = recordings(NEVER).open("data.broken").orElseThrow()) {
-            Page page = recording.read(Cursor.START, ALL);
+            EventPage eventPage = recording.read(Cursor.START, ALL);
 
-            assertThat(page.events()).extracting(StoredEvent::id).containsExactly("c");
-            assertThat(page.skipped()).hasSize(1).allSatisfy(skipped -> {
-                assertThat(skipped.what()).isEqualTo("records of data.broken");
-                assertThat(skipped.reason()).startsWith("the first is partition 0, offset 0: ");
-                assertThat(skipped.count()).isEqualTo(3);
+            assertThat(eventPage.events()).extracting(StoredEvent::id).containsExactly("c");
+            assertThat(eventPage.skipped()).hasSize(1).allSatisfy(skippedRecords -> {
+                assertThat(skippedRecords.what()).isEqualTo("records of data.broken");
+                assertThat(skippedRecords.reason()).startsWith("the first is partition 0, offset 0: ");
+                assertThat(skippedRecords.count()).isEqualTo(3);
             });
-            assertThat(recording.read(Cursor.before(0), ALL).skipped()).isEqualTo(List.<Skipped>of());
+            assertThat(recording.read(Cursor.before(0), ALL).skipped()).isEqualTo(List.<SkippedRecords>of());
         }
     }
 
@@ -196,7 +196,7 @@ class TopicRecordingsIT {
         assertThat(recordings(NEVER).open("data.nowhere")).isEmpty();
         assertThat(admin.listTopics().names().get()).doesNotContain("data.nowhere");
         assertThatThrownBy(() -> recordings(NEVER).open("service.missions"))
-                .isInstanceOf(RecordingGoneException.class)
+                .isInstanceOf(RecordingDeletedException.class)
                 .hasMessage("Topic service.missions holds no events; name one that begins with data.");
     }
 

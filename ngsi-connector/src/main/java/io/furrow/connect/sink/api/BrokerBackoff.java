@@ -16,9 +16,9 @@ public final class BrokerBackoff {
         backoff = new Backoff(min, max);
     }
 
-    public Duration after(Outcome.Away away) {
+    public Duration after(Outcome.Unavailable unavailable) {
         Duration delay = backoff.next();
-        Duration asked = away.retryAfter().orElse(Duration.ZERO);
+        Duration asked = unavailable.retryAfter().orElse(Duration.ZERO);
         Duration heeded = asked.compareTo(MAX_ASKED) < 0 ? asked : MAX_ASKED;
         return heeded.compareTo(delay) > 0 ? heeded : delay;
     }

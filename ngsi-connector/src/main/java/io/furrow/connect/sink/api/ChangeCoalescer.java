@@ -35,7 +35,7 @@ final class ChangeCoalescer {
     private static final class Pending {
         private final EntityTimes known;
         private final Map<String, Merged> byType = new LinkedHashMap<>(2);
-        private Change deletion;
+        private EntityChange deletion;
         private boolean deletes;
 
         Pending(EntityTimes known) {
@@ -43,7 +43,7 @@ final class ChangeCoalescer {
         }
 
         long newest() {
-            long newest = deletes ? Change.NO_TIME : known.newest();
+            long newest = deletes ? EntityChange.NO_TIME : known.newest();
             for (Merged merged : byType.values()) {
                 for (long time : merged.times.values()) {
                     newest = Math.max(newest, time);
@@ -53,46 +53,46 @@ final class ChangeCoalescer {
         }
 
         long deletedAt() {
-            return Math.max(known.deletedAt(), deletion == null ? Change.NO_TIME : deletion.time());
+            return Math.max(known.deletedAt(), deletion == null ? EntityChange.NO_TIME : deletion.time());
         }
 
         long time(Merged merged, String type, String name) {
             Long pending = merged.times.get(name);
-            return pending != null ? pending : deletes ? Change.NO_TIME : known.of(type, name);
+            return pending != null ? pending : deletes ? EntityChange.NO_TIME : known.of(type, name);
         }
     }
 
     private static final class Merged {
         private final Map<String, ObjectNode> attributes = new LinkedHashMap<>();
         private final Map<String, Long> times = new HashMap<>();
-        private final List<Change> changes = new ArrayList<>(1);
+        private final List<EntityChange> changes = new ArrayList<>(1);
     }
 
-    void add(Change change) {
-        Pending pending = entities.computeIfAbsent(change.key(), key -> new Pending(known.of(key)));
-        if (change.isDeletion()) {
-            delete(pending, change);
-        } else if (change.time() < pending.deletedAt()) {
+    void add(EntityChange entityChange) {
+        Pending pending = entities.computeIfAbsent(entityChange.key(), key -> new Pending(known.of(key)));
+        if (entityChange.isDeletion()) {
+            delete(pending, entityChange);
+        } else if (entityChange.time() < pending.deletedAt()) {
             stale++;
         } else {
-            merge(pending, change);
+            merge(pending, entityChange);
         }
     }
 
-    private void delete(Pending pending, Change change) {
-        if (change.time() < pending.deletedAt()) {
+    private void delete(Pending pending, EntityChange entityChange) {
+        if (entityChange.time() < pending.deletedAt()) {
             stale++;
             return;
         }
         coalesced += pending.deletion == null ? 0 : 1;
-        if (pending.newest() > change.time()) {
-            pending.byType.values().removeIf(merged -> wiped(merged, change.time()));
+        if (pending.newest() > entityChange.time()) {
+            pending.byType.values().removeIf(merged -> wiped(merged, entityChange.time()));
         } else {
             pending.byType.values().forEach(merged -> coalesced += merged.changes.size());
             pending.byType.clear();
             pending.deletes = true;
         }
-        pending.deletion = change;
+        pending.deletion = entityChange;
     }
 
     /** Removes the attributes that are not newer; true if nothing is left. */
@@ -105,25 +105,25 @@ final class ChangeCoalescer {
         return merged.attributes.isEmpty();
     }
 
-    private void merge(Pending pending, Change change) {
-        String type = change.entity().type();
+    private void merge(Pending pending, EntityChange entityChange) {
+        String type = entityChange.entity().type();
         Merged merged = pending.byType.computeIfAbsent(type, any -> new Merged());
         boolean says = false;
         boolean bare = true;
-        for (Map.Entry<String, JsonNode> attribute : change.entity().attributes()) {
+        for (Map.Entry<String, JsonNode> attribute : entityChange.entity().attributes()) {
             String name = attribute.getKey();
             if (Entity.BUILT_INS.contains(name)) {
                 continue;
             }
             bare = false;
-            if (change.time() >= pending.time(merged, type, name)) {
-                merged.times.put(name, change.time());
+            if (entityChange.time() >= pending.time(merged, type, name)) {
+                merged.times.put(name, entityChange.time());
                 merged.attributes.put(name, withoutBrokerMetadata(attribute.getValue()));
                 says = true;
             }
         }
         if (says || bare && pending.known.size() == 0) {
-            merged.changes.add(change);
+            merged.changes.add(entityChange);
         } else {
             stale++;
             if (merged.changes.isEmpty()) {
@@ -133,10 +133,10 @@ final class ChangeCoalescer {
     }
 
     /** The plan, in the order in which the entities were first added. */
-    Plan plan() {
-        List<Change> deletions = new ArrayList<>();
-        List<Change> partial = new ArrayList<>();
-        List<Update> updates = new ArrayList<>(entities.size());
+    DeliveryPlan plan() {
+        List<EntityChange> deletions = new ArrayList<>();
+        List<EntityChange> partial = new ArrayList<>();
+        List<AttributeUpdate> updates = new ArrayList<>(entities.size());
         int merges = 0;
         for (Map.Entry<EntityKey, Pending> entity : entities.entrySet()) {
             Pending pending = entity.getValue();
@@ -145,11 +145,12 @@ final class ChangeCoalescer {
             }
             for (Map.Entry<String, Merged> of : pending.byType.entrySet()) {
                 Merged merged = of.getValue();
-                updates.add(new Update(entity.getKey(), of.getKey(), merged.attributes, merged.times, merged.changes));
+                updates.add(new AttributeUpdate(
+                        entity.getKey(), of.getKey(), merged.attributes, merged.times, merged.changes));
                 merges += merged.changes.size() - 1;
             }
         }
-        return new Plan(deletions, partial, updates, stale, coalesced + merges);
+        return new DeliveryPlan(deletions, partial, updates, stale, coalesced + merges);
     }
 
     private static ObjectNode withoutBrokerMetadata(JsonNode attribute) {

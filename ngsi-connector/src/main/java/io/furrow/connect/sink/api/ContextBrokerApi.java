@@ -15,13 +15,13 @@ public interface ContextBrokerApi {
     String name();
 
     /** The id under which the context broker stores an entity. */
-    String idOf(Update update);
+    String idOf(AttributeUpdate attributeUpdate);
 
     /** The update as one element of a batch, UTF-8 JSON. */
-    byte[] render(Update update);
+    byte[] render(AttributeUpdate attributeUpdate);
 
     /** The attributes without a value, which {@link #render} leaves out because they have to be deleted instead. */
-    default List<String> cleared(Update update) {
+    default List<String> cleared(AttributeUpdate attributeUpdate) {
         return List.of();
     }
 

@@ -9,7 +9,7 @@ import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.sink.api.Batches.Rendered;
-import io.furrow.connect.sink.api.ContextWriter.RefusedChange;
+import io.furrow.connect.sink.api.ContextWriter.RejectedChange;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -24,7 +24,11 @@ final class EntityDeleter {
      * @param absent those that do not exist, perhaps because of this deletion
      * @param failing those that caused a 500 individually
      */
-    record Result(List<Change> deleted, List<Change> absent, List<RefusedChange> refused, List<FailingChange> failing) {
+    record Result(
+            List<EntityChange> deleted,
+            List<EntityChange> absent,
+            List<RejectedChange> refused,
+            List<FailingChange> failing) {
         static Result empty() {
             return new Result(new ArrayList<>(), new ArrayList<>(), new ArrayList<>(), new ArrayList<>());
         }
@@ -46,19 +50,20 @@ final class EntityDeleter {
      * @param deletions each of another entity
      * @param apart whether a batch that causes a 500 is halved, too
      */
-    Result delete(List<Change> deletions, boolean apart) throws BrokerAwayException, WrongSettingException {
+    Result delete(List<EntityChange> deletions, boolean apart)
+            throws BrokerUnavailableException, WrongSettingException {
         Result result = Result.empty();
-        List<Rendered<Change>> rendered = deletions.stream()
+        List<Rendered<EntityChange>> rendered = deletions.stream()
                 .map(deletion -> new Rendered<>(deletion, deletion.key().scope(), api.renderDeletion(deletion.key())))
                 .toList();
-        for (List<Rendered<Change>> batch : batches.cut(rendered)) {
+        for (List<Rendered<EntityChange>> batch : batches.cut(rendered)) {
             delete(batch, apart, result);
         }
         return result;
     }
 
-    private void delete(List<Rendered<Change>> batch, boolean apart, Result result)
-            throws BrokerAwayException, WrongSettingException {
+    private void delete(List<Rendered<EntityChange>> batch, boolean apart, Result result)
+            throws BrokerUnavailableException, WrongSettingException {
         if (batch.size() == 1) {
             delete(batch.get(0).of(), apart, result);
             return;
@@ -67,8 +72,9 @@ final class EntityDeleter {
                 batch.get(0).scope(), batch.stream().map(Rendered::json).toList()));
         if (outcome instanceof Outcome.Done done && isWhole(done, batch)) {
             batch.forEach(one -> result.deleted().add(one.of()));
-        } else if (outcome instanceof Outcome.Away away && !(apart && FailingChange.isMeant(away))) {
-            throw new BrokerAwayException(away);
+        } else if (outcome instanceof Outcome.Unavailable unavailable
+                && !(apart && FailingChange.isMeant(unavailable))) {
+            throw new BrokerUnavailableException(unavailable);
         } else if (outcome instanceof Outcome.WrongSetting wrong) {
             throw new WrongSettingException(wrong.words());
         } else {
@@ -76,7 +82,7 @@ final class EntityDeleter {
         }
     }
 
-    private boolean isWhole(Outcome.Done done, List<Rendered<Change>> batch) {
+    private boolean isWhole(Outcome.Done done, List<Rendered<EntityChange>> batch) {
         try {
             return api.refused(
                             done, batch.stream().map(one -> one.of().key().id()).toList())
@@ -86,12 +92,12 @@ final class EntityDeleter {
         }
     }
 
-    private void deleteThoseLeft(List<Rendered<Change>> batch, boolean apart, Result result)
-            throws BrokerAwayException, WrongSettingException {
+    private void deleteThoseLeft(List<Rendered<EntityChange>> batch, boolean apart, Result result)
+            throws BrokerUnavailableException, WrongSettingException {
         Set<EntityKey> existing =
                 sight.existing(batch.stream().map(one -> one.of().key()).toList());
-        List<Rendered<Change>> left = new ArrayList<>();
-        for (Rendered<Change> one : batch) {
+        List<Rendered<EntityChange>> left = new ArrayList<>();
+        for (Rendered<EntityChange> one : batch) {
             if (existing.contains(one.of().key())) {
                 left.add(one);
             } else {
@@ -107,29 +113,29 @@ final class EntityDeleter {
         }
     }
 
-    private void delete(Change deletion, boolean apart, Result result)
-            throws BrokerAwayException, WrongSettingException {
+    private void delete(EntityChange deletion, boolean apart, Result result)
+            throws BrokerUnavailableException, WrongSettingException {
         Outcome outcome = client.send(api.delete(deletion.key()));
         if (outcome instanceof Outcome.Done done) {
             refusal(done, deletion)
                     .ifPresentOrElse(
-                            words -> result.refused().add(new RefusedChange(deletion, words)),
+                            words -> result.refused().add(new RejectedChange(deletion, words)),
                             () -> result.deleted().add(deletion));
         } else if (outcome instanceof Outcome.Absent) {
             result.absent().add(deletion);
-        } else if (outcome instanceof Outcome.Refused refusal) {
-            result.refused().add(new RefusedChange(deletion, refusal.words()));
+        } else if (outcome instanceof Outcome.Rejected refusal) {
+            result.refused().add(new RejectedChange(deletion, refusal.words()));
         } else if (outcome instanceof Outcome.WrongSetting wrong) {
             throw new WrongSettingException(wrong.words());
-        } else if (outcome instanceof Outcome.Away away) {
-            if (!apart || !FailingChange.isMeant(away)) {
-                throw new BrokerAwayException(away);
+        } else if (outcome instanceof Outcome.Unavailable unavailable) {
+            if (!apart || !FailingChange.isMeant(unavailable)) {
+                throw new BrokerUnavailableException(unavailable);
             }
-            result.failing().add(new FailingChange(deletion, away));
+            result.failing().add(new FailingChange(deletion, unavailable));
         }
     }
     /** An NGSI-LD broker with several sources answers 207 if one of them did not delete its part. */
-    private Optional<String> refusal(Outcome.Done done, Change deletion) {
+    private Optional<String> refusal(Outcome.Done done, EntityChange deletion) {
         String id = deletion.key().id();
         try {
             return Optional.ofNullable(api.refused(done, List.of(id)).get(id));

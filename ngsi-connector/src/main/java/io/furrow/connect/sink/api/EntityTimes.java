@@ -12,13 +12,13 @@ final class EntityTimes {
     private String[] types = {};
     private String[] names = {};
     private long[] times = {};
-    private long deletedAt = Change.NO_TIME;
+    private long deletedAt = EntityChange.NO_TIME;
     private long readAtNanos;
 
-    /** {@link Change#NO_TIME} if unknown. */
+    /** {@link EntityChange#NO_TIME} if unknown. */
     long of(String type, String name) {
         int found = find(type, name);
-        return found < 0 ? Change.NO_TIME : times[found];
+        return found < 0 ? EntityChange.NO_TIME : times[found];
     }
 
     boolean has(String type, String name) {
@@ -41,7 +41,7 @@ final class EntityTimes {
 
     /** Of all attributes of all types. */
     long newest() {
-        return Arrays.stream(times).max().orElse(Change.NO_TIME);
+        return Arrays.stream(times).max().orElse(EntityChange.NO_TIME);
     }
 
     /** How many attributes are known. */

@@ -38,7 +38,7 @@ public final class EntityTimesCache {
     /** Replaces the cached times by those just read; a deletion stays cached, because no context broker reports it. */
     void learn(EntityKey key, EntityTimes times) {
         EntityTimes before = entities.put(key, times);
-        times.readAt(nanoClock.getAsLong(), before == null ? Change.NO_TIME : before.deletedAt());
+        times.readAt(nanoClock.getAsLong(), before == null ? EntityChange.NO_TIME : before.deletedAt());
         attributes += cost(times) - (before == null ? 0 : cost(before));
     }
 

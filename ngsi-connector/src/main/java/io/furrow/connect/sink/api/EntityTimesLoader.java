@@ -34,14 +34,14 @@ final class EntityTimesLoader {
     }
 
     /** Afterwards every entity of the changes is cached, including those that do not exist. */
-    void learn(Collection<Change> changes) throws BrokerAwayException, WrongSettingException {
+    void learn(Collection<EntityChange> changes) throws BrokerUnavailableException, WrongSettingException {
         Map<FiwareScope, Map<String, Set<String>>> unknown = new LinkedHashMap<>();
-        for (Change change : changes) {
-            if (!known.isFresh(change.key())) {
-                Set<String> types = unknown.computeIfAbsent(change.key().scope(), scope -> new LinkedHashMap<>())
-                        .computeIfAbsent(change.key().id(), id -> new LinkedHashSet<>());
-                if (!change.isDeletion()) {
-                    types.add(change.entity().type());
+        for (EntityChange entityChange : changes) {
+            if (!known.isFresh(entityChange.key())) {
+                Set<String> types = unknown.computeIfAbsent(entityChange.key().scope(), scope -> new LinkedHashMap<>())
+                        .computeIfAbsent(entityChange.key().id(), id -> new LinkedHashSet<>());
+                if (!entityChange.isDeletion()) {
+                    types.add(entityChange.entity().type());
                 }
             }
         }
@@ -53,7 +53,7 @@ final class EntityTimesLoader {
     }
 
     /** The entities that exist, and those that the context broker does not report on. */
-    Set<EntityKey> existing(Collection<EntityKey> keys) throws BrokerAwayException, WrongSettingException {
+    Set<EntityKey> existing(Collection<EntityKey> keys) throws BrokerUnavailableException, WrongSettingException {
         Map<FiwareScope, Map<String, Set<String>>> asked = new LinkedHashMap<>();
         keys.forEach(key -> asked.computeIfAbsent(key.scope(), scope -> new LinkedHashMap<>())
                 .put(key.id(), Set.of()));
@@ -62,7 +62,7 @@ final class EntityTimesLoader {
 
     /** Without absent entities. */
     private Map<EntityKey, EntityTimes> read(Map<FiwareScope, Map<String, Set<String>>> unknown)
-            throws BrokerAwayException, WrongSettingException {
+            throws BrokerUnavailableException, WrongSettingException {
         Map<EntityKey, EntityTimes> found = new HashMap<>();
         for (Map.Entry<FiwareScope, Map<String, Set<String>>> entry : unknown.entrySet()) {
             List<String> ids = new ArrayList<>(entry.getValue().keySet());
@@ -76,16 +76,16 @@ final class EntityTimesLoader {
 
     private void read(
             FiwareScope scope, Map<String, Set<String>> types, List<String> ids, Map<EntityKey, EntityTimes> found)
-            throws BrokerAwayException, WrongSettingException {
+            throws BrokerUnavailableException, WrongSettingException {
         Map<String, Set<String>> asked = new LinkedHashMap<>();
         ids.forEach(id -> asked.put(id, types.get(id)));
         Outcome outcome = client.send(api.read(scope, asked));
         if (outcome instanceof Outcome.Done done) {
             found(scope, ids, done, found);
-        } else if (outcome instanceof Outcome.Refused refusal) {
+        } else if (outcome instanceof Outcome.Rejected refusal) {
             refused(scope, types, ids, refusal, found);
-        } else if (outcome instanceof Outcome.Away away) {
-            throw new BrokerAwayException(away);
+        } else if (outcome instanceof Outcome.Unavailable unavailable) {
+            throw new BrokerUnavailableException(unavailable);
         } else if (outcome instanceof Outcome.WrongSetting wrong) {
             throw new WrongSettingException(wrong.words());
         }
@@ -109,9 +109,9 @@ final class EntityTimesLoader {
             FiwareScope scope,
             Map<String, Set<String>> types,
             List<String> ids,
-            Outcome.Refused refusal,
+            Outcome.Rejected refusal,
             Map<EntityKey, EntityTimes> found)
-            throws BrokerAwayException, WrongSettingException {
+            throws BrokerUnavailableException, WrongSettingException {
         if (ids.size() == 1) {
             LOG.warn("the context broker rejects the query of {}: {}", ids.get(0), refusal.words());
             found.put(new EntityKey(scope, ids.get(0)), new EntityTimes());

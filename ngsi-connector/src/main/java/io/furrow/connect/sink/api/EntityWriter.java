@@ -20,10 +20,10 @@ import io.furrow.model.ngsi.UnreadableException;
  */
 final class EntityWriter implements AutoCloseable {
     /** An update that the context broker rejects, and its reason. */
-    record RefusedUpdate(Update update, String words) {}
+    record RejectedUpdate(AttributeUpdate attributeUpdate, String words) {}
 
     /** An update that causes a 500 alone. */
-    record FailingUpdate(Update update, Outcome.Away away) {}
+    record FailingUpdate(AttributeUpdate attributeUpdate, Outcome.Unavailable unavailable) {}
 
     /**
      * The results of updates.
@@ -31,7 +31,8 @@ final class EntityWriter implements AutoCloseable {
      * @param failing empty unless batches are halved
      * @param failure null if no request failed; else some updates are neither written, rejected nor failing
      */
-    record Result(List<Update> written, List<RefusedUpdate> refused, List<FailingUpdate> failing, Outcome failure) {
+    record Result(
+            List<AttributeUpdate> written, List<RejectedUpdate> refused, List<FailingUpdate> failing, Outcome failure) {
         static Result empty() {
             return new Result(new ArrayList<>(), new ArrayList<>(), new ArrayList<>(), null);
         }
@@ -68,13 +69,14 @@ final class EntityWriter implements AutoCloseable {
     }
 
     /**
-     * An interrupt while waiting stays set and counts as {@link Outcome.Away}.
+     * An interrupt while waiting stays set and counts as {@link Outcome.Unavailable}.
      *
      * @param apart whether a batch that causes a 500 is halved, too
      */
-    Result write(List<Update> updates, boolean apart) {
-        List<List<Rendered<Update>>> cut = batches.cut(updates.stream()
-                .map(update -> new Rendered<>(update, update.key().scope(), api.render(update)))
+    Result write(List<AttributeUpdate> updates, boolean apart) {
+        List<List<Rendered<AttributeUpdate>>> cut = batches.cut(updates.stream()
+                .map(attributeUpdate ->
+                        new Rendered<>(attributeUpdate, attributeUpdate.key().scope(), api.render(attributeUpdate)))
                 .toList());
         Result all = Result.empty();
         if (requests == null || cut.size() == 1) {
@@ -87,9 +89,9 @@ final class EntityWriter implements AutoCloseable {
     }
 
     /** Waits for all requests, even after one has failed: a request in flight must not overtake a retry. */
-    private Result writeTogether(List<List<Rendered<Update>>> cut, boolean apart) {
+    private Result writeTogether(List<List<Rendered<AttributeUpdate>>> cut, boolean apart) {
         List<Future<Result>> underWay = new ArrayList<>();
-        for (List<Rendered<Update>> batch : cut) {
+        for (List<Rendered<AttributeUpdate>> batch : cut) {
             underWay.add(requests.submit(() -> write(batch, apart, Result.empty())));
         }
         Result all = Result.empty();
@@ -112,31 +114,31 @@ final class EntityWriter implements AutoCloseable {
         return all;
     }
 
-    private Result write(List<Rendered<Update>> batch, boolean apart, Result soFar) {
+    private Result write(List<Rendered<AttributeUpdate>> batch, boolean apart, Result soFar) {
         Outcome outcome = client.send(api.write(
                 batch.get(0).scope(), batch.stream().map(Rendered::json).toList()));
         if (outcome instanceof Outcome.Done done) {
             return taken(batch, done, apart, soFar);
-        } else if (outcome instanceof Outcome.Refused refusal) {
+        } else if (outcome instanceof Outcome.Rejected refusal) {
             return refused(batch, refusal.words(), apart, soFar);
-        } else if (apart && outcome instanceof Outcome.Away away && FailingChange.isMeant(away)) {
-            return failing(batch, away, soFar);
+        } else if (apart && outcome instanceof Outcome.Unavailable unavailable && FailingChange.isMeant(unavailable)) {
+            return failing(batch, unavailable, soFar);
         } else if (outcome instanceof Outcome.Absent absent) {
             return soFar.failed(new Outcome.WrongSetting(api.name() + " is not there: " + absent.words()));
         }
         return soFar.failed(outcome);
     }
 
-    private Result taken(List<Rendered<Update>> batch, Outcome.Done done, boolean apart, Result soFar) {
+    private Result taken(List<Rendered<AttributeUpdate>> batch, Outcome.Done done, boolean apart, Result soFar) {
         try {
             Map<String, String> refused = api.refused(
                     done, batch.stream().map(one -> api.idOf(one.of())).toList());
-            for (Rendered<Update> one : batch) {
+            for (Rendered<AttributeUpdate> one : batch) {
                 String words = refused.get(api.idOf(one.of()));
                 if (words == null) {
                     soFar.written().add(one.of());
                 } else {
-                    soFar.refused().add(new RefusedUpdate(one.of(), words));
+                    soFar.refused().add(new RejectedUpdate(one.of(), words));
                 }
             }
             return soFar;
@@ -146,23 +148,23 @@ final class EntityWriter implements AutoCloseable {
         }
     }
 
-    private Result refused(List<Rendered<Update>> batch, String words, boolean apart, Result soFar) {
+    private Result refused(List<Rendered<AttributeUpdate>> batch, String words, boolean apart, Result soFar) {
         if (batch.size() == 1) {
-            soFar.refused().add(new RefusedUpdate(batch.get(0).of(), words));
+            soFar.refused().add(new RejectedUpdate(batch.get(0).of(), words));
             return soFar;
         }
         return halved(batch, apart, soFar);
     }
 
-    private Result failing(List<Rendered<Update>> batch, Outcome.Away away, Result soFar) {
+    private Result failing(List<Rendered<AttributeUpdate>> batch, Outcome.Unavailable unavailable, Result soFar) {
         if (batch.size() == 1) {
-            soFar.failing().add(new FailingUpdate(batch.get(0).of(), away));
+            soFar.failing().add(new FailingUpdate(batch.get(0).of(), unavailable));
             return soFar;
         }
         return halved(batch, true, soFar);
     }
 
-    private Result halved(List<Rendered<Update>> batch, boolean apart, Result soFar) {
+    private Result halved(List<Rendered<AttributeUpdate>> batch, boolean apart, Result soFar) {
         int half = batch.size() / 2;
         Result first = write(batch.subList(0, half), apart, soFar);
         return first.failure() == null ? write(batch.subList(half, batch.size()), apart, first) : first;

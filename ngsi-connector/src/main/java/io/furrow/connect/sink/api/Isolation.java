@@ -36,13 +36,13 @@ public final class Isolation {
     }
 
     /** Whether this try splits the delivery. */
-    boolean isDue(Collection<Change> changes) {
+    boolean isDue(Collection<EntityChange> changes) {
         if (after == 0) {
             return false;
         }
         boolean suspected = failures == 0
                 && !suspects.isEmpty()
-                && changes.stream().anyMatch(change -> suspects.contains(change.key()));
+                && changes.stream().anyMatch(entityChange -> suspects.contains(entityChange.key()));
         return suspected || (failures + 1) % after == 0;
     }
 

@@ -46,19 +46,19 @@ public record NgsiLd(String context) implements ContextBrokerApi {
     }
 
     @Override
-    public String idOf(Update update) {
-        return NgsiLdForm.id(update.key().id(), update.type());
+    public String idOf(AttributeUpdate attributeUpdate) {
+        return NgsiLdCodec.id(attributeUpdate.key().id(), attributeUpdate.type());
     }
 
     @Override
-    public byte[] render(Update update) {
-        return NgsiJson.write(NgsiLdForm.of(update));
+    public byte[] render(AttributeUpdate attributeUpdate) {
+        return NgsiJson.write(NgsiLdCodec.of(attributeUpdate));
     }
 
     @Override
-    public List<String> cleared(Update update) {
-        return update.attributes().entrySet().stream()
-                .filter(each -> NgsiLdForm.isNull(each.getValue()))
+    public List<String> cleared(AttributeUpdate attributeUpdate) {
+        return attributeUpdate.attributes().entrySet().stream()
+                .filter(each -> NgsiLdCodec.isNull(each.getValue()))
                 .map(Map.Entry::getKey)
                 .toList();
     }
@@ -112,7 +112,7 @@ public record NgsiLd(String context) implements ContextBrokerApi {
 
     @Override
     public BrokerRequest delete(EntityKey key, EntityTimes.Name attribute) {
-        String id = NgsiLdForm.id(key.id(), attribute.type());
+        String id = NgsiLdCodec.id(key.id(), attribute.type());
         String path =
                 "/ngsi-ld/v1/entities/%s/attrs/%s".formatted(NgsiV2.encoded(id), NgsiV2.encoded(attribute.attribute()));
         return scoped(BrokerRequest.delete(key.scope(), path));
@@ -132,7 +132,7 @@ public record NgsiLd(String context) implements ContextBrokerApi {
         Set<String> names = new HashSet<>();
         Set<String> types = new HashSet<>();
         ids.forEach((id, of) -> {
-            of.forEach(type -> names.add(NgsiLdForm.id(id, type)));
+            of.forEach(type -> names.add(NgsiLdCodec.id(id, type)));
             types.addAll(of);
             if (of.isEmpty()) {
                 names.add(id);
@@ -155,7 +155,7 @@ public record NgsiLd(String context) implements ContextBrokerApi {
             String type = entity.path("type").asText();
             String id = entity.path("id").asText();
             for (String key : asked) {
-                if (id.equals(NgsiLdForm.id(key, type)) || id.equals(key)) {
+                if (id.equals(NgsiLdCodec.id(key, type)) || id.equals(key)) {
                     addTimes(entity, type, found.computeIfAbsent(key, any -> new EntityTimes()));
                 }
             }
@@ -167,7 +167,7 @@ public record NgsiLd(String context) implements ContextBrokerApi {
         for (Map.Entry<String, JsonNode> attribute : entity.properties()) {
             if (!NO_ATTRIBUTES.contains(attribute.getKey())) {
                 JsonNode value = attribute.getValue();
-                long newest = Change.NO_TIME;
+                long newest = EntityChange.NO_TIME;
                 for (JsonNode instance : value.isArray()
                         ? value
                         : JsonNodeFactory.instance.arrayNode().add(value)) {
@@ -182,7 +182,7 @@ public record NgsiLd(String context) implements ContextBrokerApi {
         return Instants.of(instance.path("observedAt"))
                 .or(() -> Instants.of(instance.path("modifiedAt")))
                 .map(Instant::toEpochMilli)
-                .orElse(Change.NO_TIME);
+                .orElse(EntityChange.NO_TIME);
     }
 
     private BrokerRequest scoped(BrokerRequest request) {

@@ -47,17 +47,17 @@ public record NgsiV2(String timeMetadata) implements ContextBrokerApi {
     }
 
     @Override
-    public String idOf(Update update) {
-        return update.key().id();
+    public String idOf(AttributeUpdate attributeUpdate) {
+        return attributeUpdate.key().id();
     }
 
     @Override
-    public byte[] render(Update update) {
+    public byte[] render(AttributeUpdate attributeUpdate) {
         ObjectNode entity = JsonNodeFactory.instance.objectNode();
-        entity.put("id", update.key().id()).put("type", update.type());
-        update.attributes().forEach((name, attribute) -> {
-            long time = update.times().get(name);
-            if (time != Change.NO_TIME) {
+        entity.put("id", attributeUpdate.key().id()).put("type", attributeUpdate.type());
+        attributeUpdate.attributes().forEach((name, attribute) -> {
+            long time = attributeUpdate.times().get(name);
+            if (time != EntityChange.NO_TIME) {
                 ((ObjectNode) attribute.get("metadata"))
                         .putObject(timeMetadata)
                         .put("type", "DateTime")
@@ -162,7 +162,7 @@ public record NgsiV2(String timeMetadata) implements ContextBrokerApi {
     }
 
     private static long modified(JsonNode attribute) {
-        return millis(attribute.path("metadata").path(MODIFIED).path("value")).orElse(Change.NO_TIME);
+        return millis(attribute.path("metadata").path(MODIFIED).path("value")).orElse(EntityChange.NO_TIME);
     }
 
     private static Optional<Long> millis(JsonNode time) {

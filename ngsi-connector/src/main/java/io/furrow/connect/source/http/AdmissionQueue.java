@@ -12,7 +12,7 @@ import java.util.concurrent.ScheduledExecutorService;
 import java.util.concurrent.TimeUnit;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.journal.RecordLog;
 
 /**
@@ -23,22 +23,22 @@ import io.furrow.connect.source.journal.RecordLog;
 public final class AdmissionQueue implements AutoCloseable {
     private static final long RETRY_MS = 10;
 
-    private record Delivery(List<OutgoingRecord> records, long deadline, CompletableFuture<Void> durable) {
+    private record Delivery(List<KafkaRecord> records, long deadline, CompletableFuture<Void> durable) {
         boolean isTooLate() {
             return System.nanoTime() - deadline >= 0;
         }
     }
 
-    private final RecordLog intake;
+    private final RecordLog recordLog;
     private final Ledger ledger;
     private final Deque<Delivery> waiting = new ArrayDeque<>();
-    private final Deadlines deadlines = new Deadlines();
+    private final TimeoutQueue timeoutQueue = new TimeoutQueue();
     private final ScheduledExecutorService retries;
     private volatile boolean someWait;
     private boolean closed;
 
-    public AdmissionQueue(RecordLog intake, Ledger ledger) {
-        this.intake = intake;
+    public AdmissionQueue(RecordLog recordLog, Ledger ledger) {
+        this.recordLog = recordLog;
         this.ledger = ledger;
         this.retries = Executors.newSingleThreadScheduledExecutor(task -> {
             Thread thread = new Thread(task, "ngsi-source-hold");
@@ -52,10 +52,10 @@ public final class AdmissionQueue implements AutoCloseable {
      * deadline, which is a value of {@link System#nanoTime}, with {@link RecordLog.ClosedException}, or with the
      * exception of the intake.
      */
-    CompletableFuture<Void> deliver(List<OutgoingRecord> records, long deadline) {
+    CompletableFuture<Void> deliver(List<KafkaRecord> records, long deadline) {
         Delivery delivery = new Delivery(records, deadline, new CompletableFuture<>());
         if (someWait || !hand(delivery)) {
-            ledger.held.increment();
+            ledger.delayed.increment();
             await(delivery, false);
         }
         if (delivery.durable.isDone()) {
@@ -65,7 +65,7 @@ public final class AdmissionQueue implements AutoCloseable {
         CompletableFuture<Void> answer = durable.copy();
         // retry() fails waiting deliveries. This watch is for accepted records that are not durable, and fires a little
         // later.
-        deadlines.watch(answer, deadline + TimeUnit.MILLISECONDS.toNanos(3 * RETRY_MS), () -> expired(durable));
+        timeoutQueue.watch(answer, deadline + TimeUnit.MILLISECONDS.toNanos(3 * RETRY_MS), () -> expired(durable));
         return answer;
     }
 
@@ -78,7 +78,7 @@ public final class AdmissionQueue implements AutoCloseable {
             Delivery delivery = each.next();
             if (delivery.durable == durable) {
                 each.remove();
-                turnAway(delivery, OverloadException.noRoom());
+                rejectUnavailable(delivery, OverloadException.noRoom());
                 return OverloadException.noRoom();
             }
         }
@@ -88,11 +88,11 @@ public final class AdmissionQueue implements AutoCloseable {
     /** Whether the delivery need not wait: the intake had room or failed. */
     private boolean hand(Delivery delivery) {
         try {
-            Optional<CompletableFuture<Void>> taken = intake.take(delivery.records);
+            Optional<CompletableFuture<Void>> taken = recordLog.take(delivery.records);
             taken.ifPresent(durable -> durable.whenComplete((nothing, failure) -> settle(delivery, failure)));
             return taken.isPresent();
         } catch (RuntimeException | Error e) {
-            turnAway(delivery, e);
+            rejectUnavailable(delivery, e);
             return true;
         }
     }
@@ -105,18 +105,19 @@ public final class AdmissionQueue implements AutoCloseable {
         } else if (cause instanceof RecordLog.NoRoomException && !delivery.isTooLate()) {
             await(delivery, true);
         } else {
-            turnAway(delivery, cause instanceof RecordLog.NoRoomException ? OverloadException.noRoom() : cause);
+            rejectUnavailable(
+                    delivery, cause instanceof RecordLog.NoRoomException ? OverloadException.noRoom() : cause);
         }
     }
 
-    private void turnAway(Delivery delivery, Throwable cause) {
-        ledger.turnedAway.add(delivery.records.size());
+    private void rejectUnavailable(Delivery delivery, Throwable cause) {
+        ledger.rejectedUnavailable.add(delivery.records.size());
         delivery.durable.completeExceptionally(cause);
     }
 
     private synchronized void await(Delivery delivery, boolean first) {
         if (closed) {
-            turnAway(delivery, new RecordLog.ClosedException());
+            rejectUnavailable(delivery, new RecordLog.ClosedException());
             return;
         }
         if (first) {
@@ -135,7 +136,7 @@ public final class AdmissionQueue implements AutoCloseable {
             while (!waiting.isEmpty()) {
                 Delivery first = waiting.remove();
                 if (first.isTooLate()) {
-                    turnAway(first, OverloadException.noRoom());
+                    rejectUnavailable(first, OverloadException.noRoom());
                 } else if (!hand(first)) {
                     waiting.addFirst(first);
                     break;
@@ -154,7 +155,7 @@ public final class AdmissionQueue implements AutoCloseable {
     public synchronized void close() {
         closed = true;
         retries.shutdownNow();
-        waiting.forEach(each -> turnAway(each, new RecordLog.ClosedException()));
+        waiting.forEach(each -> rejectUnavailable(each, new RecordLog.ClosedException()));
         waiting.clear();
     }
 }

@@ -33,7 +33,7 @@ public final class NotificationHandler extends Handler.Abstract.NonBlocking {
     private static final Logger LOG = LoggerFactory.getLogger(NotificationHandler.class);
 
     private final NotificationTranslator translator;
-    private final AdmissionQueue deliveries;
+    private final AdmissionQueue admissionQueue;
     private final Ledger ledger;
     private final Limits limits;
 
@@ -49,9 +49,9 @@ public final class NotificationHandler extends Handler.Abstract.NonBlocking {
     public record Limits(int maxBody, ByteBudget bodies, ByteBudget translations, long holdNanos, boolean resets) {}
 
     public NotificationHandler(
-            NotificationTranslator translator, AdmissionQueue deliveries, Ledger ledger, Limits limits) {
+            NotificationTranslator translator, AdmissionQueue admissionQueue, Ledger ledger, Limits limits) {
         this.translator = translator;
-        this.deliveries = deliveries;
+        this.admissionQueue = admissionQueue;
         this.ledger = ledger;
         this.limits = limits;
     }
@@ -72,9 +72,9 @@ public final class NotificationHandler extends Handler.Abstract.NonBlocking {
                 // On a thread of the server: the thread that completes the delivery is the only one that writes to the
                 // disk.
                 .whenCompleteAsync(
-                        (answer, failure) -> {
+                        (notificationResponse, failure) -> {
                             memory.release();
-                            answer(request, response, answer, failure, callback);
+                            answer(request, response, notificationResponse, failure, callback);
                         },
                         getServer().getThreadPool());
         return true;
@@ -117,16 +117,21 @@ public final class NotificationHandler extends Handler.Abstract.NonBlocking {
                 + "; send fewer entities at a time, or raise " + OverloadOptions.TRANSLATION_MEMORY;
     }
 
-    private CompletableFuture<Answer> deliver(Translation translation, long deadline) {
-        return deliveries
+    private CompletableFuture<NotificationResponse> deliver(Translation translation, long deadline) {
+        return admissionQueue
                 .deliver(translation.records(), deadline)
-                .thenApply(durable -> Answer.taken(translation.refusal()));
+                .thenApply(durable -> NotificationResponse.taken(translation.refusal()));
     }
 
-    private void answer(Request request, Response response, Answer answer, Throwable failure, Callback callback) {
+    private void answer(
+            Request request,
+            Response response,
+            NotificationResponse notificationResponse,
+            Throwable failure,
+            Callback callback) {
         Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;
         if (cause == null) {
-            answer.write(response, callback);
+            notificationResponse.write(response, callback);
         } else if (cause instanceof OverloadException || cause instanceof RecordLog.ClosedException) {
             ledger.overload.increment();
             if (cause instanceof OverloadException overload && overload.isLate()) {
@@ -135,9 +140,9 @@ public final class NotificationHandler extends Handler.Abstract.NonBlocking {
             notDurable(request, response, callback);
         } else if (cause.getCause() instanceof ZipException notGzip) { // Jetty wraps it
             response.getHeaders().put(HttpHeader.CONNECTION, "close");
-            Answer.notGzip(notGzip.getMessage()).write(response, callback);
+            NotificationResponse.notGzip(notGzip.getMessage()).write(response, callback);
         } else if (cause instanceof IOException || cause instanceof java.util.concurrent.TimeoutException) {
-            ledger.cut.increment();
+            ledger.timedOut.increment();
             callback.failed(cause);
         } else {
             LOG.error("a notification could not be processed because of a defect of the source; report it", cause);
@@ -151,7 +156,7 @@ public final class NotificationHandler extends Handler.Abstract.NonBlocking {
             reset(request, callback);
         } else {
             response.getHeaders().put(HttpHeader.CONNECTION, "close");
-            Answer.overload().write(response, callback);
+            NotificationResponse.overload().write(response, callback);
         }
     }
 

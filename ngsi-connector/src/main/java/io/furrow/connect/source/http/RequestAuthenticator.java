@@ -35,15 +35,15 @@ public final class RequestAuthenticator {
     }
 
     /** The answer to a request that is rejected; empty for an accepted one. The body need not have been read. */
-    Optional<Answer> refuse(UnaryOperator<String> requestHeader) {
+    Optional<NotificationResponse> refuse(UnaryOperator<String> requestHeader) {
         if (!secrets.isEmpty() && !knowsASecret(requestHeader.apply(header))) {
             ledger.unauthorized.increment();
-            return Optional.of(Answer.unauthorized());
+            return Optional.of(NotificationResponse.unauthorized());
         }
         if (!tenants.isEmpty()
                 && !tenants.contains(ReceivedNotification.scope(requestHeader).service())) {
             ledger.foreignTenant.increment();
-            return Optional.of(Answer.foreignTenant());
+            return Optional.of(NotificationResponse.foreignTenant());
         }
         return Optional.empty();
     }

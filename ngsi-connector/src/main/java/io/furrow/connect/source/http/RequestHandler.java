@@ -18,15 +18,15 @@ import org.eclipse.jetty.util.Callback;
 public final class RequestHandler extends Handler.Wrapper {
     private static final int INFLATE_BUFFER = 16 * 1024;
 
-    private final RequestAuthenticator gatekeeper;
+    private final RequestAuthenticator authenticator;
     private final Handler notifications;
-    private final PageHandler pages;
+    private final StatusHandler pages;
     private final int maxBody;
 
     /** @param maxBody bytes of a body that is read although its sender is rejected */
-    public RequestHandler(RequestAuthenticator gatekeeper, Handler notifications, PageHandler pages, int maxBody) {
+    public RequestHandler(RequestAuthenticator authenticator, Handler notifications, StatusHandler pages, int maxBody) {
         super(inflating(notifications));
-        this.gatekeeper = gatekeeper;
+        this.authenticator = authenticator;
         this.notifications = notifications;
         this.pages = pages;
         this.maxBody = maxBody;
@@ -45,7 +45,8 @@ public final class RequestHandler extends Handler.Wrapper {
         if (!HttpMethod.POST.is(request.getMethod())) {
             return pages.handle(request, response, callback);
         }
-        Optional<Answer> refused = gatekeeper.refuse(request.getHeaders()::get).or(() -> unknownEncoding(request));
+        Optional<NotificationResponse> refused =
+                authenticator.refuse(request.getHeaders()::get).or(() -> unknownEncoding(request));
         if (refused.isPresent()) {
             refuse(request, response, refused.get(), callback);
             return true;
@@ -59,18 +60,18 @@ public final class RequestHandler extends Handler.Wrapper {
         return request.getHeaders().get(HttpHeader.CONTENT_ENCODING);
     }
 
-    private static Optional<Answer> unknownEncoding(Request request) {
+    private static Optional<NotificationResponse> unknownEncoding(Request request) {
         String encoding = encoding(request);
         return encoding == null || encoding.equalsIgnoreCase("gzip")
                 ? Optional.empty()
-                : Optional.of(Answer.unknownEncoding());
+                : Optional.of(NotificationResponse.unknownEncoding());
     }
 
     /**
      * Reads and drops the body first: a sender that is still writing would see a closed connection instead of the
      * answer.
      */
-    private void refuse(Request request, Response response, Answer refusal, Callback callback) {
+    private void refuse(Request request, Response response, NotificationResponse refusal, Callback callback) {
         if (request.getLength() > maxBody) {
             response.getHeaders().put(HttpHeader.CONNECTION, "close");
             refusal.write(response, callback);

@@ -96,7 +96,7 @@ final class RequestTimeouts implements Connection.Listener {
             if (progress.isTooSlow(connection.getBytesIn(), now, allowedNanos)) {
                 open.remove(connection);
                 if (!progress.isHandled()) {
-                    ledger.cut.increment();
+                    ledger.timedOut.increment();
                 }
                 connection.getEndPoint().close(new java.util.concurrent.TimeoutException("the sender is too slow"));
             }

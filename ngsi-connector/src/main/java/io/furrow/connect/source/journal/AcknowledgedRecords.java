@@ -27,7 +27,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.connect.journal.Journal;
 import io.furrow.connect.journal.JournalReader;
 import io.furrow.connect.journal.JournalRecord;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.text.FailureText;
 
@@ -114,7 +114,7 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
 
     /** Empty for a record without id, or of a topic of before the configuration was changed. */
     private Optional<Event> event(JournalRecord kept) {
-        OutgoingRecord record = JournalRecordCodec.read(kept.payload());
+        KafkaRecord record = JournalRecordCodec.read(kept.payload());
         String id = record.headers().get(HeaderNames.CE_ID);
         String received = record.headers().get(HeaderNames.TS_SOURCE);
         return id == null || received == null || !topics.contains(record.topic())

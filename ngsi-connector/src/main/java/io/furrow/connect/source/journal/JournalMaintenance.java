@@ -14,13 +14,13 @@ import org.slf4j.LoggerFactory;
 public final class JournalMaintenance implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(JournalMaintenance.class);
 
-    private static final Duration RELEASE_EVERY = Duration.ofSeconds(1);
+    private static final Duration RELEASE_INTERVAL = Duration.ofSeconds(1);
     /** A worker that does not reach Kafka waits longer than this before it stops a task. */
-    private static final Duration AWAY_AFTER = Duration.ofMillis(2500);
+    private static final Duration UNAVAILABLE_AFTER = Duration.ofMillis(2500);
 
-    private static final Duration ADOPT_EVERY = Duration.ofSeconds(10);
+    private static final Duration ADOPT_INTERVAL = Duration.ofSeconds(10);
     private static final Duration FIRST_ADOPTION_BESIDE_OTHERS = Duration.ofSeconds(5);
-    private static final Duration STOP_WITHIN = Duration.ofSeconds(2);
+    private static final Duration STOP_TIMEOUT = Duration.ofSeconds(2);
 
     private final ScheduledExecutorService thread = Executors.newSingleThreadScheduledExecutor(work -> {
         Thread made = new Thread(work, "ngsi-source-journals");
@@ -30,12 +30,12 @@ public final class JournalMaintenance implements AutoCloseable {
 
     private final TaskJournals journals;
     private final LongSupplier nanoTime;
-    private volatile long lastAnswer;
+    private volatile long lastResponse;
 
     private JournalMaintenance(TaskJournals journals, LongSupplier nanoTime) {
         this.journals = journals;
         this.nanoTime = nanoTime;
-        this.lastAnswer = nanoTime.getAsLong();
+        this.lastResponse = nanoTime.getAsLong();
     }
 
     /** @param beside whether there are other tasks, which first open the journals that belong to them */
@@ -44,15 +44,15 @@ public final class JournalMaintenance implements AutoCloseable {
     }
 
     public static JournalMaintenance start(TaskJournals journals, boolean beside, LongSupplier nanoTime) {
-        JournalMaintenance keeper = new JournalMaintenance(journals, nanoTime);
-        keeper.every(RELEASE_EVERY, RELEASE_EVERY, keeper::release);
-        keeper.every(beside ? FIRST_ADOPTION_BESIDE_OTHERS : Duration.ZERO, ADOPT_EVERY, journals::adopt);
-        return keeper;
+        JournalMaintenance maintenance = new JournalMaintenance(journals, nanoTime);
+        maintenance.every(RELEASE_INTERVAL, RELEASE_INTERVAL, maintenance::release);
+        maintenance.every(beside ? FIRST_ADOPTION_BESIDE_OTHERS : Duration.ZERO, ADOPT_INTERVAL, journals::adopt);
+        return maintenance;
     }
 
     private void release() {
         journals.release();
-        lastAnswer = nanoTime.getAsLong();
+        lastResponse = nanoTime.getAsLong();
     }
 
     private void every(Duration first, Duration period, Runnable work) {
@@ -71,21 +71,21 @@ public final class JournalMaintenance implements AutoCloseable {
     }
 
     /** Whether Kafka has not answered recently. */
-    public boolean isKafkaAway() {
-        return nanoTime.getAsLong() - lastAnswer > AWAY_AFTER.toNanos();
+    public boolean isKafkaUnavailable() {
+        return nanoTime.getAsLong() - lastResponse > UNAVAILABLE_AFTER.toNanos();
     }
 
     /** Stops the maintenance; if Kafka answers, reads the committed offsets once more. */
     @Override
     public void close() {
-        if (!isKafkaAway()) {
+        if (!isKafkaUnavailable()) {
             thread.execute(() -> safely(this::release));
             thread.shutdown();
         } else {
             thread.shutdownNow();
         }
         try {
-            if (!thread.awaitTermination(STOP_WITHIN.toMillis(), TimeUnit.MILLISECONDS)) {
+            if (!thread.awaitTermination(STOP_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS)) {
                 thread.shutdownNow();
                 LOG.info("the offset store does not answer when the task stops; not waiting for it");
             }

@@ -10,7 +10,7 @@ import java.util.Arrays;
 import java.util.LinkedHashMap;
 import java.util.Map;
 
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 
 /**
  * Serializes a record for the journal. Version 1: the version (1 byte), the time in epoch milliseconds (8), topic, key,
@@ -20,14 +20,14 @@ import io.furrow.connect.record.OutgoingRecord;
 public final class JournalRecordCodec {
     private static final int VERSION = 1;
     /**
-     * Together with the overhead in {@link OutgoingRecord#bytes}, more than the version, the time and the remaining
+     * Together with the overhead in {@link KafkaRecord#bytes}, more than the version, the time and the remaining
      * lengths need.
      */
     private static final int ROOM_FOR_LENGTHS = 128;
 
     private JournalRecordCodec() {}
 
-    public static byte[] write(OutgoingRecord record) {
+    public static byte[] write(KafkaRecord record) {
         ByteBuffer out =
                 ByteBuffer.allocate((int) record.bytes() + record.topic().length() + ROOM_FOR_LENGTHS);
         out.put((byte) VERSION).putLong(record.time().toEpochMilli());
@@ -43,7 +43,7 @@ public final class JournalRecordCodec {
     }
 
     /** @throws IllegalArgumentException if the bytes have another version or are not a record */
-    public static OutgoingRecord read(byte[] bytes) {
+    public static KafkaRecord read(byte[] bytes) {
         try (DataInputStream in = new DataInputStream(new ByteArrayInputStream(bytes))) {
             int version = in.readByte();
             if (version != VERSION) {
@@ -60,7 +60,7 @@ public final class JournalRecordCodec {
             if (in.available() > 0) {
                 throw new IllegalArgumentException(in.available() + " bytes too many");
             }
-            return new OutgoingRecord(topic, key, value, time, headers);
+            return new KafkaRecord(topic, key, value, time, headers);
         } catch (IOException e) {
             throw new IllegalArgumentException("a record of version " + VERSION + " ends too early", e);
         }

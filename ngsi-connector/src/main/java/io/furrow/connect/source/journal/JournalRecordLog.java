@@ -8,7 +8,7 @@ import java.util.concurrent.CompletableFuture;
 import io.furrow.connect.journal.Journal;
 import io.furrow.connect.journal.JournalException;
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 
 /** Appends records to a journal; they are durable once they are on disk. */
 public final class JournalRecordLog implements RecordLog {
@@ -21,7 +21,7 @@ public final class JournalRecordLog implements RecordLog {
     }
 
     @Override
-    public Optional<CompletableFuture<Void>> take(List<OutgoingRecord> records) {
+    public Optional<CompletableFuture<Void>> take(List<KafkaRecord> records) {
         return append(records.stream().map(JournalRecordCodec::write).toList());
     }
 

@@ -4,7 +4,7 @@ import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 
 /** Accepts the records of notifications and reports when they are durable. */
 public interface RecordLog {
@@ -14,7 +14,7 @@ public interface RecordLog {
      * @return completed when every record is durable; failed with {@link NoRoomException} if the disk was full,
      *     with {@link ClosedException} if durability will no longer be known; empty if there is no room now
      */
-    Optional<CompletableFuture<Void>> take(List<OutgoingRecord> records);
+    Optional<CompletableFuture<Void>> take(List<KafkaRecord> records);
 
     /** The disk was full and nothing was appended. The same records may be appended again. */
     final class NoRoomException extends RuntimeException {

@@ -61,7 +61,7 @@ public final class TaskJournals implements AutoCloseable {
     private final JournalFolders folders;
     private final Safety safety;
     private final Ledger ledger;
-    private final LeftRecords left;
+    private final UndeliveredRecords left;
     private volatile Committed committed;
     private volatile JournalConsumer own;
     private final List<JournalConsumer> adopted = new CopyOnWriteArrayList<>();
@@ -76,7 +76,7 @@ public final class TaskJournals implements AutoCloseable {
         this.safety = safety;
         this.committed = committed;
         this.ledger = ledger;
-        this.left = LeftRecords.of(folders.owner());
+        this.left = UndeliveredRecords.of(folders.owner());
         this.own = openOwn(slot);
         ledger.gauge("pending", "Records on disk that Kafka has not acknowledged", this::pending);
         ledger.gauge("journalBytes", "Bytes on disk of the journals", this::bytes);

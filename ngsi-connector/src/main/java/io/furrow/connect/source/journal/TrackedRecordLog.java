@@ -6,9 +6,9 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 
-import io.furrow.connect.record.OutgoingRecord;
-import io.furrow.connect.repair.EntityRecord;
-import io.furrow.connect.repair.LiveEvents;
+import io.furrow.connect.record.KafkaRecord;
+import io.furrow.connect.repair.RecordTracker;
+import io.furrow.connect.repair.TrackedRecord;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 
@@ -22,22 +22,22 @@ public final class TrackedRecordLog implements RecordLog {
         void note(String identity, boolean gone);
     }
 
-    private final JournalRecordLog intake;
-    private final LiveEvents live;
+    private final JournalRecordLog recordLog;
+    private final RecordTracker live;
     private final Entities entities;
 
-    public TrackedRecordLog(JournalRecordLog intake, LiveEvents live, Entities entities) {
-        this.intake = intake;
+    public TrackedRecordLog(JournalRecordLog recordLog, RecordTracker live, Entities entities) {
+        this.recordLog = recordLog;
         this.live = live;
         this.entities = entities;
     }
 
     @Override
-    public Optional<CompletableFuture<Void>> take(List<OutgoingRecord> records) {
+    public Optional<CompletableFuture<Void>> take(List<KafkaRecord> records) {
         String subscription = "";
-        List<OutgoingRecord> events = new ArrayList<>(records.size());
-        List<EntityRecord> covered = new ArrayList<>(records.size());
-        for (OutgoingRecord record : records) {
+        List<KafkaRecord> events = new ArrayList<>(records.size());
+        List<TrackedRecord> covered = new ArrayList<>(records.size());
+        for (KafkaRecord record : records) {
             if (record.version() != null) {
                 FiwareScope scope = scope(record.headers());
                 subscription = subscription(record.headers());
@@ -48,23 +48,23 @@ public final class TrackedRecordLog implements RecordLog {
             }
         }
         List<byte[]> payloads = records.stream().map(JournalRecordCodec::write).toList();
-        return live.append(subscription, covered, () -> intake.append(payloads))
+        return live.append(subscription, covered, () -> recordLog.append(payloads))
                 .map(durable -> durable.thenRun(() -> events.forEach(this::note)));
     }
 
-    private void note(OutgoingRecord record) {
+    private void note(KafkaRecord record) {
         entities.note(identity(record), record.value() == null);
     }
 
-    private static EntityRecord entity(OutgoingRecord record) {
-        return new EntityRecord(
+    private static TrackedRecord entity(KafkaRecord record) {
+        return new TrackedRecord(
                 identity(record),
                 record.headers().get(HeaderNames.CE_ID),
                 record.version().modified(),
                 record.value() == null);
     }
 
-    private static String identity(OutgoingRecord record) {
+    private static String identity(KafkaRecord record) {
         return scope(record.headers()).identity(record.version().type(), record.key());
     }
 

@@ -9,7 +9,7 @@ import java.util.function.Consumer;
 import java.util.regex.Pattern;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.repair.EntityVersion;
 import io.furrow.connect.source.notification.Translation.Refusal;
 import io.furrow.connect.source.option.JournalOptions;
@@ -65,8 +65,8 @@ public final class NotificationTranslator {
     private final NotificationRules rules;
     private final Ledger ledger;
     private final Consumer<String> arrived;
-    private final ClockReport clocks = new ClockReport();
-    private final UndatedReport undated = new UndatedReport();
+    private final ClockWarning clocks = new ClockWarning();
+    private final UndatedWarning undated = new UndatedWarning();
 
     public NotificationTranslator(Settings settings, Ledger ledger) {
         this(settings, ledger, subscription -> {});
@@ -107,7 +107,7 @@ public final class NotificationTranslator {
     private Translation translate(Notification notification, ReceivedNotification received) {
         String source = rules.source(notification);
         notification.subscriptionId().ifPresent(arrived);
-        List<OutgoingRecord> records = new ArrayList<>();
+        List<KafkaRecord> records = new ArrayList<>();
         for (int i = 0; i < notification.entities().size(); i++) {
             Entity entity = notification.entities().get(i);
             if (!rules.excludes(entity)) {
@@ -134,7 +134,7 @@ public final class NotificationTranslator {
         return new Translation(records, refusalOf(notification));
     }
 
-    private boolean areTooLarge(List<OutgoingRecord> records, ReceivedNotification received) {
+    private boolean areTooLarge(List<KafkaRecord> records, ReceivedNotification received) {
         long most = settings.maxNotificationBytes();
         return (long) received.body().length * LARGEST_GROWTH > most
                 && records.stream()
@@ -143,10 +143,10 @@ public final class NotificationTranslator {
                         > most;
     }
 
-    private void count(Notification notification, List<OutgoingRecord> records) {
+    private void count(Notification notification, List<KafkaRecord> records) {
         int received = notification.entities().size() + notification.rejected().size();
         int dead = 0;
-        for (OutgoingRecord record : records) {
+        for (KafkaRecord record : records) {
             dead += record.topic().equals(settings.deadLetterTopic()) ? 1 : 0;
         }
         ledger.received.add(received);
@@ -155,9 +155,9 @@ public final class NotificationTranslator {
         ledger.accepted.add(records.size() - dead);
     }
 
-    private OutgoingRecord translate(Entity entity, FiwareScope scope, String source, ReceivedNotification received) {
+    private KafkaRecord translate(Entity entity, FiwareScope scope, String source, ReceivedNotification received) {
         EntityRecord translated = rules.record(entity, scope, received.at(), source);
-        OutgoingRecord record = new OutgoingRecord(
+        KafkaRecord record = new KafkaRecord(
                 settings.topic(),
                 translated.key(),
                 translated.value(),
@@ -206,13 +206,13 @@ public final class NotificationTranslator {
         return new Translation(List.of(deadLetter(received.body(), refusal, received)), Optional.of(refusal));
     }
 
-    private OutgoingRecord deadLetter(byte[] original, Refusal refusal, ReceivedNotification received) {
+    private KafkaRecord deadLetter(byte[] original, Refusal refusal, ReceivedNotification received) {
         int room = settings.maxRecordBytes() - HEADERS_AT_MOST;
         boolean fits = original.length <= room;
         String message = shortened(refusal.message()) + (fits ? "" : " (truncated to " + room + " bytes)");
         DeadLetter letter = new DeadLetter(refusal.reason(), message, STAGE, shortened(received.sender()));
         byte[] value = fits ? original : Arrays.copyOf(original, room);
-        return new OutgoingRecord(settings.deadLetterTopic(), null, value, received.at(), letter.headers());
+        return new KafkaRecord(settings.deadLetterTopic(), null, value, received.at(), letter.headers());
     }
 
     private static String shortened(String text) {

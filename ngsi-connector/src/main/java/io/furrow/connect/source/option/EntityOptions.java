@@ -21,7 +21,7 @@ public record EntityOptions(AbstractConfig config) {
     static final String EVENT_TIME = "event.time";
 
     private static final String DEFAULT_TIMES =
-            EventTimeRule.DEFAULT_ORDER.stream().map(EventTimeRule.Source::word).collect(Collectors.joining(","));
+            EventTimeRule.DEFAULT_ORDER.stream().map(EventTimeRule.Source::code).collect(Collectors.joining(","));
     private static final long HOUR = Duration.ofHours(1).toMillis();
 
     public static void define(ConfigDef options) {

@@ -15,8 +15,8 @@ import org.apache.kafka.common.config.ConfigException;
 import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
 import io.furrow.connect.broker.BrokerOptions;
-import io.furrow.connect.subscription.Content;
-import io.furrow.connect.subscription.DesiredSubscription.Pace;
+import io.furrow.connect.subscription.DesiredSubscription.Throttling;
+import io.furrow.connect.subscription.NotificationContent;
 import io.furrow.connect.subscription.Subject;
 
 /** Options for the subscriptions that the source creates and manages. */
@@ -253,7 +253,7 @@ public record SubscriptionOptions(AbstractConfig config) {
                 config.getList(ALTERATION_TYPES));
     }
 
-    public Content content() {
+    public NotificationContent content() {
         List<String> attrs = new java.util.ArrayList<>(config.getList(ATTRS));
         if (config.getList(ALTERATION_TYPES).contains(DELETED) && !attrs.contains(ALTERATION)) {
             if (attrs.isEmpty()) {
@@ -261,12 +261,12 @@ public record SubscriptionOptions(AbstractConfig config) {
             }
             attrs.add(ALTERATION);
         }
-        return new Content(
+        return new NotificationContent(
                 attrs, config.getList(METADATA), config.getString(ATTRS_FORMAT), config.getBoolean(ONLY_CHANGED));
     }
 
-    public Pace pace() {
-        return new Pace(
+    public Throttling pace() {
+        return new Throttling(
                 Duration.ofSeconds(config.getLong(THROTTLING)),
                 Optional.of(Duration.ofMillis(config.getLong(EXPIRY))).filter(life -> !life.isZero()));
     }

@@ -12,7 +12,7 @@ import org.apache.kafka.connect.data.Struct;
 import org.apache.kafka.connect.header.Headers;
 
 import io.furrow.connect.record.EntityStruct;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
@@ -22,7 +22,7 @@ public enum ValueMode {
     /** JSON as bytes; a dead letter's original bytes. */
     BYTES {
         @Override
-        public SchemaAndValue of(OutgoingRecord record, Headers headers) {
+        public SchemaAndValue of(KafkaRecord record, Headers headers) {
             Schema schema = record.value() == null ? Schema.OPTIONAL_BYTES_SCHEMA : Schema.BYTES_SCHEMA;
             return new SchemaAndValue(schema, record.value());
         }
@@ -31,7 +31,7 @@ public enum ValueMode {
     /** JSON as text; a dead letter that is not UTF-8 is base64, marked by a header. */
     TEXT {
         @Override
-        public SchemaAndValue of(OutgoingRecord record, Headers headers) {
+        public SchemaAndValue of(KafkaRecord record, Headers headers) {
             if (record.value() == null) {
                 return SchemaAndValue.NULL;
             }
@@ -52,7 +52,7 @@ public enum ValueMode {
     /** An {@link EntityStruct}; a dead letter as a struct of its original bytes. */
     STRUCT {
         @Override
-        public SchemaAndValue of(OutgoingRecord record, Headers headers) {
+        public SchemaAndValue of(KafkaRecord record, Headers headers) {
             if (record.value() == null) {
                 return SchemaAndValue.NULL;
             }
@@ -81,5 +81,5 @@ public enum ValueMode {
      * @param headers may receive one more
      * @throws IllegalArgumentException if the record's value is neither an entity nor a dead letter
      */
-    public abstract SchemaAndValue of(OutgoingRecord record, Headers headers);
+    public abstract SchemaAndValue of(KafkaRecord record, Headers headers);
 }

@@ -14,8 +14,8 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.connect.broker.Script;
 import io.furrow.connect.broker.ScriptedBroker;
 import io.furrow.connect.broker.ScriptedBroker.Exchange;
-import io.furrow.connect.sink.api.ContextWriter.Fates;
-import io.furrow.connect.sink.api.ContextWriter.RefusedChange;
+import io.furrow.connect.sink.api.ContextWriter.ChangeResults;
+import io.furrow.connect.sink.api.ContextWriter.RejectedChange;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
@@ -31,7 +31,7 @@ public final class FuzzAnswers {
     private static final int TRIES = 3;
     private static final int MAX_WORDS_LENGTH = 7000;
     private static final long MAX_ANSWER = 1 << 16;
-    private static final List<Change> DELIVERY = delivery();
+    private static final List<EntityChange> DELIVERY = delivery();
 
     private FuzzAnswers() {}
 
@@ -61,7 +61,7 @@ public final class FuzzAnswers {
                 try {
                     check(writer.apply(DELIVERY), broker.exchanges(), isLd);
                     return;
-                } catch (BrokerAwayException putOff) {
+                } catch (BrokerUnavailableException putOff) {
                     requireLine(putOff.getMessage());
                 } catch (WrongSettingException failed) {
                     requireLine(failed.getMessage());
@@ -71,14 +71,14 @@ public final class FuzzAnswers {
         }
     }
 
-    private static List<Change> delivery() {
-        List<Change> changes = new ArrayList<>();
+    private static List<EntityChange> delivery() {
+        List<EntityChange> changes = new ArrayList<>();
         for (String id : List.of("urn:x:u0", "urn:x:u1", "urn:x:u2", "urn:x:u3", "urn:x:u4", "urn:x:u0")) {
             Entity entity = Entity.builder(id, "T").integer("x", changes.size()).build();
-            changes.add(new Change(new EntityKey(SCOPE, id), entity, 1_000 + changes.size(), changes.size()));
+            changes.add(new EntityChange(new EntityKey(SCOPE, id), entity, 1_000 + changes.size(), changes.size()));
         }
         for (String id : List.of("urn:x:d0", "urn:x:d1", "urn:x:d2")) {
-            changes.add(new Change(new EntityKey(SCOPE, id), null, 1_000 + changes.size(), changes.size()));
+            changes.add(new EntityChange(new EntityKey(SCOPE, id), null, 1_000 + changes.size(), changes.size()));
         }
         return List.copyOf(changes);
     }
@@ -87,14 +87,19 @@ public final class FuzzAnswers {
         return method.equals("GET") || path.startsWith("/v2/op/query");
     }
 
-    private static void check(Fates fates, List<Exchange> exchanges, boolean isLd) {
+    private static void check(ChangeResults changeResults, List<Exchange> exchanges, boolean isLd) {
         require(
-                fates.written + fates.coalesced + fates.stale + fates.deleted + fates.refused.size() == DELIVERY.size(),
+                changeResults.written
+                                + changeResults.coalesced
+                                + changeResults.stale
+                                + changeResults.deleted
+                                + changeResults.refused.size()
+                        == DELIVERY.size(),
                 "the fates are not as many as the changes");
         Set<String> settled = new HashSet<>();
-        for (RefusedChange refused : fates.refused) {
+        for (RejectedChange refused : changeResults.refused) {
             requireLine(refused.words());
-            settled.add(refused.change().key().id());
+            settled.add(refused.entityChange().key().id());
         }
         Set<String> tried = new HashSet<>();
         for (Exchange exchange : exchanges) {
@@ -109,9 +114,10 @@ public final class FuzzAnswers {
                 ids.stream().filter(id -> id.contains("d")).forEach(tried::add);
             }
         }
-        if (fates.stale == 0) {
-            DELIVERY.forEach(change ->
-                    require(settled.contains(change.key().id()), change.key().id() + " was confirmed by no answer"));
+        if (changeResults.stale == 0) {
+            DELIVERY.forEach(entityChange -> require(
+                    settled.contains(entityChange.key().id()),
+                    entityChange.key().id() + " was confirmed by no answer"));
         }
     }
 

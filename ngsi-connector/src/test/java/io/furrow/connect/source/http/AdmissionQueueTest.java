@@ -12,7 +12,7 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -22,13 +22,13 @@ class AdmissionQueueTest {
     private static final CompletableFuture<Void> DURABLE = CompletableFuture.completedFuture(null);
 
     private final Ledger ledger = new Ledger();
-    private final AdmissionQueue deliveries = new AdmissionQueue(this::take, ledger);
+    private final AdmissionQueue admissionQueue = new AdmissionQueue(this::take, ledger);
     private volatile boolean room;
     private volatile boolean broken;
 
     @AfterEach
     void close() {
-        deliveries.close();
+        admissionQueue.close();
     }
 
     @Test
@@ -48,10 +48,10 @@ class AdmissionQueueTest {
 
         assertThat(third).succeedsWithin(MINUTE);
         assertThat(deliver("fourth")).succeedsWithin(MINUTE);
-        assertThat(ledger.turnedAway.sum()).isEqualTo(2);
+        assertThat(ledger.rejectedUnavailable.sum()).isEqualTo(2);
         await("nobody waits any more").until(() -> {
-            long held = ledger.held.sum();
-            return deliver("fifth").isDone() && ledger.held.sum() == held;
+            long held = ledger.delayed.sum();
+            return deliver("fifth").isDone() && ledger.delayed.sum() == held;
         });
     }
 
@@ -61,10 +61,10 @@ class AdmissionQueueTest {
         broken = true;
 
         assertThat(deliver("first")).failsWithin(MINUTE);
-        assertThat(ledger.turnedAway.sum()).isEqualTo(1);
+        assertThat(ledger.rejectedUnavailable.sum()).isEqualTo(1);
     }
 
-    private Optional<CompletableFuture<Void>> take(List<OutgoingRecord> records) {
+    private Optional<CompletableFuture<Void>> take(List<KafkaRecord> records) {
         if (broken) {
             throw new LinkageError("thrown by a test");
         }
@@ -72,7 +72,7 @@ class AdmissionQueueTest {
     }
 
     private CompletableFuture<Void> deliver(String key) {
-        OutgoingRecord record = new OutgoingRecord("raw", key, new byte[1], Instant.EPOCH, Map.of());
-        return deliveries.deliver(List.of(record), System.nanoTime() + MINUTE.toNanos());
+        KafkaRecord record = new KafkaRecord("raw", key, new byte[1], Instant.EPOCH, Map.of());
+        return admissionQueue.deliver(List.of(record), System.nanoTime() + MINUTE.toNanos());
     }
 }

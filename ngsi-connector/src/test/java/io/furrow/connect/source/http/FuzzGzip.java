@@ -19,7 +19,7 @@ import org.eclipse.jetty.util.component.LifeCycle;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.NgsiSourceConfig;
 import io.furrow.connect.source.journal.RecordLog;
 import io.furrow.connect.source.notification.NotificationTranslator;
@@ -36,7 +36,7 @@ public final class FuzzGzip {
     private static final int CHUNK = 7;
     private static final long TIMEOUT_SECONDS = 60;
 
-    private final ConcurrentLinkedQueue<OutgoingRecord> taken = new ConcurrentLinkedQueue<>();
+    private final ConcurrentLinkedQueue<KafkaRecord> taken = new ConcurrentLinkedQueue<>();
     private final Ledger ledger = new Ledger();
     private final Server server;
     private final LocalConnector connector;
@@ -45,14 +45,14 @@ public final class FuzzGzip {
 
     private static FuzzGzip open;
 
-    private record Outcome(int status, List<OutgoingRecord> records) {
+    private record Outcome(int status, List<KafkaRecord> records) {
         boolean isSame(Outcome other) {
             if (status != other.status || records.size() != other.records.size()) {
                 return false;
             }
             for (int i = 0; i < records.size(); i++) {
-                OutgoingRecord one = records.get(i);
-                OutgoingRecord two = other.records.get(i);
+                KafkaRecord one = records.get(i);
+                KafkaRecord two = other.records.get(i);
                 if (!one.topic().equals(two.topic())
                         || !java.util.Objects.equals(one.key(), two.key())
                         || !Arrays.equals(one.value(), two.value())) {
@@ -68,7 +68,7 @@ public final class FuzzGzip {
         QueuedThreadPool threads = NotificationServer.threads();
         bodies = new ByteBudget(4 * MAX_BODY, threads);
         translations = new ByteBudget(64L * 1024 * 1024, threads);
-        RecordLog intake = records -> {
+        RecordLog recordLog = records -> {
             taken.addAll(records);
             return Optional.of(CompletableFuture.completedFuture(null));
         };
@@ -77,11 +77,11 @@ public final class FuzzGzip {
                 new RequestAuthenticator(config.security(), ledger),
                 new NotificationHandler(
                         new NotificationTranslator(config.translation(), ledger),
-                        new AdmissionQueue(intake, ledger),
+                        new AdmissionQueue(recordLog, ledger),
                         ledger,
                         new NotificationHandler.Limits(
                                 MAX_BODY, bodies, translations, TimeUnit.SECONDS.toNanos(TIMEOUT_SECONDS), false)),
-                new PageHandler(Map.of()),
+                new StatusHandler(Map.of()),
                 MAX_BODY));
         connector = new LocalConnector(server);
         server.addConnector(connector);

@@ -10,9 +10,9 @@ import org.apache.kafka.connect.errors.ConnectException;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.NotificationEndpoint;
-import io.furrow.connect.source.ReceptionRig;
+import io.furrow.connect.source.NotificationRig;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -21,7 +21,7 @@ import static org.awaitility.Awaitility.await;
 class NotificationServerTest {
     private static final int MAX_BODY = 100_000;
 
-    private final ReceptionRig rig = new ReceptionRig("max.body.bytes", Integer.toString(MAX_BODY));
+    private final NotificationRig rig = new NotificationRig("max.body.bytes", Integer.toString(MAX_BODY));
 
     @AfterEach
     void stop() {
@@ -31,11 +31,11 @@ class NotificationServerTest {
     @Test
     void answersOnlyWhenTheRecordsAreDurable() {
         CompletableFuture<Void> durable = new CompletableFuture<>();
-        rig.intake.answer = Optional.of(durable);
+        rig.recordLog.answer = Optional.of(durable);
 
         CompletableFuture<HttpResponse<String>> answer =
                 rig.post("/any/path", BodyPublishers.ofString("{\"id\": \"a\"}"));
-        await().until(() -> rig.intake.taken.size() == 1);
+        await().until(() -> rig.recordLog.taken.size() == 1);
         assertThat(answer).isNotDone();
         durable.complete(null);
 
@@ -50,7 +50,7 @@ class NotificationServerTest {
         assertThat(answer.statusCode()).isEqualTo(400);
         assertThat(answer.headers().firstValue("Content-Type")).contains("application/json");
         assertThat(answer.body()).startsWith("{\"error\":\"not-json\",\"description\":\"");
-        OutgoingRecord dead = rig.intake.taken.remove().get(0);
+        KafkaRecord dead = rig.recordLog.taken.remove().get(0);
         assertThat(dead.topic()).isEqualTo("data.raw.dead");
         assertThat(dead.value()).isEqualTo("<xml/>".getBytes());
     }
@@ -61,7 +61,7 @@ class NotificationServerTest {
                 .join();
 
         assertThat(answer.statusCode()).isEqualTo(413);
-        assertThat(rig.intake.taken.remove().get(0).value()).hasSize(MAX_BODY);
+        assertThat(rig.recordLog.taken.remove().get(0).value()).hasSize(MAX_BODY);
         assertThat(rig.post("{\"id\": \"a\"}").join().statusCode()).isEqualTo(200);
     }
 
@@ -95,7 +95,7 @@ class NotificationServerTest {
 
         assertThat(answer.statusCode()).isEqualTo(405);
         assertThat(answer.headers().firstValue("Allow")).contains("GET, HEAD, POST");
-        assertThat(rig.intake.taken).isEmpty();
+        assertThat(rig.recordLog.taken).isEmpty();
     }
 
     @Test
@@ -111,7 +111,7 @@ class NotificationServerTest {
         rig.post("/", BodyPublishers.ofString("{\"id\": \"a\"}"), "NGSILD-Tenant", "Farm")
                 .join();
 
-        assertThat(rig.intake.taken.remove().get(0).headers()).containsEntry("fiware-service", "farm");
+        assertThat(rig.recordLog.taken.remove().get(0).headers()).containsEntry("fiware-service", "farm");
     }
 
     @Test

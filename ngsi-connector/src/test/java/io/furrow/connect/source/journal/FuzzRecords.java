@@ -2,7 +2,7 @@ package io.furrow.connect.source.journal;
 
 import java.util.Arrays;
 
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 
 /** What a fuzzer throws at the reading of a journal's payloads: it is a record, written again as the same, or refused. */
 public final class FuzzRecords {
@@ -15,13 +15,13 @@ public final class FuzzRecords {
 
     /** One payload; throws whatever is wrong. */
     public static void fuzzerTestOneInput(byte[] payload) {
-        OutgoingRecord record;
+        KafkaRecord record;
         try {
             record = JournalRecordCodec.read(payload);
         } catch (IllegalArgumentException refused) {
             return;
         }
-        OutgoingRecord again = JournalRecordCodec.read(JournalRecordCodec.write(record));
+        KafkaRecord again = JournalRecordCodec.read(JournalRecordCodec.write(record));
         if (!again.headers().equals(record.headers()) || !Arrays.equals(again.value(), record.value())) {
             throw new IllegalStateException("read differently the second time");
         }

@@ -28,8 +28,8 @@ class JournalMaintenanceTest {
         JournalSettings settings = JournalSettings.of(64 * 1024 * 1024, 1024 * 1024, 0);
         JournalFolders folders = new JournalFolders(directory, "asked", settings);
         try (TaskJournals journals = new TaskJournals(folders, 0, committed, TaskJournals.Safety.NONE, new Ledger());
-                JournalMaintenance keeper = JournalMaintenance.start(journals, true)) {
-            SourceOnConnect.await().until(() -> asked.get() > 3 && !keeper.isKafkaAway());
+                JournalMaintenance maintenance = JournalMaintenance.start(journals, true)) {
+            SourceOnConnect.await().until(() -> asked.get() > 3 && !maintenance.isKafkaUnavailable());
         }
     }
 }

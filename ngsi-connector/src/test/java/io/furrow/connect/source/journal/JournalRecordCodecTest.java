@@ -7,13 +7,13 @@ import java.util.Map;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class JournalRecordCodecTest {
-    private static final OutgoingRecord FULL = new OutgoingRecord(
+    private static final KafkaRecord FULL = new KafkaRecord(
             "data.raw", "urn:ä", new byte[] {1, 2, 3}, Instant.ofEpochMilli(1_700_000_000_123L), headers());
 
     private static Map<String, String> headers() {
@@ -33,7 +33,7 @@ class JournalRecordCodecTest {
                         .keySet())
                 .containsExactly("z", "a");
 
-        OutgoingRecord bare = new OutgoingRecord("t", null, null, Instant.EPOCH, Map.of());
+        KafkaRecord bare = new KafkaRecord("t", null, null, Instant.EPOCH, Map.of());
         assertThat(JournalRecordCodec.read(JournalRecordCodec.write(bare)))
                 .usingRecursiveComparison()
                 .isEqualTo(bare);
@@ -41,7 +41,7 @@ class JournalRecordCodecTest {
 
     @Test
     void hasTheBytesOfVersionOne() {
-        OutgoingRecord record = new OutgoingRecord("t", "k", new byte[] {7}, Instant.ofEpochMilli(2), Map.of("h", "v"));
+        KafkaRecord record = new KafkaRecord("t", "k", new byte[] {7}, Instant.ofEpochMilli(2), Map.of("h", "v"));
         assertThat(JournalRecordCodec.write(record))
                 .containsExactly(
                         1, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 1, 't', 0, 0, 0, 1, 'k', 0, 0, 0, 1, 0, 0, 0, 1, 'h', 0, 0,
@@ -67,7 +67,7 @@ class JournalRecordCodecTest {
 
     @Test
     void refusesAHeaderWithoutANameOrAValue() {
-        OutgoingRecord record = new OutgoingRecord("t", null, null, Instant.EPOCH, Map.of("", ""));
+        KafkaRecord record = new KafkaRecord("t", null, null, Instant.EPOCH, Map.of("", ""));
         for (int fromEnd : new int[] {12, 8}) {
             byte[] bytes = JournalRecordCodec.write(record);
             Arrays.fill(bytes, bytes.length - fromEnd, bytes.length - fromEnd + 4, (byte) -1);

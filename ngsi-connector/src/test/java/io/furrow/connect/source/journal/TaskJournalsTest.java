@@ -17,7 +17,7 @@ import io.furrow.connect.journal.JournalFolders;
 import io.furrow.connect.journal.JournalRecord;
 import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.NgsiSourceConnector;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -170,7 +170,7 @@ class TaskJournalsTest {
         String id;
         try (TaskJournals journals = open(0)) {
             id = journals.own().id();
-            OutgoingRecord large = new OutgoingRecord("raw", "key", new byte[3_000_000], Instant.EPOCH, Map.of());
+            KafkaRecord large = new KafkaRecord("raw", "key", new byte[3_000_000], Instant.EPOCH, Map.of());
             for (int i = 0; i < 4; i++) {
                 new JournalRecordLog(journals.own(), ledger)
                         .take(List.of(large))
@@ -268,7 +268,7 @@ class TaskJournalsTest {
     }
 
     private void take(TaskJournals journals, int records) {
-        OutgoingRecord record = new OutgoingRecord("raw", "key", new byte[10], Instant.EPOCH, Map.of());
+        KafkaRecord record = new KafkaRecord("raw", "key", new byte[10], Instant.EPOCH, Map.of());
         for (int i = 0; i < records; i++) {
             new JournalRecordLog(journals.own(), ledger)
                     .take(List.of(record))

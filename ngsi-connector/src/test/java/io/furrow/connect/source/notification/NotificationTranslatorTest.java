@@ -10,7 +10,7 @@ import java.util.regex.Pattern;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.record.OutgoingRecord;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
@@ -53,9 +53,9 @@ class NotificationTranslatorTest {
                  {"id": "b", "type": "T", "x": 2}]}""");
 
         assertThat(translation.refusal()).isEmpty();
-        assertThat(translation.records()).extracting(OutgoingRecord::key).containsExactly("a", "b");
-        assertThat(translation.records()).extracting(OutgoingRecord::topic).containsOnly("raw");
-        OutgoingRecord first = translation.records().get(0);
+        assertThat(translation.records()).extracting(KafkaRecord::key).containsExactly("a", "b");
+        assertThat(translation.records()).extracting(KafkaRecord::topic).containsOnly("raw");
+        KafkaRecord first = translation.records().get(0);
         assertThat(first.time()).isEqualTo("2026-11-21T01:59:00Z");
         assertThat(text(first)).contains("\"x\":{\"type\":\"Number\",\"value\":1,\"metadata\":{}}");
         assertThat(first.headers())
@@ -86,7 +86,7 @@ class NotificationTranslatorTest {
                 {"data": [{"id": "a", "type": "Analytics:Collision"}, {"id": "b", "type": "Domain"},
                  {"id": "c", "type": "DomainX"}]}""");
 
-        assertThat(translation.records()).extracting(OutgoingRecord::key).containsExactly("c");
+        assertThat(translation.records()).extracting(KafkaRecord::key).containsExactly("c");
         assertThat(translation.refusal()).isEmpty();
         assertThat(ledger.excluded.sum()).isEqualTo(2);
     }
@@ -98,12 +98,12 @@ class NotificationTranslatorTest {
 
         assertThat(translation.refusal()).isEmpty();
         assertThat(translation.records())
-                .extracting(OutgoingRecord::topic, OutgoingRecord::key)
+                .extracting(KafkaRecord::topic, KafkaRecord::key)
                 .containsExactly(
                         org.assertj.core.groups.Tuple.tuple("raw", "a"),
                         org.assertj.core.groups.Tuple.tuple("raw", "c"),
                         org.assertj.core.groups.Tuple.tuple("raw.dead", null));
-        OutgoingRecord dead = translation.records().get(2);
+        KafkaRecord dead = translation.records().get(2);
         assertThat(text(dead)).isEqualTo("{\"type\":\"T\",\"x\":7}");
         assertThat(dead.headers())
                 .containsEntry(DeadLetter.REASON, "not-an-entity")
@@ -147,8 +147,8 @@ class NotificationTranslatorTest {
         Translation translation =
                 translate("{\"data\": [{\"id\": \"a\"}, {\"id\": \"b\", \"image\": \"" + large + "\"}]}");
 
-        assertThat(translation.records()).extracting(OutgoingRecord::topic).containsExactly("raw", "raw.dead");
-        OutgoingRecord dead = translation.records().get(1);
+        assertThat(translation.records()).extracting(KafkaRecord::topic).containsExactly("raw", "raw.dead");
+        KafkaRecord dead = translation.records().get(1);
         assertThat(dead.bytes()).isLessThanOrEqualTo(RECORD_LIMIT);
         assertThat(dead.headers())
                 .containsEntry(DeadLetter.REASON, "too-large")
@@ -224,7 +224,7 @@ class NotificationTranslatorTest {
         return text.getBytes(StandardCharsets.UTF_8);
     }
 
-    private static String text(OutgoingRecord record) {
+    private static String text(KafkaRecord record) {
         return new String(record.value(), StandardCharsets.UTF_8);
     }
 }

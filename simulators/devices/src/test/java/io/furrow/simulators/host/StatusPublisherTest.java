@@ -19,7 +19,7 @@ class StatusPublisherTest {
                             .formatted(
                                     key,
                                     status.sequence(),
-                                    status.state().word(),
+                                    status.state().code(),
                                     status.reason() == null ? "" : ": " + status.reason())));
 
     @Test

@@ -24,7 +24,7 @@ import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.field.ImportOptions;
 import io.furrow.model.field.ImportedField;
-import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.field.InvalidFileException;
 
 /** {@code ./furrow fields import}. */
 @Command(
@@ -119,7 +119,7 @@ final class FieldsImportCommand implements Callable<Integer> {
     private FieldFile read() {
         try {
             return FieldFiles.read(file, new ImportOptions(layer, crs, idProperty, nameProperty, domain, validFrom));
-        } catch (UnusableFileException e) {
+        } catch (InvalidFileException e) {
             throw new CommandException(e.getMessage(), e);
         }
     }

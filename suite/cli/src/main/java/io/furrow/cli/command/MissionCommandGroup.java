@@ -24,7 +24,7 @@ import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.mission.archive.MissionArchive;
 import io.furrow.mission.archive.MissionFiles;
 import io.furrow.mission.archive.StoredMissions;
-import io.furrow.mission.export.Exported;
+import io.furrow.mission.export.ExportResult;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.text.Counts;
 import io.furrow.model.text.FailureText;
@@ -108,7 +108,7 @@ public final class MissionCommandGroup extends MissionControl {
                 return;
             }
             ExportFormat.Source source = new ExportFormat.Source(missions, store.mongo, mission);
-            Exported[] done = new Exported[1];
+            ExportResult[] done = new ExportResult[1];
             MissionFiles.write(new Path(file), out -> {
                 done[0] = format.write(source, out, told("exported"));
                 return done[0].events();

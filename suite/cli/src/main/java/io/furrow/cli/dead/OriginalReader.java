@@ -14,7 +14,7 @@ import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.header.Header;
 
 import io.furrow.model.event.DeadLetter;
-import io.furrow.model.event.Original;
+import io.furrow.model.event.OriginalReference;
 
 /** Reads the records that dead letters stand for, from where these say they are. */
 final class OriginalReader implements AutoCloseable {
@@ -31,7 +31,7 @@ final class OriginalReader implements AutoCloseable {
      *
      * @throws IOException if Kafka does not answer
      */
-    Optional<ConsumerRecord<byte[], byte[]>> find(Original original, ConsumerRecord<byte[], byte[]> deadLetter)
+    Optional<ConsumerRecord<byte[], byte[]>> find(OriginalReference original, ConsumerRecord<byte[], byte[]> deadLetter)
             throws IOException {
         TopicPartition partition = new TopicPartition(original.topic(), original.partition());
         List<PartitionInfo> existing = consumer.partitionsFor(original.topic(), Redrive.TIMEOUT);
@@ -42,7 +42,7 @@ final class OriginalReader implements AutoCloseable {
         long first =
                 consumer.beginningOffsets(List.of(partition), Redrive.TIMEOUT).get(partition);
         long end = consumer.endOffsets(List.of(partition), Redrive.TIMEOUT).get(partition);
-        if (original.offset() < first || original.offset() >= end) {
+        if (originalReference.offset() < first || originalReference.offset() >= end) {
             return Optional.empty();
         }
         consumer.seek(partition, original.offset());

@@ -24,7 +24,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.model.event.DeadLetter;
-import io.furrow.model.event.Original;
+import io.furrow.model.event.OriginalReference;
 
 /**
  * Sends dead letters to a topic again, as they were: key, bytes, time and headers, without those that say why they
@@ -194,8 +194,8 @@ public final class Redrive {
     /** The letter itself, or the record that it stands for; empty, and counted as left, where neither is whole. */
     private Optional<ConsumerRecord<byte[], byte[]>> original(ConsumerRecord<byte[], byte[]> deadLetter)
             throws IOException {
-        Optional<Original> elsewhere =
-                Original.of(header(deadLetter, Original.POSITION), header(deadLetter, Original.BYTES));
+        Optional<OriginalReference> elsewhere =
+                OriginalReference.of(header(deadLetter, OriginalReference.POSITION), header(deadLetter, OriginalReference.BYTES));
         if (elsewhere.isPresent()) {
             Optional<ConsumerRecord<byte[], byte[]>> found = originals.find(elsewhere.get(), deadLetter);
             if (found.isEmpty()) {

@@ -19,7 +19,7 @@ import io.furrow.kafka.field.FieldChange;
 import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.field.ImportedField;
-import io.furrow.model.field.RefusedFeature;
+import io.furrow.model.field.RejectedFeature;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** What an import did, field by field, and what it did not; lists of fields too. */
@@ -87,7 +87,7 @@ public final class FieldReport {
                         .put("notes", nullIfEmpty(String.join("; ", field.notes())));
             }
         }
-        for (RefusedFeature refused : file.refused()) {
+        for (RejectedFeature refused : file.refused()) {
             rows.addObject()
                     .put("change", "REFUSED")
                     .put("id", nullIfEmpty(refused.id()))

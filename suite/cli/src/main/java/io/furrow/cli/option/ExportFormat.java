@@ -9,10 +9,10 @@ import java.util.function.LongConsumer;
 import org.apache.flink.core.fs.Path;
 
 import io.furrow.mission.Recording;
-import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.archive.MissionFiles;
 import io.furrow.mission.archive.StoredMissions;
-import io.furrow.mission.export.Exported;
+import io.furrow.mission.export.ExportResult;
 import io.furrow.mission.export.GeoJsonExport;
 import io.furrow.mission.export.McapExport;
 import io.furrow.mission.export.MissionExport;
@@ -42,15 +42,15 @@ public enum ExportFormat {
      */
     public record Source(StoredMissions missions, String mongo, String mission) {}
 
-    public Exported write(Source source, OutputStream out, LongConsumer progress) throws IOException {
+    public ExportResult write(Source source, OutputStream out, LongConsumer progress) throws IOException {
         if (export == null) {
-            return new Exported(source.missions().export(source.mission(), out, progress), 0, Optional.empty());
+            return new ExportResult(source.missions().export(source.mission(), out, progress), 0, Optional.empty());
         }
         MongoRecordings recordings = new MongoRecordings(source.mongo(), MongoAccess.DATABASE);
         try (Recording recording = recordings
                 .open(source.mission())
-                .orElseThrow(() ->
-                        new RecordingGoneException("Mission %s has just been deleted".formatted(source.mission())))) {
+                .orElseThrow(() -> new RecordingDeletedException(
+                        "Mission %s has just been deleted".formatted(source.mission())))) {
             MissionExport.Source mission = new MissionExport.Source(source.mission(), recording, markers(source));
             return export.write(mission, out, progress);
         }

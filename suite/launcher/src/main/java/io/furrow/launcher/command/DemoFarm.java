@@ -13,7 +13,7 @@ import io.furrow.cli.control.client.ControlPlaneException;
 import io.furrow.fiware.FiwareStandIn;
 import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.MissionTemplate;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The domains, templates and missions of the demonstration farm, made and started as anybody else makes his. */
@@ -68,7 +68,7 @@ public final class DemoFarm {
     private static MissionDevices devices(JsonNode template) {
         try {
             return MissionTemplate.read(NgsiJson.write(template)).devices();
-        } catch (RefusedException e) {
+        } catch (RejectedException e) {
             throw new ControlPlaneException(
                     "template %s cannot be read: %s".formatted(template.path(TEMPLATE), e.getMessage()), e);
         }

@@ -149,7 +149,7 @@ public final class Connectors {
             if (seen.path("subscriptionsKept").asInt() > 0) {
                 return;
             }
-            if (seen.path("subscriptionsUnkept").asInt() > 0) {
+            if (seen.path("subscriptionsOutOfSync").asInt() > 0) {
                 throw new CommandException("The context broker at %s cannot be subscribed to: %s"
                         .formatted(
                                 contextBroker,

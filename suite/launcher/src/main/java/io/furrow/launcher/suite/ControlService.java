@@ -24,7 +24,7 @@ import io.furrow.control.replay.TopicCleanup;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.fields.FieldFiles;
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 import io.furrow.launcher.process.Sleep;
 import io.furrow.provisioner.Provisioner;
 import io.furrow.provisioner.ProvisioningSettings;
@@ -115,7 +115,7 @@ public final class ControlService implements AutoCloseable {
     }
 
     /** Adds a part of this process that is started elsewhere. */
-    void require(Supplier<PartStatus> status) {
+    void require(Supplier<ComponentStatus> status) {
         readiness.require(status);
     }
 
@@ -130,7 +130,7 @@ public final class ControlService implements AutoCloseable {
 
     /** Whether Kafka has answered within the last seconds, where it was asked. */
     public boolean reachesKafka() {
-        return kafka == null || kafka.status().state() == PartStatus.State.UP;
+        return kafka == null || kafka.status().state() == ComponentStatus.State.UP;
     }
 
     /** Base of the pages for probes. */

@@ -13,7 +13,7 @@ import io.furrow.control.replay.ReplaySettings;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.embedded.EmbeddedMqtt;
 import io.furrow.fiware.FiwareStandIn;
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 import io.furrow.kafka.secret.SecretFile;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.provisioner.AgentSettings;
@@ -137,9 +137,9 @@ final class SuiteControl implements AutoCloseable {
         return api;
     }
 
-    private PartStatus deviceHost() {
-        PartStatus.State state = devices.isAlive() ? PartStatus.State.UP : PartStatus.State.DEAD;
-        return new PartStatus("deviceHost", state, devices.lastPoll(), devices.lastFailure());
+    private ComponentStatus deviceHost() {
+        ComponentStatus.State state = devices.isAlive() ? ComponentStatus.State.UP : ComponentStatus.State.DEAD;
+        return new ComponentStatus("deviceHost", state, devices.lastPoll(), devices.lastFailure());
     }
 
     /** Base of the pages for probes. */

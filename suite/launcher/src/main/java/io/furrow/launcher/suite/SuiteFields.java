@@ -26,8 +26,8 @@ import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.field.ImportOptions;
 import io.furrow.model.field.ImportedField;
-import io.furrow.model.field.RefusedFeature;
-import io.furrow.model.field.UnusableFileException;
+import io.furrow.model.field.InvalidFileException;
+import io.furrow.model.field.RejectedFeature;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
@@ -126,12 +126,12 @@ final class SuiteFields {
         try {
             FieldFile read = FieldFiles.read(file, new ImportOptions(null, null, null, null, null, Instant.EPOCH));
             if (!read.refused().isEmpty()) {
-                RefusedFeature first = read.refused().get(0);
+                RejectedFeature first = read.refused().get(0);
                 throw new CommandException(
                         "--fields %s: feature %d %s".formatted(file, first.number(), withCommand(first.reason())));
             }
             return read.fields();
-        } catch (UnusableFileException e) {
+        } catch (InvalidFileException e) {
             throw new CommandException("--fields " + withCommand(e.getMessage()), e);
         }
     }

@@ -12,8 +12,8 @@ import java.util.concurrent.TimeUnit;
 
 import io.furrow.control.alarm.watch.DeviceTypeCache;
 import io.furrow.control.audit.AuditEntry;
-import io.furrow.kafka.PartStatus;
-import io.furrow.kafka.RestartingWorker;
+import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.text.Counts;
 
 /**
@@ -25,7 +25,7 @@ public final class AlarmActions implements AutoCloseable {
     private static final int MAX_STOPS_WAITING = 1000;
     private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(5);
 
-    private final List<RestartingWorker> workers = new ArrayList<>();
+    private final List<SupervisedWorker> workers = new ArrayList<>();
     private ThreadPoolExecutor stops;
     private AuditLog audit;
 
@@ -43,7 +43,7 @@ public final class AlarmActions implements AutoCloseable {
         Clock clock = Clock.systemUTC();
         if (webhook != null) {
             AlarmDelivery delivery = new AlarmDelivery(client, webhook, new Webhook(webhook, clock), clock);
-            actions.workers.add(new RestartingWorker(AlarmDelivery.NAME, clock).start(delivery, delivery::detail));
+            actions.workers.add(new SupervisedWorker(AlarmDelivery.NAME, clock).start(delivery, delivery::detail));
         }
         if (stop != null) {
             actions.stopRobots(client, stop, clock);
@@ -60,14 +60,14 @@ public final class AlarmActions implements AutoCloseable {
                 TimeUnit.MINUTES,
                 new ArrayBlockingQueue<>(MAX_STOPS_WAITING),
                 task -> new Thread(task, "furrow-stop"));
-        RestartingWorker worker = new RestartingWorker(PredictionConsumer.NAME, clock);
+        SupervisedWorker worker = new SupervisedWorker(PredictionConsumer.NAME, clock);
         DeviceTypeCache types = new DeviceTypeCache(client);
         StopRobots robots = new StopRobots(settings, types, entry -> note(entry, worker), stops, clock);
-        workers.add(new RestartingWorker(DeviceTypeCache.NAME, clock).start(types, types::detail));
+        workers.add(new SupervisedWorker(DeviceTypeCache.NAME, clock).start(types, types::detail));
         workers.add(worker.start(new PredictionConsumer(client, robots, types, clock), () -> stopsWaiting(types)));
     }
 
-    private void note(AuditEntry entry, RestartingWorker worker) {
+    private void note(AuditEntry entry, SupervisedWorker worker) {
         if (entry.reason() == null) {
             worker.succeeded();
         } else {
@@ -87,13 +87,13 @@ public final class AlarmActions implements AutoCloseable {
     }
 
     /** Returns the status of each worker thread, for a health page. */
-    public List<PartStatus> workers() {
-        return workers.stream().map(RestartingWorker::status).toList();
+    public List<ComponentStatus> workers() {
+        return workers.stream().map(SupervisedWorker::status).toList();
     }
 
     @Override
     public void close() {
-        workers.forEach(RestartingWorker::close);
+        workers.forEach(SupervisedWorker::close);
         if (stops != null) {
             stops.shutdown();
             try {

@@ -32,7 +32,7 @@ import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.manager.StateJson;
 import io.furrow.kafka.CommittedReader;
-import io.furrow.kafka.RestartingWorker;
+import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
@@ -41,7 +41,7 @@ import io.furrow.model.topic.Topics;
  * reads the alarms and the deliveries in {@code service.alarms.delivered} from the beginning, posts the difference, and
  * then follows the topic. No offset is committed, so that no alarm on the topic is lost over restarts and failures.
  */
-final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceListener {
+final class AlarmDelivery implements SupervisedWorker.Work, ConsumerRebalanceListener {
     static final String NAME = "webhook";
 
     private static final Logger LOG = LoggerFactory.getLogger(AlarmDelivery.class);
@@ -86,7 +86,7 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
     }
 
     @Override
-    public void run(RestartingWorker worker) throws InterruptedException {
+    public void run(SupervisedWorker worker) throws InterruptedException {
         Properties group = CommittedReader.settings(client);
         group.put("group.id", GROUP);
         try (KafkaProducer<String, byte[]> opened =
@@ -106,7 +106,7 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
         }
     }
 
-    private void step(RestartingWorker worker) throws InterruptedException {
+    private void step(SupervisedWorker worker) throws InterruptedException {
         boolean busy = queue != null && queue.inFlight() > 0;
         for (ConsumerRecord<String, byte[]> record : consumer.poll(busy ? POLL_IN_FLIGHT : POLL)) {
             take(record);
@@ -177,7 +177,7 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
     }
 
     /** @param completed null for nothing */
-    private void complete(RestartingWorker worker, Done completed) {
+    private void complete(SupervisedWorker worker, Done completed) {
         if (completed == null) {
             return;
         }
@@ -265,7 +265,7 @@ final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebalanceLis
     }
 
     /** Waits for outstanding responses, so that those alarms are not posted again after a restart. */
-    private void awaitAnswers(RestartingWorker worker) throws InterruptedException {
+    private void awaitAnswers(SupervisedWorker worker) throws InterruptedException {
         long end = System.nanoTime() + TimeUnit.MILLISECONDS.toNanos(LAST_ANSWERS_MS);
         while (queue != null && queue.inFlight() > 0 && System.nanoTime() < end) {
             complete(worker, done.poll(POLL_IN_FLIGHT.toMillis(), TimeUnit.MILLISECONDS));

@@ -24,7 +24,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.control.alarm.watch.DeviceTypeCache;
 import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.kafka.CommittedReader;
-import io.furrow.kafka.RestartingWorker;
+import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
@@ -37,7 +37,7 @@ import io.furrow.model.topic.Topics;
  * later: an instance that is assigned a partition starts at fresh records and reads the commands already sent from the
  * audit topic.
  */
-final class PredictionConsumer implements RestartingWorker.Work, ConsumerRebalanceListener {
+final class PredictionConsumer implements SupervisedWorker.Work, ConsumerRebalanceListener {
     static final String NAME = "stop-on-predicted";
 
     private static final Logger LOG = LoggerFactory.getLogger(PredictionConsumer.class);
@@ -61,7 +61,7 @@ final class PredictionConsumer implements RestartingWorker.Work, ConsumerRebalan
     }
 
     @Override
-    public void run(RestartingWorker worker) throws InterruptedException {
+    public void run(SupervisedWorker worker) throws InterruptedException {
         while (!types.isLoaded()) {
             if (worker.isClosing()) {
                 return;

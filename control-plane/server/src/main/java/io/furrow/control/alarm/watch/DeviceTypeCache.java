@@ -13,7 +13,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
-import io.furrow.kafka.RestartingWorker;
+import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -22,7 +22,7 @@ import io.furrow.model.topic.Topics;
  * Looks up the entity types of devices: the reported type from {@code service.devices.health}, else the desired type
  * from {@code service.devices}. Every instance reads all partitions of both topics.
  */
-public final class DeviceTypeCache implements RestartingWorker.Work, Function<String, String> {
+public final class DeviceTypeCache implements SupervisedWorker.Work, Function<String, String> {
     public static final String NAME = "device-types";
 
     private static final Logger LOG = LoggerFactory.getLogger(DeviceTypeCache.class);
@@ -92,7 +92,7 @@ public final class DeviceTypeCache implements RestartingWorker.Work, Function<St
     }
 
     @Override
-    public void run(RestartingWorker worker) {
+    public void run(SupervisedWorker worker) {
         try (CommittedReader<String> reader = CommittedReader.open(client, Topics.DEVICES, Topics.DEVICES_HEALTH)) {
             Types fresh = new Types(new ConcurrentHashMap<>(), new ConcurrentHashMap<>());
             while (!worker.isClosing()) {

@@ -15,7 +15,7 @@ import io.furrow.control.replay.ReplaySettings;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.marker.Markers;
-import io.furrow.mission.marker.RefusedMarkerException;
+import io.furrow.mission.marker.RejectedMarkerException;
 import io.furrow.model.control.ErrorCode;
 
 /** Asks MongoDB for markers on a thread of its own, so that no request waits on those of the API. At most {@value #MAX_WAITING} wait. */
@@ -36,7 +36,7 @@ public final class MarkerStore implements AutoCloseable {
 
     /** What is asked. @param <T> the answer */
     public interface Query<T> {
-        T request(Markers markers) throws RefusedMarkerException, RecordingException;
+        T request(Markers markers) throws RejectedMarkerException, RecordingException;
     }
 
     /** @param answering answers are forwarded by it */
@@ -70,7 +70,7 @@ public final class MarkerStore implements AutoCloseable {
                 markers = Markers.open(settings.mongo(), settings.database());
             }
             answer.complete(question.request(markers));
-        } catch (RefusedMarkerException e) {
+        } catch (RejectedMarkerException e) {
             answer.completeExceptionally(new ProblemException(ErrorCode.WRONG_MEMBER, e.getMessage()));
         } catch (RecordingException e) {
             answer.completeExceptionally(new ProblemException(503, "mongodb-away", e.getMessage()));

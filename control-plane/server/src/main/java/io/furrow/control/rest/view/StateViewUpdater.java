@@ -32,7 +32,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
-import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.ComponentStatus;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.RequestFingerprint;
 import io.furrow.model.ngsi.NgsiJson;
@@ -79,12 +79,12 @@ public final class StateViewUpdater implements AutoCloseable {
         thread.start();
     }
 
-    public PartStatus status() {
-        PartStatus.State state = !thread.isAlive()
-                ? PartStatus.State.DEAD
-                : view.isComplete() ? PartStatus.State.UP : PartStatus.State.DOWN;
-        return new PartStatus(
-                "api", state, lastPoll, state == PartStatus.State.UP ? "" : "reads its topics; " + failure);
+    public ComponentStatus status() {
+        ComponentStatus.State state = !thread.isAlive()
+                ? ComponentStatus.State.DEAD
+                : view.isComplete() ? ComponentStatus.State.UP : ComponentStatus.State.DOWN;
+        return new ComponentStatus(
+                "api", state, lastPoll, state == ComponentStatus.State.UP ? "" : "reads its topics; " + failure);
     }
 
     /** Clears the view when the thread ends: nothing would update it any more. */

@@ -22,7 +22,7 @@ import io.furrow.control.manager.CapturingPublisher;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
-import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -126,7 +126,7 @@ class DeliveryPropertyTest {
                             default -> new AlarmCommand.Acknowledge(alarm, null);
                         },
                         now);
-            } catch (RefusedException e) { // then nothing has changed
+            } catch (RejectedException e) { // then nothing has changed
                 assertThat(e.code()).as(label).isNotNull();
             }
         }

@@ -1,0 +1,67 @@
+package io.furrow.analytics.clock;
+
+import java.time.Duration;
+
+import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.api.common.state.ValueState;
+import org.apache.flink.api.common.state.ValueStateDescriptor;
+import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.util.Collector;
+
+import io.furrow.analytics.eventtime.SingleTimer;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Reports devices whose positions come too late, one after the other. Key: the device of a topic.
+ *
+ * <p><b>State</b>: the positions in a row, see {@link LagRun}.
+ *
+ * <p><b>Cleared</b>: when none has come for 10 min of event time.
+ *
+ * <p><b>Late</b>: all that comes is.
+ *
+ * <p><b>Emits</b>: that the device is behind, and once a minute of event time that it still is.
+ */
+public final class DetectClockLag extends KeyedProcessFunction<String, LaggingPosition, ClockReport> {
+    private static final long serialVersionUID = 1L;
+
+    private final long maxBehindMillis;
+    private transient SingleTimer timer;
+    private transient ValueState<LagRun> run;
+
+    /** @param maxBehind devices that are further behind are reported by {@link ReportDelayedDevices}, except those of replays */
+    DetectClockLag(Duration maxBehind) {
+        this.maxBehindMillis = maxBehind.toMillis();
+    }
+
+    @Override
+    public void open(OpenContext context) {
+        timer = new SingleTimer(getRuntimeContext());
+        run = getRuntimeContext().getState(new ValueStateDescriptor<>("run", LagRun.class));
+    }
+
+    @Override
+    public void processElement(LaggingPosition position, Context context, Collector<ClockReport> out) throws Exception {
+        if (position.reached() - position.time() > maxBehindMillis && !Topics.isReplay(position.topic())) {
+            return;
+        }
+        LagRun now = LagRun.after(run.value(), position);
+        if (now.isToBeTold()) {
+            out.collect(ClockReport.behind(position, now.positions()));
+            now = now.afterReport();
+        }
+        run.update(now);
+        timer.ask(now.end(), context.timerService());
+    }
+
+    @Override
+    public void onTimer(long time, OnTimerContext context, Collector<ClockReport> out) throws Exception {
+        timer.rang();
+        long end = run.value().end();
+        if (end <= context.timerService().currentWatermark()) {
+            run.clear();
+        } else {
+            timer.ask(end, context.timerService());
+        }
+    }
+}

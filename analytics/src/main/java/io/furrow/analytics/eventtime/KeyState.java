@@ -1,0 +1,49 @@
+package io.furrow.analytics.eventtime;
+
+import java.util.ArrayList;
+import java.util.List;
+
+/**
+ * All that a key has: messages that wait for the watermark, and what is remembered. Changed in place.
+ *
+ * @param <M> the messages
+ * @param <S> what is remembered between them
+ */
+public class KeyState<M extends HasEventTime, S> {
+    List<M> waiting = new ArrayList<>(1);
+    S remembered;
+
+    KeyState() {}
+
+    final void takeOver(KeyState<M, S> other) {
+        waiting = other.waiting;
+        remembered = other.remembered;
+    }
+
+    /** Moves what the watermark has passed to {@code due}, in no order. */
+    final void takeDue(long watermark, List<M> due) {
+        int left = 0;
+        for (int i = 0; i < waiting.size(); i++) {
+            M message = waiting.get(i);
+            if (message.time() <= watermark) {
+                due.add(message);
+            } else {
+                waiting.set(left++, message);
+            }
+        }
+        waiting.subList(left, waiting.size()).clear();
+    }
+
+    /** Of the messages, of which there is one at least. */
+    final long earliest() {
+        long earliest = Long.MAX_VALUE;
+        for (M message : waiting) {
+            earliest = Math.min(earliest, message.time());
+        }
+        return earliest;
+    }
+
+    final boolean isEmpty() {
+        return remembered == null && waiting.isEmpty();
+    }
+}

@@ -1,0 +1,57 @@
+package io.furrow.ingest.image;
+
+import java.util.concurrent.Future;
+
+import org.apache.flink.util.function.ThrowingRunnable;
+
+import io.furrow.ingest.route.ReportedEvent;
+
+/**
+ * An event that waits for the store, or a watermark that waits for the events before it.
+ */
+final class InFlightEvent {
+    private ReportedEvent event;
+    private final ThrowingRunnable<Exception> mark;
+    private Future<?> deadline;
+    private boolean passed;
+
+    private InFlightEvent(ReportedEvent event, ThrowingRunnable<Exception> mark, boolean passed) {
+        this.event = event;
+        this.mark = mark;
+        this.passed = passed;
+    }
+
+    static InFlightEvent event(ReportedEvent event) {
+        return new InFlightEvent(event, () -> {}, false);
+    }
+
+    /** @param mark what to do when everything before it has gone on */
+    static InFlightEvent mark(ThrowingRunnable<Exception> mark) {
+        return new InFlightEvent(null, mark, true);
+    }
+
+    /** Null once it has passed: what waits behind another entity's image must not keep its own in memory. */
+    ReportedEvent event() {
+        return event;
+    }
+
+    void until(Future<?> timer) {
+        deadline = timer;
+    }
+
+    void pass() {
+        passed = true;
+        event = null;
+        if (deadline != null) {
+            deadline.cancel(false);
+        }
+    }
+
+    boolean hasPassed() {
+        return passed;
+    }
+
+    void emitMark() throws Exception {
+        mark.run();
+    }
+}

@@ -1,0 +1,120 @@
+package io.furrow.flink.time;
+
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.List;
+
+import org.apache.flink.api.common.TaskInfo;
+import org.apache.flink.api.common.state.ListState;
+import org.apache.flink.api.common.state.ListStateDescriptor;
+import org.apache.flink.api.common.state.OperatorStateStore;
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.api.java.tuple.Tuple3;
+import org.apache.flink.runtime.state.KeyGroupRange;
+import org.apache.flink.runtime.state.KeyGroupRangeAssignment;
+
+/**
+ * How far event time has come for the keys of a subtask, in this run or in an earlier one, in epoch milliseconds. Watermarks are
+ * in no checkpoint: without it a restored job would accept what is late until its first watermark.
+ *
+ * <p>Each key group has its own: in an unaligned checkpoint one subtask may have passed a watermark that is still on its way to
+ * another, and what is in front of that watermark is not late. The end of event time is not kept, so that a job that was stopped
+ * with {@code --drain} can continue.
+ *
+ * <p>State: the union list {@code event-time-reached-by-key-group} with ranges of key groups (first, last, time).
+ */
+public final class EventTimeProgress {
+    private static final long NOTHING_YET = Long.MIN_VALUE;
+
+    private final ListState<Tuple3<Integer, Integer, Long>> byKeyGroup;
+    private final KeyGroupRange keyGroups;
+    private final int maxParallelism;
+    /** What earlier runs have reached, from the first key group on; null once this run has passed it all. */
+    private long[] before;
+
+    private long now = NOTHING_YET;
+
+    private EventTimeProgress(OperatorStateStore states, TaskInfo task) throws Exception {
+        maxParallelism = task.getMaxNumberOfParallelSubtasks();
+        keyGroups = KeyGroupRangeAssignment.computeKeyGroupRangeForOperatorIndex(
+                maxParallelism, task.getNumberOfParallelSubtasks(), task.getIndexOfThisSubtask());
+        byKeyGroup = states.getUnionListState(new ListStateDescriptor<>(
+                "event-time-reached-by-key-group", Types.TUPLE(Types.INT, Types.INT, Types.LONG)));
+    }
+
+    /** As of the checkpoint that the task is restored from, if it is. */
+    public static EventTimeProgress restore(OperatorStateStore states, TaskInfo task) throws Exception {
+        EventTimeProgress reached = new EventTimeProgress(states, task);
+        reached.read();
+        return reached;
+    }
+
+    private void read() throws Exception {
+        before = new long[keyGroups.getNumberOfKeyGroups()];
+        Arrays.fill(before, NOTHING_YET);
+        int first = keyGroups.getStartKeyGroup();
+        for (Tuple3<Integer, Integer, Long> range : byKeyGroup.get()) {
+            take(Math.max(first, range.f0), Math.min(keyGroups.getEndKeyGroup(), range.f1), range.f2);
+        }
+        forgetWhatIsPassed();
+    }
+
+    private void take(int first, int last, long time) {
+        if (!EndOfEventTime.isAt(time)) {
+            for (int group = first; group <= last; group++) {
+                int index = group - keyGroups.getStartKeyGroup();
+                before[index] = Math.max(before[index], time);
+            }
+        }
+    }
+
+    /** To be called with each watermark, before anything is done about it. */
+    public void advance(long watermark) {
+        if (watermark > now && !EndOfEventTime.isAt(watermark)) {
+            now = watermark;
+            forgetWhatIsPassed();
+        }
+    }
+
+    private void forgetWhatIsPassed() {
+        if (before != null && Arrays.stream(before).allMatch(each -> each <= now)) {
+            before = null;
+        }
+    }
+
+    /** {@link Long#MIN_VALUE} before the first watermark of the first run. */
+    public long of(Object key) {
+        return before == null ? now : Math.max(now, before[indexOf(key)]);
+    }
+
+    /** The furthest that any key group of this subtask has come. */
+    long furthest() {
+        return before == null ? now : Math.max(now, Arrays.stream(before).max().orElse(NOTHING_YET));
+    }
+
+    /** Whether it is too late for something of this time and key. */
+    public boolean hasPassed(long time, Object key) {
+        return time <= now || before != null && time <= before[indexOf(key)];
+    }
+
+    private int indexOf(Object key) {
+        return KeyGroupRangeAssignment.assignToKeyGroup(key, maxParallelism) - keyGroups.getStartKeyGroup();
+    }
+
+    /** Writes the state for a checkpoint. */
+    public void snapshot() throws Exception {
+        List<Tuple3<Integer, Integer, Long>> ranges = new ArrayList<>();
+        int first = keyGroups.getStartKeyGroup();
+        for (int group = first; group <= keyGroups.getEndKeyGroup(); group++) {
+            if (group == keyGroups.getEndKeyGroup() || at(group + 1) != at(group)) {
+                ranges.add(Tuple3.of(first, group, at(group)));
+                first = group + 1;
+            }
+        }
+        byKeyGroup.update(ranges);
+    }
+
+    private long at(int keyGroup) {
+        return before == null ? now : Math.max(now, before[keyGroup - keyGroups.getStartKeyGroup()]);
+    }
+}

@@ -1,9 +1,0 @@
-package io.furrow.model.field;
-
-/**
- * A feature that was rejected.
- *
- * @param number of the feature in the file, from 1
- * @param id empty if it has none
- */
-public record RefusedFeature(int number, String id, String reason) {}

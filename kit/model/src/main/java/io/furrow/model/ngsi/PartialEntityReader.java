@@ -1,0 +1,104 @@
+package io.furrow.model.ngsi;
+
+import java.io.IOException;
+import java.util.Set;
+
+import com.fasterxml.jackson.core.JsonParser;
+import com.fasterxml.jackson.core.JsonToken;
+import com.fasterxml.jackson.databind.DeserializationFeature;
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.ObjectReader;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/**
+ * Reads the wanted attributes of a normalized entity in one pass; the others are skipped without becoming objects. Refuses
+ * what a reading of the whole entity would refuse, so that nothing passes here at which a later reader would fail.
+ */
+final class PartialEntityReader {
+    /** Reads a value where it stands: what follows it belongs to the entity. */
+    private static final ObjectReader VALUES =
+            NgsiJson.mapper().reader().without(DeserializationFeature.FAIL_ON_TRAILING_TOKENS);
+
+    private PartialEntityReader() {}
+
+    static Entity read(byte[] normalized, Set<String> desired) throws UnreadableException {
+        NgsiJson.checkUtf8(normalized);
+        boolean textsMatter = normalized.length > NgsiJson.MAX_STRING || holdsEscapedSign(normalized);
+        JsonNode excerpt = NgsiJson.understand(() -> {
+            try (JsonParser parser = NgsiJson.mapper().createParser(normalized)) {
+                return excerpt(parser, desired, textsMatter);
+            }
+        });
+        return NgsiV2Representation.NORMALIZED.read(excerpt);
+    }
+
+    /** Whether there is a backslash with a u: in UTF-8 nothing else can be half of a surrogate pair. */
+    private static boolean holdsEscapedSign(byte[] json) {
+        for (int i = 1; i < json.length; i++) {
+            if (json[i] == 'u' && json[i - 1] == '\\') {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    private static ObjectNode excerpt(JsonParser parser, Set<String> desired, boolean textsMatter)
+            throws IOException, UnreadableException {
+        JsonToken first = parser.nextToken();
+        if (first != JsonToken.START_OBJECT) {
+            throw first == null
+                    ? new UnreadableException(Reason.NOT_JSON, "the body is empty")
+                    : new UnreadableException(Reason.NOT_AN_ENTITY, "an entity is a JSON object");
+        }
+        ObjectNode excerpt = JsonNodeFactory.instance.objectNode();
+        while (parser.nextToken() == JsonToken.FIELD_NAME) {
+            String name = parser.currentName();
+            JsonToken value = parser.nextToken();
+            if (name.equals("id") || name.equals("type") || desired.contains(name)) {
+                excerpt.set(name, VALUES.readTree(parser));
+            } else if (value != JsonToken.START_OBJECT || !passOver(parser, textsMatter)) {
+                throw NgsiV2Representation.noAttribute(name);
+            } else if (textsMatter) {
+                EntityLimits.checkText(name);
+            }
+        }
+        if (parser.nextToken() != null) {
+            throw new UnreadableException(Reason.NOT_JSON, "something follows the entity");
+        }
+        return excerpt;
+    }
+
+    /** Skips the attribute that begins here; answers whether it has a member {@code value}. */
+    private static boolean passOver(JsonParser parser, boolean textsMatter) throws IOException, UnreadableException {
+        boolean hasValue = false;
+        for (int depth = 1; depth > 0; ) {
+            JsonToken token = parser.nextToken();
+            switch (token) {
+                case START_OBJECT, START_ARRAY -> depth++;
+                case END_OBJECT, END_ARRAY -> depth--;
+                case FIELD_NAME ->
+                    hasValue |= depth == 1 && parser.currentName().equals("value");
+                case VALUE_NUMBER_INT -> parser.getTextLength(); // as a reader would, for the limit of its length
+                case VALUE_NUMBER_FLOAT -> checkNumber(parser);
+                default -> {} // a text is looked at below, the rest cannot be wrong
+            }
+            if (textsMatter && (token == JsonToken.FIELD_NAME || token == JsonToken.VALUE_STRING)) {
+                EntityLimits.checkText(parser.getText());
+            }
+        }
+        return hasValue;
+    }
+
+    /** Becomes a number only where it has an exponent, which is rare. */
+    private static void checkNumber(JsonParser parser) throws IOException, UnreadableException {
+        char[] text = parser.getTextCharacters();
+        int end = parser.getTextOffset() + parser.getTextLength();
+        for (int i = parser.getTextOffset(); i < end; i++) {
+            if (text[i] == 'e' || text[i] == 'E') {
+                EntityLimits.checkExponent(parser.getDecimalValue());
+                return;
+            }
+        }
+    }
+}

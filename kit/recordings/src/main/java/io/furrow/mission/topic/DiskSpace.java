@@ -1,0 +1,39 @@
+package io.furrow.mission.topic;
+
+import java.io.IOException;
+import java.nio.file.FileStore;
+import java.nio.file.Files;
+import java.nio.file.Path;
+
+import io.furrow.mission.RecordingDeletedException;
+
+/**
+ * What may be written to a disk: as much as leaves a tenth of it free, and no less than 1 GiB. Kafka's logs and the state of jobs
+ * may lie on the same one.
+ *
+ * @param reserved bytes that stay free
+ */
+record DiskSpace(Path folder, long reserved, FreeBytes free) {
+    private static final long MIN_FREE_BYTES = 1L << 30;
+    private static final int MEBIBYTE = 1 << 20;
+
+    /** How many bytes can be written at this moment. */
+    interface FreeBytes {
+        long get() throws IOException;
+    }
+
+    static DiskSpace of(Path folder) throws IOException {
+        FileStore disk = Files.getFileStore(folder);
+        return new DiskSpace(folder, Math.max(MIN_FREE_BYTES, disk.getTotalSpace() / 10), disk::getUsableSpace);
+    }
+
+    /** @throws RecordingDeletedException if there is no room for so many bytes more: to try again would fill the disk again */
+    void require(long bytes) throws IOException {
+        long now = free.get();
+        if (now - bytes < reserved) {
+            throw new RecordingDeletedException(
+                    "The events do not fit into %s: %d MiB are free there, and %d MiB have to stay free. Play a shorter topic, or give the job a larger folder for temporary files."
+                            .formatted(folder, now / MEBIBYTE, reserved / MEBIBYTE));
+        }
+    }
+}

@@ -1,0 +1,25 @@
+package io.furrow.replay.playback;
+
+/**
+ * A record of a replay.
+ *
+ * @param event null of an end
+ * @param reason of an end; else null
+ * @param sequence from 0 in each epoch
+ * @param time event time, epoch ms: of an event its own, of a prime that of the point at which the epoch begins
+ * @param offset ms that the record's timestamp is ahead of the time
+ */
+public record PlaybackRecord(
+        Kind kind, ReadyEvent event, String reason, long epoch, long sequence, long time, long offset) {
+    /** What the record is there for. */
+    public enum Kind {
+        EVENT,
+        PRIME,
+        END
+    }
+
+    /** The record's timestamp, epoch ms. */
+    public long stamp() {
+        return time + offset;
+    }
+}

@@ -1,6 +1,0 @@
-package io.furrow.replay.source;
-
-import java.util.List;
-
-/** What the enumerator has to keep: replays that no reader has. What is requested it reads again. */
-record UnassignedReplays(List<ReplaySplit> splits) {}
