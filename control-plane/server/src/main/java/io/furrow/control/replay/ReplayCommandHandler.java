@@ -222,7 +222,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         }
         boolean playsAgain =
                 !Objects.equals(existing.seek(), next.seek()) || !Objects.equals(existing.step(), next.step());
-        return state.isOver() && !playsAgain ? "changed" : next.desired().word();
+        return state.isOver() && !playsAgain ? "changed" : next.desired().code();
     }
 
     private static RejectedException unknown(ReplayCommand.Steering steering) {

@@ -131,7 +131,7 @@ class MissionDevicesTest {
 
     @Test
     void takesALongListInSeveralRequests() throws Exception {
-        farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid()));
+        farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unspecified()));
         farm.request(add("robots", "Robot", 2));
         farm.request(new MissionCommand.AddDevices(
                 "m",
@@ -145,7 +145,7 @@ class MissionDevicesTest {
 
         assertThat(farm.missions.get("m").deviceCount()).isEqualTo(4);
         assertThat(farm.publisher.compacted(Topics.MISSION_DEVICES)).containsOnlyKeys("m.0", "m.1");
-        farm.request(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
+        farm.request(new MissionCommand.Start("m", null, new MissionPlan.Unspecified(), null, null));
         assertThat(farm.device("urn:ngsi-ld:Camera:m-2").version().carriedBy()).isEqualTo("urn:ngsi-ld:Robot:m-2");
         farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.request(add("late", "Robot", 1)));
     }
@@ -163,7 +163,7 @@ class MissionDevicesTest {
         large.putObject("parameters").put("note", "x".repeat(500_000));
         MissionCommand more = new MissionCommand.AddDevices(
                 "m", new MissionDevices(List.of(new DeviceGroup(null, null, "Camera", 1, null, null, true, large))));
-        farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid()));
+        farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unspecified()));
         for (int bytes = 0; bytes + 500_100 < Limits.MISSION_BYTES; bytes += 500_100) {
             farm.request(more);
         }

@@ -57,7 +57,7 @@ class MissionLifeTest {
     /** As the WeLASER dashboard asks: devices that are there report with the mission's name. */
     @Test
     void runsAtOnceWithoutDevicesOfItsOwn() throws Exception {
-        farm.request(new MissionCommand.Start("m", "north", new MissionPlan.Unsaid(), null, null));
+        farm.request(new MissionCommand.Start("m", "north", new MissionPlan.Unspecified(), null, null));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
         farm.request(new MissionCommand.Stop("m"));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
@@ -271,7 +271,7 @@ class MissionLifeTest {
                         "other", "north", new MissionPlan.FromTemplate("nosuch", 0), null, null)));
         farm.refused(
                 ErrorCode.MISSION_EXISTS,
-                () -> farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid())));
+                () -> farm.request(new MissionCommand.Create("m", "north", new MissionPlan.Unspecified())));
 
         farm.request(new MissionCommand.Stop("m"));
         farm.refused(ErrorCode.MISSION_NOT_RUNNING, () -> farm.request(new MissionCommand.Stop("m")));
@@ -294,7 +294,7 @@ class MissionLifeTest {
     void deletesADomainWithItsMissionsAndEndsItsFields() throws Exception {
         farm.domain("south");
         farm.start("runs", "north", FarmFixture.group("Camera", 1));
-        farm.request(new MissionCommand.Create("idle", "north", new MissionPlan.Unsaid()));
+        farm.request(new MissionCommand.Create("idle", "north", new MissionPlan.Unspecified()));
         farm.start("theirs", "south", FarmFixture.group("Camera", 1));
         farm.field("a", 1, "north");
         farm.field("b", 1, "south");
@@ -359,7 +359,7 @@ class MissionLifeTest {
                 ErrorCode.UNKNOWN_TEMPLATE, () -> farm.request(new MissionCommand.DeleteTemplate("thesis-demo", 0)));
         farm.run(farm.missionHandler.templates()::installBuiltIn);
         assertThat(farm.publisher.compacted(Topics.TEMPLATES)).isEmpty();
-        farm.request(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
+        farm.request(new MissionCommand.Start("m", null, new MissionPlan.Unspecified(), null, null));
         assertThat(farm.status("m").devices()).isEqualTo(5);
     }
 }

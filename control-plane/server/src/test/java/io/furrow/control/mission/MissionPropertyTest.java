@@ -117,7 +117,7 @@ class MissionPropertyTest {
         private MissionPlan plan() {
             return switch (random.nextInt(4)) {
                 case 0 -> new MissionPlan.FromTemplate(random.nextInt(3) == 0 ? "nosuch" : TemplateStore.DEMO, 0);
-                case 1 -> new MissionPlan.Unsaid();
+                case 1 -> new MissionPlan.Unspecified();
                 case 2 ->
                     FarmFixture.devices(
                             FarmFixture.group("Camera", 1 + random.nextInt(3)), DeviceGroup.entity("urn:robot"));

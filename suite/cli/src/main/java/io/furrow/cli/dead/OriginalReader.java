@@ -42,7 +42,7 @@ final class OriginalReader implements AutoCloseable {
         long first =
                 consumer.beginningOffsets(List.of(partition), Redrive.TIMEOUT).get(partition);
         long end = consumer.endOffsets(List.of(partition), Redrive.TIMEOUT).get(partition);
-        if (originalReference.offset() < first || originalReference.offset() >= end) {
+        if (original.offset() < first || original.offset() >= end) {
             return Optional.empty();
         }
         consumer.seek(partition, original.offset());

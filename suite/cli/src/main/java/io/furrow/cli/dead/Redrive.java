@@ -194,8 +194,8 @@ public final class Redrive {
     /** The letter itself, or the record that it stands for; empty, and counted as left, where neither is whole. */
     private Optional<ConsumerRecord<byte[], byte[]>> original(ConsumerRecord<byte[], byte[]> deadLetter)
             throws IOException {
-        Optional<OriginalReference> elsewhere =
-                OriginalReference.of(header(deadLetter, OriginalReference.POSITION), header(deadLetter, OriginalReference.BYTES));
+        Optional<OriginalReference> elsewhere = OriginalReference.of(
+                header(deadLetter, OriginalReference.POSITION), header(deadLetter, OriginalReference.BYTES));
         if (elsewhere.isPresent()) {
             Optional<ConsumerRecord<byte[], byte[]>> found = originals.find(elsewhere.get(), deadLetter);
             if (found.isEmpty()) {
