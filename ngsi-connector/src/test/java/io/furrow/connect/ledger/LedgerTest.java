@@ -51,7 +51,7 @@ class LedgerTest {
 
         try (LedgerBean shown = LedgerBean.show(ledger, "ngsi-source", "farm", 1)) {
             assertThat(shown).isNotNull();
-            assertThat(beans.getAttribute(name, "turned-away-total")).isEqualTo(3L);
+            assertThat(beans.getAttribute(name, "rejected-unavailable-total")).isEqualTo(3L);
             assertThat(beans.getAttribute(name, "pending-bytes")).isEqualTo(7L);
             assertThat(beans.getMBeanInfo(name).getAttributes())
                     .hasSize(ledger.all().size());
@@ -59,7 +59,7 @@ class LedgerTest {
                     .isInstanceOf(AttributeNotFoundException.class);
         }
 
-        assertThatThrownBy(() -> beans.getAttribute(name, "turned-away-total"))
+        assertThatThrownBy(() -> beans.getAttribute(name, "rejected-unavailable-total"))
                 .isInstanceOf(InstanceNotFoundException.class);
     }
 
