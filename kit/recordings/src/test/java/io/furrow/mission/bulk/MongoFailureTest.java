@@ -31,23 +31,23 @@ class MongoFailureTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
-        91    | shutdown in progress                    | AWAY
-        189   | primary stepped down                    | AWAY
-        10107 | not primary                             | AWAY
-        14031 | out of disk space                       | AWAY
-        11000 | E11000 duplicate key index: _id_ dup    | AWAY
-        11000 | E11000 index: persistence.m.$_id_ dup   | AWAY
+        91    | shutdown in progress                    | UNAVAILABLE
+        189   | primary stepped down                    | UNAVAILABLE
+        10107 | not primary                             | UNAVAILABLE
+        14031 | out of disk space                       | UNAVAILABLE
+        11000 | E11000 duplicate key index: _id_ dup    | UNAVAILABLE
+        11000 | E11000 index: persistence.m.$_id_ dup   | UNAVAILABLE
         11000 | E11000 duplicate key index: serial dup  | REFUSED
         11000 | E11000 index: device_id_1 dup           | REFUSED
         13    | not authorized                          | SETTING
         18    | authentication failed                   | SETTING
         166   | is a view                               | SETTING
-        365   | temporarily unavailable                 | AWAY
-        16500 | request rate is large                   | AWAY
-        13388 | stale config                            | AWAY
-        150   | stale epoch                             | AWAY
-        133   | no primary for the read preference      | AWAY
-        314   | object is busy                          | AWAY
+        365   | temporarily unavailable                 | UNAVAILABLE
+        16500 | request rate is large                   | UNAVAILABLE
+        13388 | stale config                            | UNAVAILABLE
+        150   | stale epoch                             | UNAVAILABLE
+        133   | no primary for the read preference      | UNAVAILABLE
+        314   | object is busy                          | UNAVAILABLE
         61    | the collection is sharded by another key| SETTING
         1     | internal error                          | UNKNOWN
         8     | unknown error                           | UNKNOWN
