@@ -89,14 +89,14 @@ class PageRulesIT {
     @Test
     void showsNumbersWholeAndInTheirUnits() {
         assertThat(run(TAKE + """
-                const { allAttributes, telling } = await import('/cards/attributes.js');
+                const { allAttributes, keyAttributes } = await import('/cards/attributes.js');
                 const { quantityOf } = await import('/core/readings.js');
                 take('a', 'Device', '', parse(`{"code": {"value": 840380235174088834}, "least": {"value": -9007199254740993}, "far": {"value": 1E400},
                   "zeros": {"value": "0042"}, "battery": {"value": 1, "metadata": {"unitCode": {"value": "P1"}}}, "batteryLevel": {"value": 0.07},
                   "speed": {"value": "36", "metadata": {"unitCode": {"value": "KMH"}}}, "serial": {"value": 12345678901}}`));
                 const entity = store.entities.get('a');
                 return [...allAttributes(entity).map(({ name, value }) => `${name}=${value}`),
-                  ...telling(entity, 9).map(({ label, value, unit }) => `${label}: ${value} ${unit}`.trim()), `${entity.speed} m/s`];"""))
+                  ...keyAttributes(entity, 9).map(({ label, value, unit }) => `${label}: ${value} ${unit}`.trim()), `${entity.speed} m/s`];"""))
                 .contains(
                         "code=840380235174088834",
                         "least=-9007199254740993",
@@ -114,13 +114,13 @@ class PageRulesIT {
     @Test
     void takesNamesOfJavaScriptForNames() {
         assertThat(run(TAKE + """
-                const { allAttributes, telling } = await import('/cards/attributes.js');
+                const { allAttributes, keyAttributes } = await import('/cards/attributes.js');
                 const { t } = await import('/texts.js');
                 take('b', 'Device', '', parse(`{"constructor": {"value": 5}, "__proto__": {"value": 7},
                   "toString": {"value": 8, "metadata": {"unitCode": {"value": "valueOf"}}}}`));
                 const entity = store.entities.get('b');
                 return [...allAttributes(entity).map(({ name, value }) => `${name}=${value}`),
-                  ...telling(entity, 9).map(({ value, unit }) => `${value} ${unit}`.trim()), t('states.constructor')];"""))
+                  ...keyAttributes(entity, 9).map(({ value, unit }) => `${value} ${unit}`.trim()), t('states.constructor')];"""))
                 .containsExactlyInAnyOrder(
                         "__proto__=7", "constructor=5", "toString=8", "5", "7", "8 valueOf", "states.constructor");
     }

@@ -146,7 +146,7 @@ public final class Connectors {
         Instant end = Instant.now().plus(TIMEOUT);
         while (Instant.now().isBefore(end)) {
             JsonNode seen = check(health);
-            if (seen.path("subscriptionsKept").asInt() > 0) {
+            if (seen.path("subscriptionsInSync").asInt() > 0) {
                 return;
             }
             if (seen.path("subscriptionsOutOfSync").asInt() > 0) {
