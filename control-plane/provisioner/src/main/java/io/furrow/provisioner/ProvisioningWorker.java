@@ -50,7 +50,7 @@ import io.furrow.provisioner.RemovalGuard.Retained;
 final class ProvisioningWorker implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(ProvisioningWorker.class);
     /** Name of the group; never changed, or two would be at work during an update. */
-    private static final String GROUP = "furrow-provisioner";
+    static final String GROUP = "furrow-provisioner";
 
     private static final String TAKEN_OVER_AFTER_MS = "10000";
     private static final Duration POLL_INTERVAL = Duration.ofMillis(500);

@@ -8,6 +8,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.Properties;
 
+import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
@@ -71,6 +72,7 @@ class ProvisionerIT {
             put(one);
             put(two);
             await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            awaitThatRemovalIsAllowed();
             assertThat(provisioner).isNotNull();
         }
         producer.send(new ProducerRecord<>(Topics.DEVICES, one.version().key(), null));
@@ -184,6 +186,17 @@ class ProvisionerIT {
         assertThat(agent.changes)
                 .filteredOn(change -> change.equals("POST /iot/devices"))
                 .hasSize(3);
+    }
+
+    /** It notes with its offset that the devices of this Kafka are those of the agent. */
+    private void awaitThatRemovalIsAllowed() {
+        try (Admin admin = Admin.create(client())) {
+            await().atMost(TIMEOUT)
+                    .until(() -> !admin.listConsumerGroupOffsets(ProvisioningWorker.GROUP)
+                            .partitionsToOffsetAndMetadata()
+                            .get()
+                            .isEmpty());
+        }
     }
 
     private Provisioner provisioner() {
