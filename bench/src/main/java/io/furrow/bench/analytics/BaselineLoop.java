@@ -108,9 +108,9 @@ final class BaselineLoop {
         changes.clear();
     }
 
-    private void see(PairObservation sighting) {
-        if (sighting.change() != 0) {
-            changes.merge(sighting.pair(), sighting.change(), Integer::sum);
+    private void see(PairObservation observation) {
+        if (observation.change() != 0) {
+            changes.merge(observation.pair(), observation.change(), Integer::sum);
         }
     }
 }

@@ -26,7 +26,7 @@ final class CrowdMeasurement {
     private final PairSelection pairSelection;
     private final Random random = new Random(1);
     private final Duration measured;
-    private long sightings;
+    private long observations;
 
     private CrowdMeasurement(CollisionRules rules, Duration measured) {
         pairSelection = new PairSelection(rules);
@@ -51,7 +51,7 @@ final class CrowdMeasurement {
         Cell cell = Cell.empty();
         second(cell, ids, 0);
         second(cell, ids, 1); // the JVM was cold
-        sightings = 0;
+        observations = 0;
         long used = 0;
         long second = 2;
         while (used < measured.toNanos()) {
@@ -62,8 +62,8 @@ final class CrowdMeasurement {
                 "devices", devices,
                 "crowd", crowd,
                 "cpu us", used / 1e3 / updates,
-                "sightings", sightings / updates,
-                "us each", used / 1e3 / sightings);
+                "sightings", observations / updates,
+                "us each", used / 1e3 / observations);
     }
 
     /** Nanoseconds of processor time that the cell takes for a second of event time. */
@@ -79,7 +79,7 @@ final class CrowdMeasurement {
         }
         updates.sort(CellUpdate.SEQUENCE);
         long begin = THREADS.getCurrentThreadCpuTime();
-        cell.apply(updates, pairSelection, sighting -> sightings++);
+        cell.apply(updates, pairSelection, observation -> observations++);
         return THREADS.getCurrentThreadCpuTime() - begin;
     }
 }

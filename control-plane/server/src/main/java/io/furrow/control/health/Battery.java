@@ -24,21 +24,21 @@ final class Battery {
 
     private Battery() {}
 
-    /** Returns null if the entity has no valid charge. */
-    static Double chargeOf(Entity entity) {
-        return chargeOf(entity, false);
+    /** Returns null if the entity has no valid level. */
+    static Double levelOf(Entity entity) {
+        return levelOf(entity, false);
     }
 
     /** @param percent whether the device reports in percent where it names no unit, see {@link #isPercent} */
-    static Double chargeOf(Entity entity, boolean percent) {
+    static Double levelOf(Entity entity, boolean percent) {
         String attribute = attributeOf(entity);
         Optional<Double> number = entity.number(attribute);
-        Optional<Double> charge = number.isEmpty()
+        Optional<Double> level = number.isEmpty()
                 ? entity.text(attribute).map(Battery::ofRobot).map(value -> share(value, value > 1))
                 : Quantity.unitOf(entity, attribute).isEmpty()
                         ? number.map(value -> share(value, value > 1 || percent))
                         : Quantity.SHARE.of(entity, attribute);
-        return charge.filter(share -> share >= 0 && share <= 1).orElse(null);
+        return level.filter(share -> share >= 0 && share <= 1).orElse(null);
     }
 
     private static double share(double value, boolean percent) {
@@ -62,8 +62,8 @@ final class Battery {
     private static Double ofRobot(String text) {
         try {
             JsonNode state = NgsiJson.mapper().readTree(text.replace(QUOTE, "\""));
-            JsonNode charge = state == null ? null : state.path(PERCENTAGE);
-            return charge == null || !charge.isNumber() ? null : Double.valueOf(charge.doubleValue());
+            JsonNode level = state == null ? null : state.path(PERCENTAGE);
+            return level == null || !level.isNumber() ? null : Double.valueOf(level.doubleValue());
         } catch (com.fasterxml.jackson.core.JsonProcessingException e) {
             return null; // a text that is not a ROS message contains no charge
         }

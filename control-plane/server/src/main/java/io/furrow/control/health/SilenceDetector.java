@@ -114,7 +114,7 @@ final class SilenceDetector {
                 .map(Instant::toEpochMilli)
                 .orElse(null);
         tracked.percent |= Battery.isPercent(entity);
-        Double battery = Battery.chargeOf(entity, tracked.percent);
+        Double battery = Battery.levelOf(entity, tracked.percent);
         boolean off = entity.value(STATUS)
                 .filter(status -> status.isBoolean() && !status.booleanValue())
                 .isPresent();

@@ -30,17 +30,17 @@ class BatteryTest {
     void followsTheCaseTable(String line) throws Exception {
         String[] columns = line.split(" \\| ");
         boolean percent = false;
-        Double charge = null;
+        Double level = null;
         for (JsonNode report : NgsiJson.mapper().readTree(columns[0])) {
             Entity entity = Entity.of(((ObjectNode) report).put("id", "a"));
             percent |= Battery.isPercent(entity);
-            charge = Battery.chargeOf(entity, percent);
+            level = Battery.levelOf(entity, percent);
         }
 
         if (columns[1].equals("none")) {
-            assertThat(charge).isNull();
+            assertThat(level).isNull();
         } else {
-            assertThat(charge).isEqualTo(Double.parseDouble(columns[1]), within(1e-9));
+            assertThat(level).isEqualTo(Double.parseDouble(columns[1]), within(1e-9));
         }
     }
 }

@@ -216,19 +216,19 @@ class SilenceDetectorTest {
 
     @Test
     void readsBatteriesAsDevicesAndRobotsReportThem() throws Exception {
-        assertThat(charge(Entity.builder(ID, "T").number("battery", 0.8))).isEqualTo(0.8);
-        assertThat(charge(Entity.builder(ID, "T").number("battery", 80))).isEqualTo(0.8);
-        assertThat(charge(Entity.builder(ID, "T").text("battery", "{%27percentage%27: 0.8}")))
+        assertThat(level(Entity.builder(ID, "T").number("battery", 0.8))).isEqualTo(0.8);
+        assertThat(level(Entity.builder(ID, "T").number("battery", 80))).isEqualTo(0.8);
+        assertThat(level(Entity.builder(ID, "T").text("battery", "{%27percentage%27: 0.8}")))
                 .isEqualTo(0.8);
-        assertThat(charge(Entity.builder(ID, "T").text("battery", "80"))).isEqualTo(0.8);
-        assertThat(charge(Entity.builder(ID, "T").text("battery", "full"))).isNull();
-        assertThat(charge(Entity.builder(ID, "T").text("battery", "{}"))).isNull();
-        assertThat(charge(Entity.builder(ID, "T").number("battery", -1))).isNull();
-        assertThat(charge(Entity.builder(ID, "T"))).isNull();
+        assertThat(level(Entity.builder(ID, "T").text("battery", "80"))).isEqualTo(0.8);
+        assertThat(level(Entity.builder(ID, "T").text("battery", "full"))).isNull();
+        assertThat(level(Entity.builder(ID, "T").text("battery", "{}"))).isNull();
+        assertThat(level(Entity.builder(ID, "T").number("battery", -1))).isNull();
+        assertThat(level(Entity.builder(ID, "T"))).isNull();
     }
 
-    private static Double charge(EntityBuilder entity) throws Exception {
-        return Battery.chargeOf(Entity.parse(entity.toBytes()));
+    private static Double level(EntityBuilder entity) throws Exception {
+        return Battery.levelOf(Entity.parse(entity.toBytes()));
     }
 
     private void process(EntityBuilder entity, long reported) {

@@ -13,7 +13,7 @@ import io.furrow.model.position.Position;
 public final class FirosEntity {
     private static final String QUOTE = "%27";
     private static final double HOURS_PER_BATTERY = 8;
-    private static final double MIN_CHARGE = 0.2;
+    private static final double MIN_BATTERY_LEVEL = 0.2;
 
     private FirosEntity() {}
 
@@ -39,14 +39,14 @@ public final class FirosEntity {
                 .attribute(
                         "battery",
                         "sensor_msgs.msg.BatteryState",
-                        TextNode.valueOf(
-                                escaped(String.format(Locale.ROOT, "{'percentage': %.3f}", charge(state.driven())))));
+                        TextNode.valueOf(escaped(
+                                String.format(Locale.ROOT, "{'percentage': %.3f}", batteryLevel(state.driven())))));
     }
 
     /** Falls with the time driven, from 1 to 0.2 in eight hours; then the battery is replaced. */
-    static double charge(double driven) {
+    static double batteryLevel(double driven) {
         double used = driven / 3600 % HOURS_PER_BATTERY / HOURS_PER_BATTERY;
-        return 1 - (1 - MIN_CHARGE) * used;
+        return 1 - (1 - MIN_BATTERY_LEVEL) * used;
     }
 
     private static String navSatFix(Position place, Instant now) {

@@ -137,7 +137,7 @@ final class GroupReader {
         return List.of(quantity(
                 "bat",
                 "battery",
-                Curves.charge(life, RandomStream.seed(own, "battery")).rounded(3)));
+                Curves.batteryLevel(life, RandomStream.seed(own, "battery")).rounded(3)));
     }
 
     private SimulatedDevice robot(ScenarioObjectReader group, Identity identity, Duration period)

@@ -8,7 +8,7 @@ import java.util.OptionalDouble;
 /** The curves that readings are composed of. */
 public final class Curves {
     private static final int WARMEST_HOUR = 15;
-    private static final double MIN_CHARGE = 0.2;
+    private static final double MIN_BATTERY_LEVEL = 0.2;
 
     private Curves() {}
 
@@ -40,11 +40,11 @@ public final class Curves {
      * The charge of a battery, falling evenly from 1 to 0.2 within {@code life}, then replaced; the phase depends on
      * the seed.
      */
-    public static Signal charge(Duration life, long seed) {
+    public static Signal batteryLevel(Duration life, long seed) {
         double phase = RandomStream.of(seed, 0).nextDouble();
         return time -> {
             double lives = time.toEpochMilli() / (double) life.toMillis() + phase;
-            return OptionalDouble.of(1 - (1 - MIN_CHARGE) * (lives - Math.floor(lives)));
+            return OptionalDouble.of(1 - (1 - MIN_BATTERY_LEVEL) * (lives - Math.floor(lives)));
         };
     }
 

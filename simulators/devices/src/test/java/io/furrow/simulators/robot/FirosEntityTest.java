@@ -53,10 +53,10 @@ class FirosEntityTest {
     }
 
     @Test
-    void losesChargeWithWhatItDrives() {
-        assertThat(FirosEntity.charge(0)).isEqualTo(1);
-        assertThat(FirosEntity.charge(7.999 * 3600)).isEqualTo(0.2, within(0.001));
-        assertThat(FirosEntity.charge(8 * 3600)).isEqualTo(1);
+    void losesBatteryLevelWithWhatItDrives() {
+        assertThat(FirosEntity.batteryLevel(0)).isEqualTo(1);
+        assertThat(FirosEntity.batteryLevel(7.999 * 3600)).isEqualTo(0.2, within(0.001));
+        assertThat(FirosEntity.batteryLevel(8 * 3600)).isEqualTo(1);
     }
 
     private static Entity entity(RobotState state) {

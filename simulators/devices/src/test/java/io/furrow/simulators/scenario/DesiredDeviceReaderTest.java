@@ -77,7 +77,7 @@ class DesiredDeviceReaderTest {
             double dayLater = battery.signal().at(FROM.plus(Duration.ofDays(1))).orElseThrow();
             double weekLater =
                     battery.signal().at(FROM.plus(Duration.ofDays(7))).orElseThrow();
-            assertThat(List.of(now, dayLater)).allMatch(charge -> charge >= 0.2 && charge <= 1);
+            assertThat(List.of(now, dayLater)).allMatch(level -> level >= 0.2 && level <= 1);
             assertThat(dayLater).isNotEqualTo(now);
             assertThat(weekLater).isEqualTo(now);
         });

@@ -26,14 +26,14 @@ import io.furrow.model.text.FailureText;
 
 /**
  * Sends each notification once, over persistent connections or a new one each. Any HTTP status is a success; a refused
- * connection or a timeout is a failure. Up to {@value #LANES} are in flight for one subscription, one for one entity.
+ * connection or a timeout is a failure. Up to {@value #QUEUES} are in flight for one subscription, one for one entity.
  * What exceeds {@value #MAX_QUEUED} notifications or {@value #MAX_QUEUED_BYTES} bytes of a subscription's queue is
  * dropped and counted.
  */
 public final class Notifier implements AutoCloseable {
     static final int MAX_QUEUED = 20_000;
     static final long MAX_QUEUED_BYTES = 128L << 20;
-    private static final int LANES = 16;
+    private static final int QUEUES = 16;
     private static final int CONNECTIONS_PER_RECEIVER = 64;
     private static final int THREADS = 8;
     private static final long CONNECT_TIMEOUT_MS = 5_000;
@@ -154,13 +154,13 @@ public final class Notifier implements AutoCloseable {
 
     /** The queued notifications of one subscription. */
     private final class ReceiverQueue {
-        private final NotificationQueue[] lanes = new NotificationQueue[LANES];
+        private final NotificationQueue[] queues = new NotificationQueue[QUEUES];
         private final AtomicLong count = new AtomicLong();
         private final AtomicLong bytes = new AtomicLong();
 
         private ReceiverQueue() {
-            for (int i = 0; i < LANES; i++) {
-                lanes[i] = new NotificationQueue(threads, this::send);
+            for (int i = 0; i < QUEUES; i++) {
+                queues[i] = new NotificationQueue(threads, this::send);
             }
         }
 
@@ -172,7 +172,7 @@ public final class Notifier implements AutoCloseable {
             }
             count.incrementAndGet();
             bytes.addAndGet(entity.weight());
-            lanes[Math.floorMod(entity.scope().identity(entity.id()).hashCode(), LANES)].offer(notification);
+            queues[Math.floorMod(entity.scope().identity(entity.id()).hashCode(), QUEUES)].offer(notification);
         }
 
         private void send(OutgoingNotification notification, Runnable done) {

@@ -92,9 +92,9 @@ public final class DeadLettersCommand {
         String target = to == null ? Topics.ofDeadLetters(topic).orElseThrow(() -> nameless(topic)) : to;
         Redrive.Choice choice = new Redrive.Choice(
                 reasons == null ? Set.of() : Set.copyOf(reasons), stages == null ? Set.of() : Set.copyOf(stages));
-        Redrive.Request wish = new Redrive.Request(topic, target, choice, again, dryRun);
+        Redrive.Request request = new Redrive.Request(topic, target, choice, again, dryRun);
         try {
-            print(wish, new Redrive(KafkaClient.settings(kafka, kafkaProperties), wish).run());
+            print(request, new Redrive(KafkaClient.settings(kafka, kafkaProperties), request).run());
             return 0;
         } catch (IOException | org.apache.kafka.common.KafkaException e) {
             throw new CommandException("Dead letters of %s at %s: %s".formatted(topic, kafka, FailureText.of(e)), e);
@@ -107,14 +107,14 @@ public final class DeadLettersCommand {
                 "--topic " + topic + " does not end in '.dead'; say with --to where its records go");
     }
 
-    private void print(Redrive.Request wish, Redrive.Outcome outcome) {
+    private void print(Redrive.Request request, Redrive.Outcome outcome) {
         PrintWriter out = spec.commandLine().getOut();
         out.printf(
                 "%s %s from %s to %s%s%n",
-                wish.dryRun() ? "would send" : "sent",
+                request.dryRun() ? "would send" : "sent",
                 Counts.of(outcome.total(), "dead letter"),
-                wish.from(),
-                wish.to(),
+                request.from(),
+                request.to(),
                 listed(": ", outcome.fed()));
         if (!outcome.left().isEmpty()) {
             out.println("left where they are" + listed(": ", outcome.left()));

@@ -20,11 +20,11 @@ import io.furrow.cli.compare.ResultMatch.Verdict;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * A comparison as one HTML file that needs nothing else: uPlot and the data are in it. Each pair, device and field has a lane of A above
- * one of B, averages have two curves. Lanes with differences come first in each kind; beyond {@value #MAX_LANES} they are left out.
+ * A comparison as one HTML file that needs nothing else: uPlot and the data are in it. Each pair, device and field has a row of A above
+ * one of B, averages have two curves. Rows with differences come first in each kind; beyond {@value #MAX_ROWS} they are left out.
  */
 final class ComparisonHtml {
-    static final int MAX_LANES = 40;
+    static final int MAX_ROWS = 40;
 
     private static final String LIBRARY = "META-INF/resources/webjars/uplot/%s/%s";
 
@@ -89,21 +89,21 @@ final class ComparisonHtml {
                         .computeIfAbsent(match.subject(), none -> new ArrayList<>())
                         .add(match));
         Predicate<Map.Entry<ResultSubject, List<ResultMatch>>> differs =
-                lane -> lane.getValue().stream().anyMatch(match -> match.verdict() != Verdict.SAME);
+                row -> row.getValue().stream().anyMatch(match -> match.verdict() != Verdict.SAME);
         ObjectNode json = JsonNodeFactory.instance.objectNode().put("name", kind.code());
-        json.put("curves", kind == ResultKind.AVERAGES).put("more", Math.max(0, bySubject.size() - MAX_LANES));
+        json.put("curves", kind == ResultKind.AVERAGES).put("more", Math.max(0, bySubject.size() - MAX_ROWS));
         for (Verdict verdict : Verdict.values()) {
             json.withObject("/counts").put(verdict.code(), comparison.count(kind, verdict));
         }
-        ArrayNode lanes = json.putArray("lanes");
+        ArrayNode rows = json.putArray("lanes");
         Stream.concat(
                         bySubject.entrySet().stream().filter(differs),
                         bySubject.entrySet().stream().filter(differs.negate()))
-                .limit(MAX_LANES)
-                .forEach(lane -> {
-                    ObjectNode one = lanes.addObject().put("name", lane.getKey().name());
+                .limit(MAX_ROWS)
+                .forEach(row -> {
+                    ObjectNode one = rows.addObject().put("name", row.getKey().name());
                     ArrayNode matches = one.putArray("matches");
-                    lane.getValue().forEach(match -> matches.add(match(match)));
+                    row.getValue().forEach(match -> matches.add(match(match)));
                 });
         return json;
     }

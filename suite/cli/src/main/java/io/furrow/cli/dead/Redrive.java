@@ -93,23 +93,23 @@ public final class Redrive {
     }
 
     private final Properties kafka;
-    private final Request wish;
+    private final Request request;
     private final Map<String, Long> fed = new TreeMap<>();
     private final Map<String, Long> left = new TreeMap<>();
     private RedriveOffsets memory;
     private OriginalReader originals;
 
     /** @param kafka what every client needs, {@code bootstrap.servers} at least */
-    public Redrive(Properties kafka, Request wish) {
+    public Redrive(Properties kafka, Request request) {
         this.kafka = kafka;
-        this.wish = wish;
+        this.request = request;
     }
 
     /** @throws IOException if the topic is not there, or its end is not reached */
     public Outcome run() throws IOException {
         try (var consumer = consumer();
                 var found = new OriginalReader(consumer());
-                var producer = wish.dryRun() ? null : producer()) {
+                var producer = request.dryRun() ? null : producer()) {
             originals = found;
             assign(consumer);
             Map<TopicPartition, Long> ends = consumer.endOffsets(consumer.assignment(), TIMEOUT);
@@ -117,7 +117,7 @@ public final class Redrive {
                 producer.initTransactions(); // another that feeds the same is out from here on, and what it did is
                 // known
             }
-            memory = RedriveOffsets.read(kafka, wish, producer != null);
+            memory = RedriveOffsets.read(kafka, request, producer != null);
             long until = System.nanoTime() + TIMEOUT.toNanos();
             while (isBehind(consumer, ends)) {
                 ConsumerRecords<byte[], byte[]> records = consumer.poll(Duration.ofMillis(200));
@@ -125,7 +125,7 @@ public final class Redrive {
                     feed(records, ends, producer);
                     until = System.nanoTime() + TIMEOUT.toNanos();
                 } else if (System.nanoTime() > until) {
-                    throw new IOException("the end of " + wish.from() + " was not reached; does its broker answer?");
+                    throw new IOException("the end of " + request.from() + " was not reached; does its broker answer?");
                 }
             }
             return new Outcome(fed, left);
@@ -133,12 +133,12 @@ public final class Redrive {
     }
 
     private void assign(KafkaConsumer<byte[], byte[]> consumer) throws IOException {
-        List<PartitionInfo> partitions = consumer.partitionsFor(wish.from(), TIMEOUT);
+        List<PartitionInfo> partitions = consumer.partitionsFor(request.from(), TIMEOUT);
         if (partitions == null || partitions.isEmpty()) {
-            throw new IOException("there is no topic " + wish.from() + "; name another with --topic");
+            throw new IOException("there is no topic " + request.from() + "; name another with --topic");
         }
         consumer.assign(partitions.stream()
-                .map(partition -> new TopicPartition(wish.from(), partition.partition()))
+                .map(partition -> new TopicPartition(request.from(), partition.partition()))
                 .toList());
         consumer.seekToBeginning(consumer.assignment());
     }
@@ -185,10 +185,10 @@ public final class Redrive {
             left.merge(OTHER, 1L, Long::sum);
             return false;
         }
-        if (!wish.again() && memory.holds(deadLetter.partition(), kind, deadLetter.offset())) {
+        if (!request.again() && memory.holds(deadLetter.partition(), kind, deadLetter.offset())) {
             return false;
         }
-        if (!wish.choice().isOf(kind)) {
+        if (!request.choice().isOf(kind)) {
             left.merge(kind.told(), 1L, Long::sum);
             return false;
         }
@@ -220,7 +220,7 @@ public final class Redrive {
 
     private ProducerRecord<byte[], byte[]> broughtBack(ConsumerRecord<byte[], byte[]> original) {
         ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(
-                wish.to(), null, OriginalReader.timeOf(original), original.key(), original.value());
+                request.to(), null, OriginalReader.timeOf(original), original.key(), original.value());
         for (Header header : original.headers()) {
             if (!DeadLetter.HEADERS.contains(header.key())) {
                 record.headers().add(header);
@@ -245,7 +245,8 @@ public final class Redrive {
     private KafkaProducer<byte[], byte[]> producer() {
         Properties settings = new Properties();
         settings.putAll(kafka);
-        settings.setProperty(ProducerConfig.TRANSACTIONAL_ID_CONFIG, "furrow-redrive-" + wish.from() + "-" + wish.to());
+        settings.setProperty(
+                ProducerConfig.TRANSACTIONAL_ID_CONFIG, "furrow-redrive-" + request.from() + "-" + request.to());
         settings.setProperty(ProducerConfig.TRANSACTION_TIMEOUT_CONFIG, Long.toString(TRANSACTION_TIMEOUT.toMillis()));
         // The topic may have been made just now, see KAFKA-15591.
         settings.setProperty(ProducerConfig.MAX_IN_FLIGHT_REQUESTS_PER_CONNECTION, "1");

@@ -51,16 +51,16 @@ final class RedriveOffsets {
      * @param making whether the topic is made where it is not there; else there is no memory then
      * @throws IOException if Kafka refuses; the message says what
      */
-    static RedriveOffsets read(Properties kafka, Redrive.Request wish, boolean making) throws IOException {
-        String topic = wish.from() + ".refed";
+    static RedriveOffsets read(Properties kafka, Redrive.Request request, boolean making) throws IOException {
+        String topic = request.from() + ".refed";
         try (Admin admin = Admin.create(kafka)) {
-            String dead = admin.describeTopics(List.of(wish.from()))
+            String dead = admin.describeTopics(List.of(request.from()))
                     .allTopicNames()
                     .get()
-                    .get(wish.from())
+                    .get(request.from())
                     .topicId()
                     .toString();
-            RedriveOffsets memory = new RedriveOffsets(topic, dead, wish.to());
+            RedriveOffsets memory = new RedriveOffsets(topic, dead, request.to());
             if (making) {
                 make(admin, topic);
             }
