@@ -1,5 +1,6 @@
 /** Brings topics into the store: what is live, or what a replay plays. */
 import { api } from './api.js';
+import { ANALYTICS } from './jobs.js';
 import { resource } from './resource.js';
 import { deviceKey, endOf, store } from './store.js';
 import { streams } from './stream.js';
@@ -195,7 +196,7 @@ class Feeds {
     const span = store.recordings.get(mission);
     store.setMode({
       kind: 'replay', replay: replay.replay, group, mission, topic, missions: members.map((each) => each.mission),
-      results: { collision: `${topic}.collision`, temperature: `${topic}.temperature`, presence: `${topic}.presence` },
+      results: Object.fromEntries(ANALYTICS.map((job) => [job, `${topic}.${job}`])),
       state: 'starting', speed: existing?.speed ?? 1, position: span?.first, from: span?.first, to: span?.last, at: Date.now(), epoch: -1,
     });
     this.epochs = new Map();

@@ -2,13 +2,13 @@
 import { h, replace } from '../core/dom.js';
 import { dateTime } from '../core/format.js';
 import { icon } from '../core/icons.js';
+import { ANALYTICS } from '../core/jobs.js';
 import { navigate, route } from '../core/router.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { startReplay, steer } from './control.js';
 
 const SECOND = 1_000;
-const ANALYTICS = ['collision', 'presence', 'temperature'];
 /** What replays there are is known after so many ms. */
 const LISTED_WITHIN = 3_000;
 

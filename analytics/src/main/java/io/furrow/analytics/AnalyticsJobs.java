@@ -3,11 +3,8 @@ package io.furrow.analytics;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Option;
 
-import io.furrow.analytics.collision.CollisionJob;
 import io.furrow.analytics.collision.CollisionOptions;
-import io.furrow.analytics.presence.PresenceJob;
 import io.furrow.analytics.presence.PresenceOptions;
-import io.furrow.analytics.temperature.TemperatureJob;
 import io.furrow.analytics.temperature.TemperatureOptions;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
@@ -30,12 +27,6 @@ public final class AnalyticsJobs {
     }
 
     private static void start(JobOptions options) throws Exception {
-        if (options instanceof CollisionOptions collision) {
-            CollisionJob.assemble(collision).execute();
-        } else if (options instanceof PresenceOptions presence) {
-            PresenceJob.assemble(presence).execute();
-        } else if (options instanceof TemperatureOptions temperature) {
-            TemperatureJob.assemble(temperature).execute();
-        }
+        AnalyticsRegistry.assemble(options).execute();
     }
 }

@@ -2,6 +2,7 @@
 import { h, replace, setText } from '../../core/dom.js';
 import { dateTime, duration, zone } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
+import { ANALYTICS } from '../../core/jobs.js';
 import { TimeInput } from '../../core/local-time.js';
 import { navigate } from '../../core/router.js';
 import { store } from '../../core/store.js';
@@ -9,7 +10,6 @@ import { t } from '../../texts.js';
 import { SPEEDS, startReplay } from '../../timeline/control.js';
 
 const SHORTENED = 'PT30S';
-const ANALYTICS = ['collision', 'presence', 'temperature'];
 
 export class Plan {
   constructor() {

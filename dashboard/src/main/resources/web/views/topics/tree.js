@@ -1,6 +1,7 @@
 /** Topics in the order in which people look for them: of all, of each domain and its missions, of replays, of requests and states. */
+import { ANALYTICS } from '../../core/jobs.js';
 
-const RESULTS = ['data.collision', 'data.temperature', 'data.presence', 'data.clocks', 'data.images', 'data.context', 'data.catalog'];
+const RESULTS = [...ANALYTICS.map((job) => `data.${job}`), 'data.clocks', 'data.images', 'data.context', 'data.catalog'];
 /** Shown although there is no such topic yet. */
 const ALWAYS = 'data.collision';
 const CANARY = 'canary';

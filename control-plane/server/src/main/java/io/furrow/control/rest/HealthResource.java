@@ -4,6 +4,7 @@ import java.io.IOException;
 import java.io.InputStream;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.dataformat.yaml.YAMLMapper;
 import jakarta.ws.rs.GET;
 import jakarta.ws.rs.Path;
 import jakarta.ws.rs.Produces;
@@ -11,6 +12,7 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.readiness.Readiness;
+import io.furrow.model.ngsi.NgsiJson;
 
 /** What reports the API itself, without a token: its description, whether it is ready, its numbers. */
 @Path("/")
@@ -22,8 +24,8 @@ public final class HealthResource {
     HealthResource(Readiness readiness, RestMetrics metrics) throws IOException {
         this.readiness = readiness;
         this.metrics = metrics;
-        try (InputStream json = HealthResource.class.getResourceAsStream("openapi.json")) {
-            this.description = json.readAllBytes();
+        try (InputStream yaml = HealthResource.class.getResourceAsStream("openapi.yaml")) {
+            this.description = NgsiJson.mapper().writeValueAsBytes(new YAMLMapper().readTree(yaml));
         }
     }
 

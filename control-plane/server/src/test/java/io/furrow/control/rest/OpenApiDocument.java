@@ -8,6 +8,7 @@ import java.util.TreeSet;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.dataformat.yaml.YAMLMapper;
 import com.networknt.schema.JsonSchemaFactory;
 import com.networknt.schema.SpecVersion;
 
@@ -26,8 +27,8 @@ final class OpenApiDocument {
     }
 
     static OpenApiDocument read() throws IOException {
-        try (InputStream in = RestApi.class.getResourceAsStream("openapi.json")) {
-            return new OpenApiDocument((ObjectNode) NgsiJson.mapper().readTree(in.readAllBytes()));
+        try (InputStream in = RestApi.class.getResourceAsStream("openapi.yaml")) {
+            return new OpenApiDocument((ObjectNode) new YAMLMapper().readTree(in));
         }
     }
 

@@ -5,6 +5,7 @@ import java.util.Optional;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -22,7 +23,7 @@ public record InputTopics(List<String> names) {
     private static final String MISSION = "data\\.[^.]+\\.realtime\\.[^.]+$";
     /** No mission's topic ends in {@code .dead}, see {@link io.furrow.model.topic.TopicName}. */
     private static final String NO_RESULTS = "(?!.*\\.dead$)(?=" + MISSION
-            + "|(?!.*\\.(?:late|overflow|collision|temperature|presence|suspects|clocks)$))";
+            + "|(?!.*\\.(?:late|overflow|suspects|clocks|" + String.join("|", AnalyticsKind.jobNames()) + ")$))";
 
     public InputTopics {
         names = List.copyOf(names);

@@ -9,6 +9,8 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.result.AnalyticsKind;
+
 /**
  * What a replay plays, as it was asked for at its start.
  *
@@ -35,9 +37,6 @@ public record ReplayPlan(
     /** The whole of a mission, once. */
     public static final ReplayPlan PLAIN =
             new ReplayPlan(null, null, null, false, List.of(), null, Stamps.ORIGINAL, null, List.of());
-
-    /** The jobs that can run on a replay. */
-    public static final List<String> ANALYTICS = List.of("collision", "presence", "temperature");
 
     private static final Pattern TOPIC = Pattern.compile("data\\.[A-Za-z0-9._-]{1,240}");
     private static final Pattern FILE = Pattern.compile("[A-Za-z0-9_-][A-Za-z0-9._-]{0,199}");
@@ -86,8 +85,8 @@ public record ReplayPlan(
         ObjectNode source = members.objectOrNull("source");
         Duration maxGap = members.durationOrNull("maxGap");
         List<String> analytics = members.texts("analytics", Pattern.compile("[a-z]{1,20}"), "analytics jobs");
-        if (!ANALYTICS.containsAll(analytics)) {
-            throw JsonObjectReader.wrong("analytics", "a list of " + String.join(", ", ANALYTICS));
+        if (!AnalyticsKind.jobNames().containsAll(analytics)) {
+            throw JsonObjectReader.wrong("analytics", "a list of " + String.join(", ", AnalyticsKind.jobNames()));
         }
         return new ReplayPlan(
                 source == null ? null : Source.read(source),

@@ -5,6 +5,7 @@ import java.util.Optional;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -15,7 +16,7 @@ import io.furrow.model.topic.Topics;
  */
 public record ReplayAnalyticsJob(String job, String topic) {
     private static final Pattern NAME =
-            Pattern.compile("(collision|presence|temperature)-of-([A-Za-z0-9_-]+)\\.([0-9a-f]{8})");
+            Pattern.compile("(" + String.join("|", AnalyticsKind.jobNames()) + ")-of-([A-Za-z0-9_-]+)\\.([0-9a-f]{8})");
 
     /** The job of a name as {@link #name} gives it; empty for what does not belong to a replay. */
     public static Optional<ReplayAnalyticsJob> named(String name) {

@@ -12,6 +12,7 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 
 /** What {@code ./furrow replay start} asks for. */
@@ -92,7 +93,8 @@ final class ReplayStart {
             names = "--analytics",
             paramLabel = "JOB",
             split = ",",
-            description = "Analytics jobs to run on the replay, parted by commas: collision, presence, temperature.")
+            completionCandidates = JobNames.class,
+            description = "Analytics jobs to run on the replay, parted by commas: ${COMPLETION-CANDIDATES}.")
     private List<String> analytics;
 
     @Option(
@@ -176,5 +178,13 @@ final class ReplayStart {
                                 String.join(" ", job.options()),
                                 kafka == null ? "" : " --bootstrap-servers " + kafka))
                 .toList();
+    }
+
+    static final class JobNames extends ArrayList<String> {
+        private static final long serialVersionUID = 1;
+
+        JobNames() {
+            super(AnalyticsKind.jobNames());
+        }
     }
 }

@@ -9,6 +9,8 @@ import java.util.Optional;
 import java.util.Properties;
 import java.util.Set;
 import java.util.TreeMap;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import org.apache.kafka.clients.consumer.ConsumerConfig;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -25,6 +27,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.OriginalReference;
+import io.furrow.model.result.AnalyticsKind;
 
 /**
  * Sends dead letters to a topic again, as they were: key, bytes, time and headers, without those that say why they
@@ -37,8 +40,9 @@ public final class Redrive {
      * Who sets aside a copy: the event continued without its image or its mission, to its topics though not to MongoDB, or to the other jobs.
      * Fed again it would be there twice, so these letters must be asked for by name.
      */
-    public static final Set<String> WENT_ON =
-            Set.of("routes", "ingest-images", "missions", "temperature", "collision", "presence");
+    public static final Set<String> WENT_ON = Stream.concat(
+                    Stream.of("routes", "ingest-images", "missions"), AnalyticsKind.jobNames().stream())
+            .collect(Collectors.toUnmodifiableSet());
 
     static final Duration TIMEOUT = Duration.ofSeconds(30);
     /** Of a transaction with large originals. A broker's own limit is 15 minutes, if not set otherwise. */

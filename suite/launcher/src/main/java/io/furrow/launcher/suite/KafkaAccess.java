@@ -10,6 +10,7 @@ import java.util.Set;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
+import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
@@ -17,6 +18,7 @@ import org.apache.kafka.common.errors.TopicExistsException;
 
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.KafkaClient;
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
@@ -25,19 +27,16 @@ public final class KafkaAccess implements AutoCloseable {
     private static final int PARTITIONS = 4;
     private static final long SECONDS = 20;
     private static final Set<String> JOBS_READ = Set.of(Topics.RAW, Topics.NOTIFICATIONS);
-    private static final List<String> TOPICS = List.of(
-            Topics.RAW,
-            Topics.dead(Topics.RAW),
-            Topics.NOTIFICATIONS,
-            Topics.TEMPERATURE,
-            Topics.TEMPERATURE_LATE,
-            Topics.COLLISION,
-            Topics.COLLISION_LATE,
-            Topics.PRESENCE,
-            Topics.PRESENCE_LATE,
-            Topics.CLOCKS,
-            Topics.CONTEXT,
-            Connectors.DEAD_RESULTS);
+    private static final List<String> TOPICS = Stream.concat(
+                    Stream.of(
+                            Topics.RAW,
+                            Topics.dead(Topics.RAW),
+                            Topics.NOTIFICATIONS,
+                            Topics.CLOCKS,
+                            Topics.CONTEXT,
+                            Connectors.DEAD_RESULTS),
+                    AnalyticsKind.allTopics())
+            .toList();
 
     private final String bootstrapServers;
     private final Path propertiesFile;

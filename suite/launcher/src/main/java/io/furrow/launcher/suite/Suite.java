@@ -3,6 +3,7 @@ package io.furrow.launcher.suite;
 import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Path;
+import java.util.ArrayList;
 import java.util.Collection;
 import java.util.List;
 import java.util.Map;
@@ -26,6 +27,7 @@ import io.furrow.kafka.field.FieldsTopic;
 import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.replay.ReplayAnalytics;
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.simulators.device.FleetSettings;
@@ -264,8 +266,9 @@ public final class Suite implements AutoCloseable {
                     new Connectors.Source(
                             port, directory.resolve("journal"), settings.allowed(), kafka.clientProperties()),
                     contextBroker);
-            connectors.sink(
-                    contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION, Topics.PRESENCE, Topics.CONTEXT));
+            List<String> results = new ArrayList<>(AnalyticsKind.topics());
+            results.add(Topics.CONTEXT);
+            connectors.sink(contextBroker, results);
             return listener;
         });
     }

@@ -11,12 +11,7 @@ import java.util.stream.Stream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.analytics.collision.CollisionJob;
-import io.furrow.analytics.collision.CollisionOptions;
-import io.furrow.analytics.presence.PresenceJob;
-import io.furrow.analytics.presence.PresenceOptions;
-import io.furrow.analytics.temperature.TemperatureJob;
-import io.furrow.analytics.temperature.TemperatureOptions;
+import io.furrow.analytics.AnalyticsRegistry;
 import io.furrow.cli.control.ReplayAnalyticsJob;
 import io.furrow.cli.option.CommandException;
 import io.furrow.flink.job.JobCommandLine;
@@ -25,6 +20,7 @@ import io.furrow.ingest.IngestJob;
 import io.furrow.ingest.IngestOptions;
 import io.furrow.ingest.normalize.NormalizeJob;
 import io.furrow.ingest.normalize.NormalizeOptions;
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.replay.ReplayJob;
 import io.furrow.replay.ReplayOptions;
 
@@ -65,33 +61,28 @@ final class SuiteJobs {
      */
     StreamExecutionEnvironment ofReplay(ReplayAnalyticsJob replay) {
         try {
-            return switch (replay.job()) {
-                case "collision" ->
-                    CollisionJob.assemble(
-                            parsed(replay.name(), new CollisionOptions(), withOptions(replay, collision())));
-                case "temperature" ->
-                    TemperatureJob.assemble(parsed(
-                            replay.name(),
-                            new TemperatureOptions(),
-                            withOptions(replay, "--window", settings.window())));
-                case "presence" ->
-                    PresenceJob.assemble(parsed(replay.name(), new PresenceOptions(), withOptions(replay)));
-                default -> throw new CommandException("There is no analytics job " + replay.job());
-            };
+            AnalyticsKind kind = AnalyticsKind.named(replay.job())
+                    .orElseThrow(() -> new CommandException("There is no analytics job " + replay.job()));
+            String[] own = Stream.concat(replay.options().stream(), own(kind)).toArray(String[]::new);
+            return AnalyticsRegistry.assemble(parsed(replay.name(), AnalyticsRegistry.options(kind), own));
         } catch (ParameterException e) {
             throw new CommandException(e.getMessage(), e);
         }
     }
 
-    private String[] collision() {
+    private Stream<String> own(AnalyticsKind kind) {
+        return switch (kind) {
+            case COLLISION -> collision();
+            case TEMPERATURE -> Stream.of("--window", settings.window());
+            case PRESENCE -> Stream.empty();
+        };
+    }
+
+    private Stream<String> collision() {
         Path zones = directory.resolve(SuiteFields.ZONES);
         Stream<String> horizon = Stream.of("--horizon", settings.watch().horizon());
         Stream<String> yards = Files.exists(zones) ? Stream.of("--zones", zones.toString()) : Stream.empty();
-        return Stream.concat(horizon, yards).toArray(String[]::new);
-    }
-
-    private static String[] withOptions(ReplayAnalyticsJob replay, String... own) {
-        return Stream.concat(replay.options().stream(), Stream.of(own)).toArray(String[]::new);
+        return Stream.concat(horizon, yards);
     }
 
     private Map<String, StreamExecutionEnvironment> assembled() {
@@ -106,12 +97,11 @@ final class SuiteJobs {
                         "--mongo",
                         mongo)));
         plans.put("normalize", NormalizeJob.assemble(parsed("normalize", new NormalizeOptions())));
-        plans.put(
-                "temperature",
-                TemperatureJob.assemble(
-                        parsed("temperature", new TemperatureOptions(), "--window", settings.window())));
-        plans.put("collision", CollisionJob.assemble(parsed("collision", new CollisionOptions(), collision())));
-        plans.put("presence", PresenceJob.assemble(parsed("presence", new PresenceOptions())));
+        for (AnalyticsKind kind : AnalyticsKind.values()) {
+            String name = kind.jobName();
+            String[] own = own(kind).toArray(String[]::new);
+            plans.put(name, AnalyticsRegistry.assemble(parsed(name, AnalyticsRegistry.options(kind), own)));
+        }
         plans.put("replay", ReplayJob.assemble(parsed("replay", new ReplayOptions(), "--mongo", mongo)));
         return plans;
     }

@@ -27,6 +27,7 @@ import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.result.AnalyticsKind;
 import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
@@ -104,7 +105,7 @@ class ReplayAnalyticsIT {
     /** @param state null for none told */
     private void addDesired(String id, ReplayStatus.State state) throws Exception {
         ReplayPlan plan = new ReplayPlan(
-                null, null, null, false, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, ReplayPlan.ANALYTICS);
+                null, null, null, false, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, AnalyticsKind.jobNames());
         DesiredReplay desired = DesiredReplay.started("weeding", replay(id), plan, 1, T0, 1);
         producer.send(new ProducerRecord<>(Topics.REPLAYS, desired.replay(), desired.toBytes()))
                 .get();
