@@ -29,6 +29,7 @@ import org.apache.kafka.common.acl.AclBindingFilter;
 import org.apache.kafka.common.acl.AclOperation;
 import org.apache.kafka.common.acl.AclPermissionType;
 import org.apache.kafka.common.resource.PatternType;
+import org.apache.kafka.common.resource.Resource;
 import org.apache.kafka.common.resource.ResourcePattern;
 import org.apache.kafka.common.resource.ResourceType;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
@@ -60,6 +61,10 @@ import static org.awaitility.Awaitility.await;
 /** Which missions are stored, and what is left of replays that are over; two instances of each. */
 @Tag("full")
 class ReplayUpkeepIT {
+    /** Who may delete it may delete each topic. */
+    private static final ResourcePattern WHOLE_CLUSTER =
+            new ResourcePattern(ResourceType.CLUSTER, Resource.CLUSTER_NAME, PatternType.LITERAL);
+
     private final List<AutoCloseable> open = new ArrayList<>();
     private EmbeddedKafka kafka;
     private KafkaProducer<String, byte[]> producer;
@@ -235,10 +240,10 @@ class ReplayUpkeepIT {
         kafka.createTopics(Stream.concat(guarded.stream(), Stream.of(free, Topics.dead(free)))
                 .map(name -> new NewTopic(name, 1, (short) 1))
                 .toList());
-        admin.createAcls(guarded.stream()
-                        .flatMap(topic -> Stream.of(
-                                acl(topic, AclOperation.ALL, AclPermissionType.ALLOW),
-                                acl(topic, AclOperation.DELETE, AclPermissionType.DENY)))
+        admin.createAcls(Stream.concat(guarded.stream().map(ReplayUpkeepIT::topic), Stream.of(WHOLE_CLUSTER))
+                        .flatMap(resource -> Stream.of(
+                                acl(resource, AclOperation.ALL, AclPermissionType.ALLOW),
+                                acl(resource, AclOperation.DELETE, AclPermissionType.DENY)))
                         .toList())
                 .all()
                 .get();
@@ -263,10 +268,12 @@ class ReplayUpkeepIT {
         await().until(() -> names().stream().noneMatch(guarded::contains));
     }
 
-    private static AclBinding acl(String topic, AclOperation operation, AclPermissionType permission) {
-        return new AclBinding(
-                new ResourcePattern(ResourceType.TOPIC, topic, PatternType.LITERAL),
-                new AccessControlEntry("User:ANONYMOUS", "*", operation, permission));
+    private static ResourcePattern topic(String name) {
+        return new ResourcePattern(ResourceType.TOPIC, name, PatternType.LITERAL);
+    }
+
+    private static AclBinding acl(ResourcePattern resource, AclOperation operation, AclPermissionType permission) {
+        return new AclBinding(resource, new AccessControlEntry("User:ANONYMOUS", "*", operation, permission));
     }
 
     private Set<String> names() throws Exception {
