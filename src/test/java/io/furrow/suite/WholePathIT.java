@@ -7,6 +7,7 @@ import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
@@ -108,22 +109,29 @@ class WholePathIT {
         try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
                 TopicLog dummy = running.topic("data.canary.realtime.dummy")) {
             await().atMost(TIMEOUT).untilAsserted(() -> {
-                assertThat(weeding.records()).hasSizeGreaterThan(10);
+                assertThat(weeding.records())
+                        .filteredOn(record -> origin(record).equals("notification"))
+                        .hasSizeGreaterThan(10);
                 assertThat(dummy.records()).hasSizeGreaterThan(10);
             });
             assertThat(weeding.records()).allSatisfy(record -> {
                 Entity entity = Entity.parse(record.value());
                 assertThat(entity.text("Mission")).contains("weeding");
                 assertThat(new String(record.key(), StandardCharsets.UTF_8)).isEqualTo(entity.id());
+                // On a slow machine the query of a repair may overtake a notification.
+                assertThat(origin(record)).isIn("notification", "repair");
                 assertThat(TopicLog.headers(record))
                         .containsKeys(
                                 HeaderNames.CE_ID, HeaderNames.TS_DEVICE, HeaderNames.TS_SOURCE, HeaderNames.TS_INGEST)
                         .containsEntry(HeaderNames.CE_SPECVERSION, "1.0")
-                        .containsEntry(HeaderNames.ORIGIN, "notification")
                         .containsEntry(HeaderNames.TS_DEVICE, Long.toString(record.timestamp()))
                         .containsEntry(HeaderNames.SERVICE, "farm");
             });
         }
+    }
+
+    private static String origin(ConsumerRecord<byte[], byte[]> record) {
+        return TopicLog.headers(record).get(HeaderNames.ORIGIN);
     }
 
     @Test

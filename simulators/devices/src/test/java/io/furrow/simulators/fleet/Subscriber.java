@@ -16,7 +16,7 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
 
-/** Hears all measures, each told by topic and time; its session outlives the broker's restarts, so that it misses none. */
+/** Receives all measures, each as its topic and time; its session outlives the broker's restarts, so that it misses none. */
 record Subscriber(MqttAsyncClient client, Set<String> received) implements AutoCloseable {
     static Subscriber to(FleetMosquitto broker, String name) throws Exception {
         MqttAsyncClient client = new MqttAsyncClient(broker.uri().toString(), name, new MemoryPersistence());
@@ -29,7 +29,7 @@ record Subscriber(MqttAsyncClient client, Set<String> received) implements AutoC
 
             @Override
             public void connectionLost(Throwable cause) {
-                // It comes back when it is asked what it heard.
+                // The client connects again.
             }
 
             @Override
@@ -41,21 +41,16 @@ record Subscriber(MqttAsyncClient client, Set<String> received) implements AutoC
         options.setUserName("farmer");
         options.setPassword("plough".toCharArray());
         options.setCleanSession(false);
+        options.setAutomaticReconnect(true);
+        options.setMaxReconnectDelay(1_000);
+        options.setConnectionTimeout(10);
         options.setSocketFactory(new MqttAccess(broker.uri(), broker.certificate(), 1).encryptedSockets());
         client.connect(options).waitForCompletion();
         client.subscribe("/+/+/attrs", 1).waitForCompletion();
         return new Subscriber(client, measures);
     }
 
-    /** What it has heard; where its connection is broken, it begins to open it again. */
     Set<String> measures() {
-        if (!client.isConnected()) {
-            try {
-                client.reconnect();
-            } catch (MqttException e) {
-                // It is being opened already.
-            }
-        }
         return received;
     }
 
