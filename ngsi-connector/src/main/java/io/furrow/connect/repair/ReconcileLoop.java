@@ -61,15 +61,15 @@ public final class ReconcileLoop implements AutoCloseable {
      */
     public static ReconcileLoop start(
             Function<BrokerRequest, Outcome> broker,
-            List<Assignment> assignments,
+            List<DesiredSubscription> subscriptions,
             RepairSettings settings,
             SharedServices services,
             Duration interval)
             throws IOException {
         ReconcileLoop loop = new ReconcileLoop(interval);
         try {
-            for (Assignment assignment : assignments) {
-                loop.schedules.add(new Schedule(assignment.reconciler(broker, settings, services)));
+            for (DesiredSubscription desired : subscriptions) {
+                loop.schedules.add(new Schedule(new SubscriptionReconciler(broker, desired, settings, services)));
             }
         } catch (IOException e) {
             loop.close();
@@ -80,19 +80,6 @@ public final class ReconcileLoop implements AutoCloseable {
         loop.show(services.ledger());
         loop.thread.start();
         return loop;
-    }
-
-    /** A desired subscription in a scope, whose service path may end in {@code /#}. */
-    public record Assignment(FiwareScope scope, DesiredSubscription desired) {
-        private SubscriptionReconciler reconciler(
-                Function<BrokerRequest, Outcome> broker, RepairSettings settings, SharedServices services)
-                throws IOException {
-            return SubscriptionReconciler.open(
-                    SubscriptionReconciler.Target.of(
-                            broker, scope, desired, settings.reading().pageMaxBytes()),
-                    settings,
-                    services);
-        }
     }
 
     private ReconcileLoop(Duration interval) {
@@ -143,22 +130,23 @@ public final class ReconcileLoop implements AutoCloseable {
         return details;
     }
 
+    private interface Note {
+        void to(SubscriptionReconciler reconciler) throws IOException;
+    }
+
     /** An entity of the topic changed or was deleted. */
     public void note(String identity, boolean gone) {
-        for (Schedule schedule : schedules) {
-            try {
-                schedule.reconciler.note(identity, gone);
-            } catch (IOException | RuntimeException e) {
-                // The next poll fails for the same reason, and logs it.
-                LOG.debug("cannot note {}", LogText.oneLine(identity), e);
-            }
-        }
+        note(identity, reconciler -> reconciler.note(identity, gone));
     }
 
     private void markStale(String identity) {
+        note(identity, reconciler -> reconciler.markStale(identity));
+    }
+
+    private void note(String identity, Note note) {
         for (Schedule schedule : schedules) {
             try {
-                schedule.reconciler.markStale(identity);
+                note.to(schedule.reconciler);
             } catch (IOException | RuntimeException e) {
                 // The next poll fails for the same reason, and logs it.
                 LOG.debug("cannot note {}", LogText.oneLine(identity), e);

@@ -17,7 +17,6 @@ import org.apache.kafka.connect.source.SourceRecord;
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.ReconcileLoop;
-import io.furrow.connect.repair.ReconcileLoop.Assignment;
 import io.furrow.connect.repair.RecordTracker;
 import io.furrow.connect.repair.SubscriptionReconciler;
 import io.furrow.connect.repair.TrackedRecord;
@@ -143,10 +142,10 @@ final class SubscriptionManager implements AutoCloseable {
         if (!config.subscription().enabled()) {
             return;
         }
-        List<Assignment> assignments = new ArrayList<>();
+        List<DesiredSubscription> subscriptions = new ArrayList<>();
         for (String tenant : config.subscription().tenants()) {
             for (String path : config.subscription().servicePaths()) {
-                assignments.add(new Assignment(new FiwareScope(tenant, path), desired(path, port)));
+                subscriptions.add(desired(new FiwareScope(tenant, path), port));
             }
         }
         Path folder = config.journal()
@@ -156,7 +155,7 @@ final class SubscriptionManager implements AutoCloseable {
                     new BrokerClient(config.broker()
                             .settings()
                             .withMaxAnswerBytes(config.repair().pageMaxBytes()))::send,
-                    assignments,
+                    subscriptions,
                     config.repair().settings(folder, config.entities()),
                     new SubscriptionReconciler.SharedServices(
                             live, new RepairRecordWriter(config.translation(), recordLog, ledger), ledger),
@@ -166,10 +165,10 @@ final class SubscriptionManager implements AutoCloseable {
         }
     }
 
-    private DesiredSubscription desired(String servicePath, int port) {
+    private DesiredSubscription desired(FiwareScope scope, int port) {
         SubscriptionOptions options = config.subscription();
         IdPartition partition = new IdPartition(config.taskIndex(), config.taskCount());
-        Name name = new Name(options.description(config.name()), partition, servicePath);
+        Name name = new Name(options.description(config.name()), partition, scope);
         return new DesiredSubscription(
                 name,
                 options.subject(partition.count() > 1 ? Optional.of(partition.pattern()) : Optional.empty()),

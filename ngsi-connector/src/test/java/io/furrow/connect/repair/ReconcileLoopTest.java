@@ -22,7 +22,6 @@ import org.junit.jupiter.params.provider.MethodSource;
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.BrokerSettings;
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.repair.ReconcileLoop.Assignment;
 import io.furrow.connect.repair.RepairSettings.Mode;
 import io.furrow.connect.subscription.DesiredSubscription;
 import io.furrow.connect.subscription.DesiredSubscription.Name;
@@ -238,7 +237,7 @@ class ReconcileLoopTest {
 
     private void start(Mode mode) {
         DesiredSubscription desired = new DesiredSubscription(
-                new Name("furrow farm", IdPartition.ALL, "/#"),
+                new Name("furrow farm", IdPartition.ALL, new FiwareScope("agri", "/#")),
                 Subject.ANY,
                 CONTENT,
                 new Target(NOBODY, Map.of(), Optional.empty()),
@@ -260,7 +259,7 @@ class ReconcileLoopTest {
                         failing.run();
                         return client.send(request);
                     },
-                    List.of(new Assignment(new FiwareScope("agri", "/#"), desired)),
+                    List.of(desired),
                     settings,
                     new SubscriptionReconciler.SharedServices(live, new Output(), ledger),
                     Duration.ofMillis(100));
