@@ -55,10 +55,10 @@ record SourceRuntime(
             String journal = journals.own().id();
             ledger.detail("journal", () -> JsonNodeFactory.instance.textNode(journal));
             ledger.detail("orphans", () -> orphans(journals));
-            SubscriptionManager subscriptions = SubscriptionManager.of(config, ledger);
+            SubscriptionManager subscriptions = new SubscriptionManager(config, ledger);
             JournalRecordLog recordLog = new JournalRecordLog(journals.own(), ledger);
             NotificationEndpoint endpoint =
-                    NotificationEndpoint.open(config, subscriptions.watched(recordLog), ledger, subscriptions::arrived);
+                    NotificationEndpoint.open(config, subscriptions.tracked(recordLog), ledger, subscriptions::arrived);
             LedgerBean bean = LedgerBean.show(ledger, "ngsi-source", config.name(), config.taskIndex());
             SourceRuntime source = new SourceRuntime(config, journals, subscriptions, endpoint, ledger, bean);
             source.subscribe(recordLog);
