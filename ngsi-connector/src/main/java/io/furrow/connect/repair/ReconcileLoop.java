@@ -5,6 +5,7 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Optional;
 import java.util.function.Function;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -15,6 +16,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.LogText;
+import io.furrow.connect.broker.BrokerBackoff;
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
@@ -39,7 +41,7 @@ public final class ReconcileLoop implements AutoCloseable {
     private static final class Schedule {
         private final SubscriptionReconciler reconciler;
         private long due = System.nanoTime();
-        private Duration pause = Duration.ZERO;
+        private final BrokerBackoff backoff = new BrokerBackoff(FIRST_PAUSE, MAX_PAUSE);
         private volatile boolean failing;
         private volatile boolean done;
         private volatile String problem = "";
@@ -196,21 +198,21 @@ public final class ReconcileLoop implements AutoCloseable {
 
     /** Catches every failure so that the next poll runs: nothing else would notice the end of this thread. */
     private void poll(Schedule schedule) throws InterruptedException {
-        Duration asked = Duration.ZERO;
+        Duration wait = interval;
         try {
             schedule.reconciler.poll();
             succeeded(schedule);
         } catch (BrokerException e) {
-            asked = e.retryAfter().orElse(Duration.ZERO);
             failed(schedule, e);
+            wait = schedule.backoff.after(e.retryAfter());
         } catch (IOException | RuntimeException | Error e) {
             failed(schedule, e);
+            wait = schedule.backoff.after(Optional.empty());
         }
         if (Thread.interrupted()) {
             throw new InterruptedException("stopped");
         }
-        Duration wait = schedule.failing ? schedule.pause : interval;
-        schedule.due = System.nanoTime() + (asked.compareTo(wait) > 0 ? asked : wait).toNanos();
+        schedule.due = System.nanoTime() + wait.toNanos();
     }
 
     private void succeeded(Schedule schedule) {
@@ -219,7 +221,7 @@ public final class ReconcileLoop implements AutoCloseable {
         }
         schedule.failing = false;
         schedule.done = true;
-        schedule.pause = Duration.ZERO;
+        schedule.backoff.reset();
     }
 
     private void failed(Schedule schedule, Throwable why) {
@@ -229,8 +231,6 @@ public final class ReconcileLoop implements AutoCloseable {
         boolean known = schedule.failing;
         schedule.failing = true;
         schedule.problem = FailureText.of(why);
-        Duration twice = schedule.pause.isZero() ? FIRST_PAUSE : schedule.pause.multipliedBy(2);
-        schedule.pause = twice.compareTo(MAX_PAUSE) > 0 ? MAX_PAUSE : twice;
         if (!known) {
             LOG.warn(
                     "subscription of {} cannot be managed: {}; the source continues to accept notifications and"

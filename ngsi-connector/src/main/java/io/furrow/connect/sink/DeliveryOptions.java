@@ -8,8 +8,8 @@ import org.apache.kafka.common.config.ConfigDef.Range;
 import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.OptionGroup;
+import io.furrow.connect.broker.BrokerBackoff;
 import io.furrow.connect.sink.api.Batches;
-import io.furrow.connect.sink.api.BrokerBackoff;
 import io.furrow.connect.sink.api.Isolation;
 
 /** Options for batching, parallelism, caching and retries of a delivery. */
