@@ -72,13 +72,10 @@ public record BrokerOptions(AbstractConfig config) {
                 .text(AUTH_TOKEN_FILE, null, Validators.any("a path"), "Token file")
                 .help("File on the worker whose first line is the token, instead of " + AUTH_TOKEN + ": a file that"
                         + " changes is read again without a restart, as tokens that expire need it. Unset for none.");
+        Validator header = Validators.matching(HEADER_NAME, "the name of a header that HTTP itself does not use");
         group.low()
                 .recommending("X-Auth-Token", "Authorization", "apikey")
-                .text(
-                        AUTH_HEADER,
-                        "X-Auth-Token",
-                        Validators.matching(HEADER_NAME, "the name of a header that HTTP itself does not use"),
-                        "Token header")
+                .text(AUTH_HEADER, "X-Auth-Token", header, "Token header")
                 .help("Header that carries the token: X-Auth-Token for a Wilma PEP proxy, Authorization for most"
                         + " others.");
     }

@@ -5,6 +5,7 @@ import java.util.Locale;
 
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
+import org.apache.kafka.common.config.ConfigDef.Validator;
 
 import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
@@ -32,14 +33,11 @@ record ApiOptions(AbstractConfig config) {
                 .text(CONTEXT, "", Validators.optionalHttpUrl(), "@context")
                 .help("URL of the @context that names types and attributes, sent as Link header; empty for the core"
                         + " context alone. Only with ngsi-ld.");
+        Validator metadata = Validators.matching(NAME, "1 to 256 of A-Z a-z 0-9 _ -");
         group.low()
                 .shownIf(API, V2::equals)
                 .recommending("TimeInstant", "timestamp")
-                .text(
-                        TIME_METADATA,
-                        "TimeInstant",
-                        Validators.matching(NAME, "1 to 256 of A-Z a-z 0-9 _ -"),
-                        "Time metadata")
+                .text(TIME_METADATA, "TimeInstant", metadata, "Time metadata")
                 .help("Metadata of each attribute that holds its event time, by which the sink later determines the"
                         + " newer value; an IoT Agent writes TimeInstant too. Only with ngsi-v2; NGSI-LD has"
                         + " observedAt.");

@@ -5,6 +5,7 @@ import java.time.Duration;
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Range;
+import org.apache.kafka.common.config.ConfigDef.Validator;
 import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.OptionGroup;
@@ -54,11 +55,8 @@ record DeliveryOptions(AbstractConfig config) {
         group.number(MAX_KNOWN, 1_000_000L, Range.atLeast(0), "Cached attributes")
                 .help("Maximum attributes of all entities whose event times a task caches, about 30 bytes each; the"
                         + " times of further entities, and after a start, are read from the context broker.");
-        group.number(
-                        MAX_KNOWN_AGE,
-                        600_000L,
-                        Range.between(0, Duration.ofDays(365).toMillis()),
-                        "Max. age of cached times (ms)")
+        Validator upToAYear = Range.between(0, Duration.ofDays(365).toMillis());
+        group.number(MAX_KNOWN_AGE, 600_000L, upToAYear, "Max. age of cached times (ms)")
                 .help("Milliseconds after which the cached times of an entity are read from the context broker again"
                         + " before a record is written: until then an older value may overwrite a newer one of another"
                         + " task or program. 0 reads them for every delivery.");

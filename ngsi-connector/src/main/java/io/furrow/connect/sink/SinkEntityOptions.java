@@ -5,6 +5,7 @@ import java.util.regex.Pattern;
 
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
+import org.apache.kafka.common.config.ConfigDef.Validator;
 
 import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
@@ -31,26 +32,17 @@ final class SinkEntityOptions {
 
     static void define(ConfigDef options) {
         OptionGroup group = new OptionGroup(options, "Entities");
-        group.text(
-                        SERVICE,
-                        "",
-                        Validators.matching(ChangeReader.SERVICE.pattern(), "at most 50 of a-z 0-9 _"),
-                        "Tenant")
+        Validator tenant = Validators.matching(ChangeReader.SERVICE.pattern(), "at most 50 of a-z 0-9 _");
+        group.text(SERVICE, "", tenant, "Tenant")
                 .help("Tenant (Fiware-Service) of records without a header fiware-service; empty for the default"
                         + " tenant.");
-        group.text(
-                        SERVICE_PATH,
-                        "/",
-                        Validators.matching(
-                                ChangeReader.SERVICE_PATH.pattern(), "a path of A-Z a-z 0-9 _ that begins with /"),
-                        "Service path")
+        Validator path =
+                Validators.matching(ChangeReader.SERVICE_PATH.pattern(), "a path of A-Z a-z 0-9 _ that begins with /");
+        group.text(SERVICE_PATH, "/", path, "Service path")
                 .help("Service path (Fiware-Servicepath) of records without a header fiware-servicepath.");
+        Validator type = Validators.matching(TYPE, "at most 256 characters that are allowed in a type");
         group.low()
-                .text(
-                        DEFAULT_TYPE,
-                        "",
-                        Validators.matching(TYPE, "at most 256 characters that are allowed in a type"),
-                        "Default type")
+                .text(DEFAULT_TYPE, "", type, "Default type")
                 .help("Type of entities without one; empty for Thing, the default of context brokers. A struct without"
                         + " a field type uses the last part of its schema's name.");
         defineSkipped(group);

@@ -8,6 +8,7 @@ import java.util.stream.Collectors;
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Range;
+import org.apache.kafka.common.config.ConfigDef.Validator;
 
 import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
@@ -32,12 +33,9 @@ public record EntityOptions(AbstractConfig config) {
         group.number(MAX_CLOCK_SKEW, 300_000L, Range.between(0, HOUR - 1), "Clock skew (ms)")
                 .help("Milliseconds that a device's clock may be ahead, less than an hour. Beyond it the event gets the"
                         + " time of receipt and the device is named in the log.");
-        group.list(
-                        EVENT_TIME,
-                        DEFAULT_TIMES,
-                        Validators.one(
-                                EntityOptions::requireEventTimes, DEFAULT_TIMES + " in the order of their weight"),
-                        "Event time")
+        Validator sources =
+                Validators.one(EntityOptions::requireEventTimes, DEFAULT_TIMES + " in the order of their weight");
+        group.list(EVENT_TIME, DEFAULT_TIMES, sources, "Event time")
                 .help("Sources of the event time, in order: the first that an event has is used. device: its attribute"
                         + " Time, else TimeInstant, dateObserved, timestamp. attributes: the newest metadata"
                         + " dateModified of its attributes. entity: its dateModified. An event that has none of them"

@@ -8,6 +8,7 @@ import java.time.Duration;
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Range;
+import org.apache.kafka.common.config.ConfigDef.Validator;
 
 import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
@@ -45,12 +46,9 @@ public record JournalOptions(AbstractConfig config) {
     }
 
     private static void defineJournal(OptionGroup group) {
+        Validator path = Validators.one(JournalOptions::requireAbsolute, "an absolute path");
         group.high()
-                .text(
-                        DIR,
-                        ConfigDef.NO_DEFAULT_VALUE,
-                        Validators.one(JournalOptions::requireAbsolute, "an absolute path"),
-                        "Folder")
+                .text(DIR, ConfigDef.NO_DEFAULT_VALUE, path, "Folder")
                 .help("Folder on each worker's own disk for accepted records that are not in Kafka yet; created if"
                         + " missing. It must outlive the worker's process: in a container, a volume. All NGSI sources"
                         + " of a worker can share it.");

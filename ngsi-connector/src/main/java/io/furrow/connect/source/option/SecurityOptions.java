@@ -45,11 +45,8 @@ public record SecurityOptions(AbstractConfig config) {
 
     public static void define(ConfigDef options) {
         OptionGroup group = new OptionGroup(options, "Security");
-        group.text(
-                        SECRET_HEADER,
-                        "X-Furrow-Secret",
-                        Validators.matching("[A-Za-z0-9-]{1,64}", "the name of an HTTP header"),
-                        "Header")
+        Validator headers = Validators.matching("[A-Za-z0-9-]{1,64}", "the name of an HTTP header");
+        group.text(SECRET_HEADER, "X-Furrow-Secret", headers, "Header")
                 .help("Header whose value must be the secret. With Authorization the secret is the whole value, Bearer"
                         + " included.");
         group.high()

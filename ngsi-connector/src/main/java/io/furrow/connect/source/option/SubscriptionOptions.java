@@ -9,6 +9,7 @@ import java.util.Set;
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Range;
+import org.apache.kafka.common.config.ConfigDef.Validator;
 import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.OptionGroup;
@@ -66,20 +67,15 @@ public record SubscriptionOptions(AbstractConfig config) {
         group.flag(ENABLED, true, "Keep")
                 .help("Whether the source creates its own subscriptions at " + BrokerOptions.URL + " and manages them"
                         + " as configured here. Without that URL it never does.");
-        group.text(
-                        PUBLIC_URL,
-                        "",
-                        Validators.matching("|https?://[^\\s]+", "empty, http://HOST:PORT/PATH or https://…"),
-                        "Own address")
+        Validator url = Validators.matching("|https?://[^\\s]+", "empty, http://HOST:PORT/PATH or https://…");
+        group.text(PUBLIC_URL, "", url, "Own address")
                 .help("Address of this source as the context broker reaches it; {port} stands for the port of the task."
                         + " Empty for http://" + ListeningOptions.HOST + ":{port}/v2/notify, https if the listener has"
                         + " a key store. If each worker has its own address, take it from each worker's environment"
                         + " with a config provider, for instance http://${env:POD_IP}:{port}/v2/notify.");
-        group.text(
-                        DESCRIPTION,
-                        "",
-                        Validators.matching("[^<>\"'=;()]{0,900}", "at most 900 characters without < > \" ' = ; ( )"),
-                        "Description")
+        Validator description =
+                Validators.matching("[^<>\"'=;()]{0,900}", "at most 900 characters without < > \" ' = ; ( )");
+        group.text(DESCRIPTION, "", description, "Description")
                 .help("Description by which the source finds its subscription, followed by the number of the task, for"
                         + " instance 1/1; empty for furrow and the connector's name. Must be unique per context"
                         + " broker.");
@@ -89,18 +85,12 @@ public record SubscriptionOptions(AbstractConfig config) {
     }
 
     private static void defineSubject(OptionGroup group) {
-        group.list(
-                        TENANTS,
-                        SecurityOptions.NO_TENANT,
-                        Validators.names("[A-Za-z0-9_]{1,50}|-", "tenants, - for the one without a name"),
-                        "Tenants")
+        Validator tenants = Validators.names("[A-Za-z0-9_]{1,50}|-", "tenants, - for the one without a name");
+        group.list(TENANTS, SecurityOptions.NO_TENANT, tenants, "Tenants")
                 .help("Tenants (fiware-service) to subscribe in, " + SecurityOptions.NO_TENANT + " for the one without"
                         + " a name.");
-        group.list(
-                        SERVICE_PATHS,
-                        "/#",
-                        Validators.names("/#|/|(/[A-Za-z0-9_]{1,50}){1,10}(/#)?", "absolute service paths"),
-                        "Service paths")
+        Validator paths = Validators.names("/#|/|(/[A-Za-z0-9_]{1,50}){1,10}(/#)?", "absolute service paths");
+        group.list(SERVICE_PATHS, "/#", paths, "Service paths")
                 .help("Service paths to subscribe to, one subscription each; /# at the end includes the paths below.");
         group.list(TYPES, "", Validators.names("\\S+", "entity types"), "Types").help("Entity types; empty for all.");
         group.text(TYPE_PATTERN, "", Validators.pattern(), "Pattern of types")
@@ -109,11 +99,8 @@ public record SubscriptionOptions(AbstractConfig config) {
         group.text(ID_PATTERN, ANY_ID, Validators.pattern(), "Pattern of ids")
                 .help("Regular expression that is found in the entity id. Only with tasks.max=1: several tasks divide"
                         + " the ids among them by their last character.");
-        group.list(
-                        ALTERATION_TYPES,
-                        "",
-                        Validators.names(String.join("|", ALTERATIONS), String.join(", ", ALTERATIONS)),
-                        "Alterations")
+        Validator alterations = Validators.names(String.join("|", ALTERATIONS), String.join(", ", ALTERATIONS));
+        group.list(ALTERATION_TYPES, "", alterations, "Alterations")
                 .help("Alterations that are notified, of " + String.join(", ", ALTERATIONS) + "; empty for created and"
                         + " changed. A deletion becomes a record without a value. Needs Orion 3.7 or later.");
     }
@@ -122,11 +109,9 @@ public record SubscriptionOptions(AbstractConfig config) {
         group.list(ATTRS, "*,dateModified", Validators.names("\\S+", "attributes"), "Attributes")
                 .help("Attributes in a notification; * for all of the entity's own. " + ALTERATION + " is added if"
                         + " deletions are notified. Keep dateModified: it is the event time if the entity has none.");
-        group.list(
-                        METADATA,
-                        "",
-                        Validators.names(METADATA_NAME, "metadata, of visible ASCII without < > \" ' = ; ( ) & ? / #"),
-                        "Metadata")
+        Validator metadata =
+                Validators.names(METADATA_NAME, "metadata, of visible ASCII without < > \" ' = ; ( ) & ? / #");
+        group.list(METADATA, "", metadata, "Metadata")
                 .help("Metadata of the attributes in a notification, and in what is repaired; empty for all of their"
                         + " own, such as TimeInstant. With names only these are notified, * again for all of their own:"
                         + " *,dateModified adds the time at which the context broker stored each attribute."
