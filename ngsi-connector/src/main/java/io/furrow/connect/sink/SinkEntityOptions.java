@@ -74,14 +74,8 @@ final class SinkEntityOptions {
 
     /** Whether a record with this {@code ce_source} is skipped. */
     boolean isEcho(String source) {
-        if (source.isEmpty()) {
-            return false;
-        }
-        for (Pattern pattern : echoSources) {
-            if (pattern.matcher(source).matches()) {
-                return true;
-            }
-        }
-        return false;
+        return !source.isEmpty()
+                && echoSources.stream()
+                        .anyMatch(pattern -> pattern.matcher(source).matches());
     }
 }
