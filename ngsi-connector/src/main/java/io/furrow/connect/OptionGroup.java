@@ -44,42 +44,49 @@ public record OptionGroup(ConfigDef options, String name, Importance importance,
                 options, name, importance, new Visibility(List.of(values), visibility.decidedBy, visibility.shown));
     }
 
-    public void flag(String option, boolean value, String label, String help) {
-        recommending(true, false).define(option, Type.BOOLEAN, value, Validators.truth(), Width.SHORT, label, help);
+    public Option flag(String option, boolean value, String label) {
+        Validator valid = Validators.any("true or false");
+        return recommending(true, false).option(option, Type.BOOLEAN, value, valid, Width.SHORT, label);
     }
 
     /** @param value null if there is no default value, {@link ConfigDef#NO_DEFAULT_VALUE} if the option is required */
-    public void text(String option, Object value, Validator valid, String label, String help) {
-        define(option, Type.STRING, value, valid, Width.LONG, label, help);
+    public Option text(String option, Object value, Validator valid, String label) {
+        return option(option, Type.STRING, value, valid, Width.LONG, label);
     }
 
     /** The first value is the default. */
-    public void choice(String option, List<String> values, String label, String help) {
+    public Option choice(String option, List<String> values, String label) {
         Validator valid = ConfigDef.ValidString.in(values.toArray(String[]::new));
-        recommending(values.toArray()).define(option, Type.STRING, values.get(0), valid, Width.MEDIUM, label, help);
+        return recommending(values.toArray()).option(option, Type.STRING, values.get(0), valid, Width.MEDIUM, label);
     }
 
     /** @param value separated by commas */
-    public void list(String option, String value, Validator valid, String label, String help) {
-        define(option, Type.LIST, value, valid, Width.LONG, label, help);
+    public Option list(String option, String value, Validator valid, String label) {
+        return option(option, Type.LIST, value, valid, Width.LONG, label);
     }
 
-    public void secret(String option, String value, Validator valid, String label, String help) {
-        define(option, Type.PASSWORD, value, valid, Width.LONG, label, help);
+    public Option secret(String option, String value, Validator valid, String label) {
+        return option(option, Type.PASSWORD, value, valid, Width.LONG, label);
     }
 
-    public void number(String option, long value, Validator valid, String label, String help) {
-        define(option, Type.LONG, value, valid, Width.SHORT, label, help);
+    public Option number(String option, long value, Validator valid, String label) {
+        return option(option, Type.LONG, value, valid, Width.SHORT, label);
     }
 
-    public void integer(String option, int value, Validator valid, String label, String help) {
-        define(option, Type.INT, value, valid, Width.SHORT, label, help);
+    public Option integer(String option, int value, Validator valid, String label) {
+        return option(option, Type.INT, value, valid, Width.SHORT, label);
     }
 
-    private void define(
-            String option, Type type, Object value, Validator valid, Width width, String label, String help) {
+    private Option option(String option, Type type, Object value, Validator valid, Width width, String label) {
         int order = options.configKeys().size() + 1;
-        options.define(option, type, value, valid, importance, help, name, order, width, label, visibility);
+        return help ->
+                options.define(option, type, value, valid, importance, help, name, order, width, label, visibility);
+    }
+
+    /** An option that is declared once it has its description. */
+    @FunctionalInterface
+    public interface Option {
+        void help(String description);
     }
 
     private record Visibility(List<Object> values, String decidedBy, Predicate<String> shown) implements Recommender {

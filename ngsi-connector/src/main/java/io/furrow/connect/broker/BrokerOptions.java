@@ -7,13 +7,13 @@ import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
-import java.util.regex.Pattern;
 import javax.net.ssl.SSLContext;
 
 import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Range;
+import org.apache.kafka.common.config.ConfigDef.Validator;
 import org.apache.kafka.common.config.ConfigException;
 import org.apache.kafka.common.config.SslConfigs;
 import org.apache.kafka.common.config.types.Password;
@@ -39,8 +39,8 @@ public record BrokerOptions(AbstractConfig config) {
     static final String TRUSTSTORE_PASSWORD = PREFIX + SslConfigs.SSL_TRUSTSTORE_PASSWORD_CONFIG;
 
     /** HttpClient sets some headers itself and rejects these. */
-    private static final Pattern HEADER_NAME =
-            Pattern.compile("(?i)(?!(connection|content-length|expect|host|upgrade)$)[A-Za-z0-9!#$%&'*+.^_`|~-]+");
+    private static final String HEADER_NAME =
+            "(?i)(?!(connection|content-length|expect|host|upgrade)$)[A-Za-z0-9!#$%&'*+.^_`|~-]+";
 
     /** Checks constraints between options. */
     public BrokerOptions {
@@ -51,55 +51,33 @@ public record BrokerOptions(AbstractConfig config) {
     /** @param urlHelp the description of the URL's absence if the URL is optional; if empty, the URL is required */
     public static void define(ConfigDef options, Optional<String> urlHelp) {
         OptionGroup group = new OptionGroup(options, "Context broker");
-        defineUrl(group, urlHelp);
+        Validator url = urlHelp.isPresent() ? Validators.optionalHttpUrl() : Validators.httpUrl();
+        group.high()
+                .text(URL, urlHelp.isPresent() ? "" : ConfigDef.NO_DEFAULT_VALUE, url, "URL")
+                .help("Base URL of the context broker, for instance http://orion:1026; /v2/… is added to it."
+                        + urlHelp.map(help -> " " + help).orElse(""));
         group.low()
-                .number(
-                        TIMEOUT,
-                        10_000L,
-                        Range.between(1, 600_000),
-                        "Timeout (ms)",
-                        "Maximum milliseconds of one request, to the end of its answer; after that the context broker counts as"
-                                + " unavailable.");
+                .number(TIMEOUT, 10_000L, Range.between(1, 600_000), "Timeout (ms)")
+                .help("Maximum milliseconds of one request, to the end of its answer; after that the context broker"
+                        + " counts as unavailable.");
         defineAuthentication(group);
         defineTls(group);
     }
 
-    private static void defineUrl(OptionGroup group, Optional<String> urlHelp) {
-        group.high()
-                .text(
-                        URL,
-                        urlHelp.isPresent() ? "" : ConfigDef.NO_DEFAULT_VALUE,
-                        urlHelp.isPresent() ? Validators.optionalHttpUrl() : Validators.httpUrl(),
-                        "URL",
-                        "Base URL of the context broker, for instance http://orion:1026; /v2/… is added to it."
-                                + urlHelp.map(help -> " " + help).orElse(""));
-    }
-
     private static void defineAuthentication(OptionGroup group) {
-        group.secret(
-                AUTH_TOKEN,
-                "",
-                Validators.headerSecret(),
-                "Token",
-                "Token that is sent with every request to the context broker, for the proxy that guards it; empty for"
-                        + " none. With the header Authorization it is the whole value, for instance Bearer abc.");
+        group.secret(AUTH_TOKEN, "", Validators.headerSecret(), "Token")
+                .help("Token that is sent with every request to the context broker, for the proxy that guards it; empty"
+                        + " for none. With the header Authorization it is the whole value, for instance Bearer abc.");
         group.low()
-                .text(
-                        AUTH_TOKEN_FILE,
-                        null,
-                        ConfigDef.LambdaValidator.with((name, value) -> {}, () -> "a path"),
-                        "Token file",
-                        "File on the worker whose first line is the token, instead of " + AUTH_TOKEN
-                                + ": a file that changes is read again without a restart, as tokens that expire need it."
-                                + " Unset for none.");
+                .text(AUTH_TOKEN_FILE, null, Validators.any("a path"), "Token file")
+                .help("File on the worker whose first line is the token, instead of " + AUTH_TOKEN + ": a file that"
+                        + " changes is read again without a restart, as tokens that expire need it. Unset for none.");
+        Validator header = Validators.matching(HEADER_NAME, "the name of a header that HTTP itself does not use");
         group.low()
                 .recommending("X-Auth-Token", "Authorization", "apikey")
-                .text(
-                        AUTH_HEADER,
-                        "X-Auth-Token",
-                        Validators.matching(HEADER_NAME, "the name of a header that HTTP itself does not use"),
-                        "Token header",
-                        "Header that carries the token: X-Auth-Token for a Wilma PEP proxy, Authorization for most others.");
+                .text(AUTH_HEADER, "X-Auth-Token", header, "Token header")
+                .help("Header that carries the token: X-Auth-Token for a Wilma PEP proxy, Authorization for most"
+                        + " others.");
     }
 
     /** The trust store options of Kafka's clients, with a prefix. */
@@ -107,24 +85,13 @@ public record BrokerOptions(AbstractConfig config) {
         OptionGroup shown = group.low().shownIf(TRUSTSTORE, value -> !value.isEmpty());
         group.low()
                 .shownIf(URL, value -> value.startsWith("https:"))
-                .text(
-                        TRUSTSTORE,
-                        null,
-                        ConfigDef.LambdaValidator.with((name, value) -> {}, () -> "a path"),
-                        "Trust store",
-                        "File with the certificates that https trusts; unset for those that the JVM trusts. Only with an https"
-                                + " URL.");
-        shown.choice(
-                TRUSTSTORE_TYPE,
-                List.of("JKS", "PKCS12", DefaultSslEngineFactory.PEM_TYPE),
-                "Trust store type",
-                "Format of the trust store: JKS, PKCS12 or PEM.");
-        shown.secret(
-                TRUSTSTORE_PASSWORD,
-                null,
-                Validators.secret(),
-                "Trust store password",
-                "Password of the trust store; PEM has none.");
+                .text(TRUSTSTORE, null, Validators.any("a path"), "Trust store")
+                .help("File with the certificates that https trusts; unset for those that the JVM trusts. Only with an"
+                        + " https URL.");
+        shown.choice(TRUSTSTORE_TYPE, List.of("JKS", "PKCS12", DefaultSslEngineFactory.PEM_TYPE), "Trust store type")
+                .help("Format of the trust store: JKS, PKCS12 or PEM.");
+        shown.secret(TRUSTSTORE_PASSWORD, null, Validators.any("any text"), "Trust store password")
+                .help("Password of the trust store; PEM has none.");
     }
 
     /** Empty if the optional URL is not set. */

@@ -3,6 +3,8 @@ package io.furrow.connect.journal;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.charset.StandardCharsets;
+import java.nio.file.AccessDeniedException;
+import java.nio.file.FileStore;
 import java.nio.file.Files;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
@@ -61,7 +63,7 @@ public final class JournalFolders {
      */
     public Journal take(int slot) {
         try {
-            DurableFolders.create(own, Disk::syncFolder);
+            create(own, Disk::syncFolder);
             Disk.syncFolder(own);
             for (Path folder : foldersOf(own)) {
                 if (folder.getFileName().toString().startsWith(slot + "-")) {
@@ -77,12 +79,36 @@ public final class JournalFolders {
         }
     }
 
+    /** Makes the names in a folder durable: a name is durable once its parent folder was synced. */
+    interface Sync {
+        void of(Path folder) throws IOException;
+    }
+
+    /**
+     * Creates a folder and its missing parents, and syncs all parents up to the root of the file system: a process that
+     * died may have left any of them unsynced. An unreadable parent existed before.
+     */
+    static void create(Path folder, Sync sync) throws IOException {
+        Files.createDirectories(folder);
+        FileStore store = Files.getFileStore(folder);
+        Path above = folder.toAbsolutePath().getParent();
+        try {
+            while (above != null && Files.getFileStore(above).equals(store)) {
+                sync.of(above);
+                above = above.getParent();
+            }
+        } catch (AccessDeniedException e) {
+            // Nothing was created there: creating a folder needs more rights than reading.
+            return;
+        }
+    }
+
     private Journal made(int slot) throws IOException {
         Optional<Journal> journal = Optional.empty();
         while (journal.isEmpty()) {
             Path made = own.resolve(slot + "-" + HexFormat.of().toHexDigits(RANDOM.nextLong()));
             try {
-                DurableFolders.create(made, Disk::syncFolder);
+                create(made, Disk::syncFolder);
                 journal = openUnlessDeleted(made);
             } catch (NoSuchFileException e) {
                 LOG.debug("another task has adopted and deleted {} just now", made, e);

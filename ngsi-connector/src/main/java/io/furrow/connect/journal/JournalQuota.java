@@ -5,18 +5,7 @@ import java.nio.file.Path;
 import java.util.List;
 
 /** Decides whether more records may be appended. It errs on the low side: files may end before they are full. */
-final class JournalQuota {
-    private final JournalSettings settings;
-    private final Path folder;
-    private final Disk disk;
-    private final Segments segments;
-
-    JournalQuota(JournalSettings settings, Path folder, Disk disk, Segments segments) {
-        this.settings = settings;
-        this.folder = folder;
-        this.disk = disk;
-        this.segments = segments;
-    }
+record JournalQuota(JournalSettings settings, Path folder, Disk disk, Segments segments) {
 
     /**
      * Whether records fit beside others that wait to be written.

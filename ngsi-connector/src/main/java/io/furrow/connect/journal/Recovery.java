@@ -20,19 +20,9 @@ import io.furrow.connect.journal.SegmentFormat.Header;
  * Finds the segments of a journal and the end of each. Each segment stores the end of its predecessor, so only the last
  * file, and one whose successor is damaged, is read to its end; a corruption elsewhere is noted when it is read.
  */
-final class Recovery {
+record Recovery(Path folder, long salt, Corruptions damages) {
     /** A file, its length and its header if that could be read. */
     private record Candidate(long base, Path file, long length, Optional<Header> header) {}
-
-    private final Path folder;
-    private final long salt;
-    private final Corruptions damages;
-
-    Recovery(Path folder, long salt, Corruptions damages) {
-        this.folder = folder;
-        this.salt = salt;
-        this.damages = damages;
-    }
 
     /** The segments in their order. Files that were being made are deleted. */
     List<Segment> segments() throws IOException {

@@ -17,18 +17,10 @@ import io.furrow.model.ngsi.UnreadableException;
  * loses the notifications that wait in its memory, and the counters of begun notifications. A broker that does not
  * report its uptime, or not to this client, counts as never restarted.
  */
-final class BrokerUptime {
+record BrokerUptime(Function<BrokerRequest, Outcome> broker, FiwareScope scope) {
     private static final Pattern UPTIME = Pattern.compile("(\\d{1,6}) d, (\\d{1,2}) h, (\\d{1,2}) m, (\\d{1,2}) s");
     /** Uptime and time of the answer are truncated to seconds. */
     private static final Duration BLUR = Duration.ofSeconds(1);
-
-    private final Function<BrokerRequest, Outcome> broker;
-    private final FiwareScope scope;
-
-    BrokerUptime(Function<BrokerRequest, Outcome> broker, FiwareScope scope) {
-        this.broker = broker;
-        this.scope = scope;
-    }
 
     /**
      * Whether the broker was, or may have been, started after a time.

@@ -3,8 +3,6 @@ package io.furrow.connect.repair;
 import java.io.BufferedReader;
 import java.io.BufferedWriter;
 import java.io.IOException;
-import java.io.RandomAccessFile;
-import java.nio.charset.CharacterCodingException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -12,79 +10,66 @@ import java.nio.file.StandardCopyOption;
 import java.nio.file.StandardOpenOption;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Optional;
 import java.util.function.Consumer;
 import java.util.regex.Pattern;
 
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.core.json.JsonWriteFeature;
+import com.fasterxml.jackson.databind.DeserializationFeature;
+import com.fasterxml.jackson.databind.ObjectMapper;
+import com.fasterxml.jackson.databind.json.JsonMapper;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
 /**
- * What is known of entities as a file of lines: {@code +identity}, {@code -identity}, {@code !} where there are too many;
- * {@code ?identity} of one that is stale, {@code .} where none is stale any more. Line breaks and the percent sign are
- * percent-encoded. A line that was not finished is left out. Locks are the caller's.
+ * What is known of entities as a file of lines: the sign of a kind and the identity as a JSON string. A line that was not
+ * finished, or is damaged, is left out. Locks are the caller's.
  */
 final class EntityIdFile implements AutoCloseable {
-    /** Half a surrogate pair, which JSON can contain and UTF-8 cannot. */
-    private static final Pattern HALF = Pattern.compile("[\\x{D800}-\\x{DFFF}]");
+    private static final Logger LOG = LoggerFactory.getLogger(EntityIdFile.class);
 
-    private static final Pattern HALF_WRITTEN = Pattern.compile("%u([0-9A-F]{4})");
+    /** Escapes whatever UTF-8 cannot hold, such as half a surrogate pair. */
+    private static final ObjectMapper JSON = JsonMapper.builder()
+            .enable(JsonWriteFeature.ESCAPE_NON_ASCII)
+            .enable(DeserializationFeature.FAIL_ON_TRAILING_TOKENS)
+            .build();
 
+    private static final Pattern IDENTITY = Pattern.compile("(?s)[^|]*\\|[^|]*\\|[^|]*\\|.*");
     private static final long SMALL = 1024 * 1024;
 
     /** A line. */
     record Change(Kind kind, String identity) {
-        static final Change TOO_MANY = new Change(Kind.TOO_MANY, "");
-        static final Change SETTLED = new Change(Kind.SETTLED, "");
+        static final Change TOO_MANY = new Change(Kind.TOO_MANY, "|||");
+        static final Change SETTLED = new Change(Kind.SETTLED, "|||");
 
-        /** The first character of a line. */
         enum Kind {
-            ADDED('+'),
-            REMOVED('-'),
-            STALE('?'),
-            SETTLED('.'),
-            TOO_MANY('!');
+            ADDED,
+            REMOVED,
+            /** It has to be read again. */
+            STALE,
+            /** None has to be read again any more. */
+            SETTLED,
+            /** More than can be known. */
+            TOO_MANY;
 
-            private final char sign;
+            private static final String SIGNS = "+-?.!";
+        }
 
-            Kind(char sign) {
-                this.sign = sign;
+        private String line() throws IOException {
+            return Kind.SIGNS.charAt(kind.ordinal()) + JSON.writeValueAsString(identity) + "\n";
+        }
+
+        private static Optional<Change> of(String line) {
+            int kind = line.isEmpty() ? -1 : Kind.SIGNS.indexOf(line.charAt(0));
+            try {
+                String identity = kind < 0 ? "" : String.valueOf(JSON.readValue(line.substring(1), String.class));
+                return IDENTITY.matcher(identity).matches()
+                        ? Optional.of(new Change(Kind.values()[kind], identity))
+                        : Optional.empty();
+            } catch (JsonProcessingException e) {
+                return Optional.empty();
             }
-        }
-
-        static Change added(String identity) {
-            return new Change(Kind.ADDED, identity);
-        }
-
-        static Change removed(String identity) {
-            return new Change(Kind.REMOVED, identity);
-        }
-
-        static Change stale(String identity) {
-            return new Change(Kind.STALE, identity);
-        }
-
-        private String line() {
-            String text = identity.replace("%", "%25").replace("\n", "%0A").replace("\r", "%0D");
-            return kind.sign
-                    + HALF.matcher(text)
-                            .replaceAll(half -> "%%u%04X".formatted(half.group().codePointAt(0))) + "\n";
-        }
-
-        private static boolean isOne(String line) {
-            return line.equals("!") || line.equals(".") || line.matches("[-+?][^|]*\\|[^|]*\\|[^|]*\\|.*");
-        }
-
-        private static Change of(String line) {
-            String identity = HALF_WRITTEN
-                    .matcher(line.substring(1))
-                    .replaceAll(half -> Character.toString(Integer.parseInt(half.group(1), 16)))
-                    .replace("%0A", "\n")
-                    .replace("%0D", "\r")
-                    .replace("%25", "%");
-            return switch (line.charAt(0)) {
-                case '+' -> added(identity);
-                case '-' -> removed(identity);
-                case '?' -> stale(identity);
-                case '.' -> SETTLED;
-                default -> TOO_MANY;
-            };
         }
     }
 
@@ -98,35 +83,25 @@ final class EntityIdFile implements AutoCloseable {
         this.path = path;
     }
 
-    /** Passes all complete lines in order; none if the file has another format. */
+    /** Passes all complete lines in order. */
     static void read(Path path, Consumer<Change> reader) throws IOException {
         if (!Files.exists(path)) {
             return;
         }
-        List<String> last = new ArrayList<>();
-        try (BufferedReader in = Files.newBufferedReader(path)) {
+        long damaged = 0;
+        try (BufferedReader in = Files.newBufferedReader(path, StandardCharsets.ISO_8859_1)) {
             for (String line = in.readLine(); line != null; line = in.readLine()) {
-                last.forEach(before -> reader.accept(Change.of(before)));
-                last.clear();
-                if (Change.isOne(line)) {
-                    last.add(line);
-                }
+                Optional<Change> change = Change.of(line);
+                change.ifPresent(reader);
+                damaged += change.isEmpty() ? 1 : 0;
             }
-        } catch (CharacterCodingException e) {
-            return; // not ours any more, from here on
         }
-        if (endsWithLine(path)) {
-            last.forEach(before -> reader.accept(Change.of(before)));
-        }
-    }
-
-    private static boolean endsWithLine(Path path) throws IOException {
-        try (RandomAccessFile file = new RandomAccessFile(path.toFile(), "r")) {
-            if (file.length() == 0) {
-                return false;
-            }
-            file.seek(file.length() - 1);
-            return file.read() == '\n';
+        if (damaged > 0) {
+            LOG.info(
+                    "{} lines of {} are damaged and left out: the deletions of their entities are only found if they are"
+                            + " notified",
+                    damaged,
+                    path);
         }
     }
 

@@ -8,6 +8,9 @@ import java.util.List;
 import java.util.Set;
 import java.util.stream.Stream;
 
+import io.furrow.connect.repair.EntityIdFile.Change;
+import io.furrow.connect.repair.EntityIdFile.Change.Kind;
+
 /**
  * Stores the entities of one subscription that are on the topic and not deleted, so that deletions can be detected, and
  * the entities that have to be read again. Survives a restart in a {@link EntityIdFile}. Uses a bounded part of the heap:
@@ -36,7 +39,7 @@ final class EntityIdSet implements AutoCloseable {
         return known;
     }
 
-    private void apply(EntityIdFile.Change change) {
+    private void apply(Change change) {
         switch (change.kind()) {
             case ADDED -> keep(change.identity());
             case REMOVED -> drop(change.identity());
@@ -47,14 +50,14 @@ final class EntityIdSet implements AutoCloseable {
     }
 
     /** The minimal lines for the current state; the identities are those of this moment. */
-    private Iterable<EntityIdFile.Change> changes() {
+    private Iterable<Change> changes() {
         Set<String> now = new HashSet<>(identities);
-        List<EntityIdFile.Change> others = new ArrayList<>();
-        stale.forEach(identity -> others.add(EntityIdFile.Change.stale(identity)));
+        List<Change> others = new ArrayList<>();
+        stale.forEach(identity -> others.add(new Change(Kind.STALE, identity)));
         if (tooMany) {
-            others.add(EntityIdFile.Change.TOO_MANY);
+            others.add(Change.TOO_MANY);
         }
-        return () -> Stream.concat(now.stream().map(EntityIdFile.Change::added), others.stream())
+        return () -> Stream.concat(now.stream().map(identity -> new Change(Kind.ADDED, identity)), others.stream())
                 .iterator();
     }
 
@@ -88,20 +91,20 @@ final class EntityIdSet implements AutoCloseable {
 
     synchronized void add(String identity) throws IOException {
         if (keep(identity)) {
-            file.append(tooMany ? EntityIdFile.Change.TOO_MANY : EntityIdFile.Change.added(identity));
+            file.append(tooMany ? Change.TOO_MANY : new Change(Kind.ADDED, identity));
         }
     }
 
     synchronized void remove(String identity) throws IOException {
         if (drop(identity)) {
-            file.append(EntityIdFile.Change.removed(identity));
+            file.append(new Change(Kind.REMOVED, identity));
         }
     }
 
     /** Marks an entity to be read again; durable across restarts. */
     synchronized void markStale(String identity) throws IOException {
         if (stale.add(identity)) {
-            file.append(EntityIdFile.Change.stale(identity));
+            file.append(new Change(Kind.STALE, identity));
             file.flush();
         }
     }
@@ -115,13 +118,13 @@ final class EntityIdSet implements AutoCloseable {
     synchronized void settle(Set<String> these) throws IOException {
         if (!stale.isEmpty() && stale.equals(these)) {
             stale.clear();
-            file.append(EntityIdFile.Change.SETTLED);
+            file.append(Change.SETTLED);
         }
     }
 
     /** Flushes the changes to the operating system, and compacts the file if most of it is obsolete. */
     void flush() throws IOException {
-        Iterable<EntityIdFile.Change> now;
+        Iterable<Change> now;
         synchronized (this) {
             file.flush();
             if (!file.isWasteful(bytes)) {

@@ -5,6 +5,7 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Optional;
 import java.util.function.Function;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -15,6 +16,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.LogText;
+import io.furrow.connect.broker.BrokerBackoff;
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
@@ -39,7 +41,7 @@ public final class ReconcileLoop implements AutoCloseable {
     private static final class Schedule {
         private final SubscriptionReconciler reconciler;
         private long due = System.nanoTime();
-        private Duration pause = Duration.ZERO;
+        private final BrokerBackoff backoff = new BrokerBackoff(FIRST_PAUSE, MAX_PAUSE);
         private volatile boolean failing;
         private volatile boolean done;
         private volatile String problem = "";
@@ -61,15 +63,15 @@ public final class ReconcileLoop implements AutoCloseable {
      */
     public static ReconcileLoop start(
             Function<BrokerRequest, Outcome> broker,
-            List<Assignment> assignments,
+            List<DesiredSubscription> subscriptions,
             RepairSettings settings,
             SharedServices services,
             Duration interval)
             throws IOException {
         ReconcileLoop loop = new ReconcileLoop(interval);
         try {
-            for (Assignment assignment : assignments) {
-                loop.schedules.add(new Schedule(assignment.reconciler(broker, settings, services)));
+            for (DesiredSubscription desired : subscriptions) {
+                loop.schedules.add(new Schedule(new SubscriptionReconciler(broker, desired, settings, services)));
             }
         } catch (IOException e) {
             loop.close();
@@ -80,19 +82,6 @@ public final class ReconcileLoop implements AutoCloseable {
         loop.show(services.ledger());
         loop.thread.start();
         return loop;
-    }
-
-    /** A desired subscription in a scope, whose service path may end in {@code /#}. */
-    public record Assignment(FiwareScope scope, DesiredSubscription desired) {
-        private SubscriptionReconciler reconciler(
-                Function<BrokerRequest, Outcome> broker, RepairSettings settings, SharedServices services)
-                throws IOException {
-            return SubscriptionReconciler.open(
-                    SubscriptionReconciler.Target.of(
-                            broker, scope, desired, settings.reading().pageMaxBytes()),
-                    settings,
-                    services);
-        }
     }
 
     private ReconcileLoop(Duration interval) {
@@ -143,22 +132,23 @@ public final class ReconcileLoop implements AutoCloseable {
         return details;
     }
 
+    private interface Note {
+        void to(SubscriptionReconciler reconciler) throws IOException;
+    }
+
     /** An entity of the topic changed or was deleted. */
     public void note(String identity, boolean gone) {
-        for (Schedule schedule : schedules) {
-            try {
-                schedule.reconciler.note(identity, gone);
-            } catch (IOException | RuntimeException e) {
-                // The next poll fails for the same reason, and logs it.
-                LOG.debug("cannot note {}", LogText.oneLine(identity), e);
-            }
-        }
+        note(identity, reconciler -> reconciler.note(identity, gone));
     }
 
     private void markStale(String identity) {
+        note(identity, reconciler -> reconciler.markStale(identity));
+    }
+
+    private void note(String identity, Note note) {
         for (Schedule schedule : schedules) {
             try {
-                schedule.reconciler.markStale(identity);
+                note.to(schedule.reconciler);
             } catch (IOException | RuntimeException e) {
                 // The next poll fails for the same reason, and logs it.
                 LOG.debug("cannot note {}", LogText.oneLine(identity), e);
@@ -208,21 +198,21 @@ public final class ReconcileLoop implements AutoCloseable {
 
     /** Catches every failure so that the next poll runs: nothing else would notice the end of this thread. */
     private void poll(Schedule schedule) throws InterruptedException {
-        Duration asked = Duration.ZERO;
+        Duration wait = interval;
         try {
             schedule.reconciler.poll();
             succeeded(schedule);
         } catch (BrokerException e) {
-            asked = e.retryAfter().orElse(Duration.ZERO);
             failed(schedule, e);
+            wait = schedule.backoff.after(e.retryAfter());
         } catch (IOException | RuntimeException | Error e) {
             failed(schedule, e);
+            wait = schedule.backoff.after(Optional.empty());
         }
         if (Thread.interrupted()) {
             throw new InterruptedException("stopped");
         }
-        Duration wait = schedule.failing ? schedule.pause : interval;
-        schedule.due = System.nanoTime() + (asked.compareTo(wait) > 0 ? asked : wait).toNanos();
+        schedule.due = System.nanoTime() + wait.toNanos();
     }
 
     private void succeeded(Schedule schedule) {
@@ -231,7 +221,7 @@ public final class ReconcileLoop implements AutoCloseable {
         }
         schedule.failing = false;
         schedule.done = true;
-        schedule.pause = Duration.ZERO;
+        schedule.backoff.reset();
     }
 
     private void failed(Schedule schedule, Throwable why) {
@@ -241,8 +231,6 @@ public final class ReconcileLoop implements AutoCloseable {
         boolean known = schedule.failing;
         schedule.failing = true;
         schedule.problem = FailureText.of(why);
-        Duration twice = schedule.pause.isZero() ? FIRST_PAUSE : schedule.pause.multipliedBy(2);
-        schedule.pause = twice.compareTo(MAX_PAUSE) > 0 ? MAX_PAUSE : twice;
         if (!known) {
             LOG.warn(
                     "subscription of {} cannot be managed: {}; the source continues to accept notifications and"

@@ -15,25 +15,13 @@ import io.furrow.connect.repair.RecordTracker.Appended;
 import io.furrow.model.text.FailureText;
 
 /** Emits findings in small batches and waits until they are durable, which leaves room for concurrent notifications. */
-final class RepairPublisher {
+record RepairPublisher(RepairOutput output, RecordTracker live, EntityIdSet known, String subscription) {
     private static final Logger LOG = LoggerFactory.getLogger(RepairPublisher.class);
 
     private static final int AT_ONCE = 100;
     private static final int BYTES_AT_ONCE = 1024 * 1024;
     private static final Duration FULL_PAUSE = Duration.ofMillis(50);
     private static final Duration MAX_PAUSE = Duration.ofMillis(100);
-
-    private final RepairOutput output;
-    private final RecordTracker live;
-    private final EntityIdSet known;
-    private final String subscription;
-
-    RepairPublisher(RepairOutput output, RecordTracker live, EntityIdSet known, String subscription) {
-        this.output = output;
-        this.live = live;
-        this.known = known;
-        this.subscription = subscription;
-    }
 
     private record Serialized(MissedChange finding, byte[] bytes) {
         TrackedRecord record() {

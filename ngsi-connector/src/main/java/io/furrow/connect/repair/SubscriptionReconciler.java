@@ -37,6 +37,7 @@ import io.furrow.model.event.FiwareScope;
 public final class SubscriptionReconciler implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(SubscriptionReconciler.class);
 
+    private final DesiredSubscription desired;
     private final SubscriptionClient client;
     private final BrokerEntities entities;
     private final RepairSettings settings;
@@ -55,33 +56,30 @@ public final class SubscriptionReconciler implements AutoCloseable {
     private volatile Duration gap = Duration.ZERO;
     private volatile DeliveryReport delivered = DeliveryReport.NOTHING_SENT;
 
-    /** The subscription and its entities. */
-    record Target(SubscriptionClient client, BrokerEntities entities, BrokerUptime uptime) {
-        /** @param maxBytes of a page's body */
-        static Target of(
-                Function<BrokerRequest, Outcome> broker,
-                FiwareScope scope,
-                DesiredSubscription desired,
-                long maxBytes) {
-            return new Target(
-                    new SubscriptionClient(broker, scope, desired),
-                    new BrokerEntities(broker, scope, desired.subject(), desired.notificationContent(), maxBytes),
-                    new BrokerUptime(broker, scope));
-        }
-    }
-
     /** The services that all subscriptions of a task share. */
     public record SharedServices(RecordTracker live, RepairOutput output, Ledger ledger) {}
 
-    private SubscriptionReconciler(Target target, RepairSettings settings, SharedServices services, Path folder)
+    /** @throws IOException if the folder for persistent state cannot be used */
+    SubscriptionReconciler(
+            Function<BrokerRequest, Outcome> broker,
+            DesiredSubscription desired,
+            RepairSettings settings,
+            SharedServices services)
             throws IOException {
-        client = target.client();
-        entities = target.entities();
-        uptime = target.uptime();
-        listings = new ListingSchedule(settings.deletions().interval());
+        this.desired = desired;
         this.settings = settings;
         this.services = services;
-        gapDetector = new GapDetector(client.desired().notificationContent().namesItsSubscription());
+        client = new SubscriptionClient(broker, desired);
+        entities = new BrokerEntities(
+                broker,
+                desired.scope(),
+                desired.subject(),
+                desired.notificationContent(),
+                settings.reading().pageMaxBytes());
+        uptime = new BrokerUptime(broker, desired.scope());
+        listings = new ListingSchedule(settings.deletions().interval());
+        gapDetector = new GapDetector(desired.notificationContent().namesItsSubscription());
+        Path folder = Files.createDirectories(settings.folder().resolve(folderName(desired.name())));
         known = EntityIdSet.open(folder.resolve("known"), settings.deletions().knownMaxBytes());
         watermark = Watermark.open(folder.resolve("watermark"));
         lateRecords = LateRecords.open(folder.resolve("late"));
@@ -89,26 +87,17 @@ public final class SubscriptionReconciler implements AutoCloseable {
         watermark.time().ifPresent(time -> services.live().forgetUntil(time.minus(settings.overlap())));
     }
 
-    /**
-     * @throws IOException if the folder cannot be used
-     */
-    static SubscriptionReconciler open(Target target, RepairSettings settings, SharedServices services)
-            throws IOException {
-        String share = target.client().desired().name().partition().label();
-        Path folder = settings.folder().resolve(folderName(target.client().scope(), share));
-        Files.createDirectories(folder);
-        return new SubscriptionReconciler(target, settings, services, folder);
-    }
-
     /** Readable where possible, and unique. */
-    private static String folderName(FiwareScope scope, String share) {
-        String text = (scope.service().isEmpty() ? "-" : scope.service()) + "@" + scope.servicePath() + "@" + share;
-        StringBuilder name = new StringBuilder();
+    private static String folderName(DesiredSubscription.Name name) {
+        FiwareScope scope = name.scope();
+        String text = (scope.service().isEmpty() ? "-" : scope.service()) + "@" + scope.servicePath() + "@"
+                + name.partition().label();
+        StringBuilder folder = new StringBuilder();
         for (char sign : text.toCharArray()) {
             boolean plain = sign < 128 && Character.isLetterOrDigit(sign) || "-_@".indexOf(sign) >= 0;
-            name.append(plain ? String.valueOf(sign) : String.format("%%%04x", (int) sign));
+            folder.append(plain ? String.valueOf(sign) : String.format("%%%04x", (int) sign));
         }
-        return name.toString();
+        return folder.toString();
     }
 
     /** An entity of the topic changed or was deleted; from any thread. */
@@ -137,7 +126,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
 
     /** Whether its subscription notifies about entities in the scope. */
     boolean covers(FiwareScope scope) {
-        FiwareScope ours = client.scope();
+        FiwareScope ours = desired.scope();
         if (!ours.service().equals(scope.service())) {
             return false;
         }
@@ -188,7 +177,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
 
     /** Where its notifications go. */
     String url() {
-        return client.desired().target().url();
+        return desired.target().url();
     }
 
     /** What the context broker said about its notifications at the last poll. */
@@ -300,7 +289,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
                 "repaired subscription {} of tenant '{}', because {}: a gap of {} s, {} entities changed, {} deleted,"
                         + " {} were known; it took {} ms",
                 kept.id(),
-                client.scope().service(),
+                desired.scope().service(),
                 reason,
                 gap.toSeconds(),
                 result.changed(),
@@ -311,13 +300,13 @@ public final class SubscriptionReconciler implements AutoCloseable {
             LOG.warn(
                     "tenant '{}' has more entities than {} bytes hold: deletions that were not notified are not found;"
                             + " raise repair.known.max.bytes if there is memory",
-                    client.scope().service(),
+                    desired.scope().service(),
                     settings.deletions().knownMaxBytes());
         }
     }
 
     FiwareScope scope() {
-        return client.scope();
+        return desired.scope();
     }
 
     /** The time between the last known good time and the last repair. */

@@ -8,6 +8,7 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.common.record.TimestampType;
+import org.apache.kafka.common.utils.Utils;
 import org.apache.kafka.connect.data.Struct;
 import org.apache.kafka.connect.sink.SinkRecord;
 
@@ -95,9 +96,7 @@ record ChangeReader(FiwareScope defaultScope, String defaultType) {
             return NgsiJson.read(bytes);
         }
         if (value instanceof ByteBuffer buffer) {
-            byte[] bytes = new byte[buffer.remaining()];
-            buffer.duplicate().get(bytes);
-            return NgsiJson.read(bytes);
+            return NgsiJson.read(Utils.toArray(buffer));
         }
         if (value instanceof String text) {
             return NgsiJson.read(text.getBytes(StandardCharsets.UTF_8));

@@ -5,6 +5,7 @@ import java.util.Collection;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 import java.util.Set;
 
 import org.apache.kafka.common.TopicPartition;
@@ -18,9 +19,9 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.PluginVersion;
+import io.furrow.connect.broker.BrokerBackoff;
 import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.ledger.LedgerBean;
-import io.furrow.connect.sink.api.BrokerBackoff;
 import io.furrow.connect.sink.api.BrokerUnavailableException;
 import io.furrow.connect.sink.api.ContextWriter;
 import io.furrow.connect.sink.api.ContextWriter.ChangeResults;
@@ -139,11 +140,11 @@ public class NgsiSinkTask extends SinkTask {
             return changeResults;
         } catch (BrokerUnavailableException e) {
             ledger.retried.increment();
-            context.timeout(backoff.after(e.away()).toMillis());
+            context.timeout(backoff.after(e.away().retryAfter()).toMillis());
             throw new RetriableException(e.getMessage(), e);
         } catch (WrongSettingException e) {
             ledger.retried.increment();
-            context.timeout(backoff.after().toMillis());
+            context.timeout(backoff.after(Optional.empty()).toMillis());
             String remedy = "; tries again. Check " + BrokerOptions.URL + " and the rights of this client";
             throw new RetriableException(e.getMessage() + remedy, e);
         }

@@ -5,6 +5,7 @@ import java.util.regex.Pattern;
 
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
+import org.apache.kafka.common.config.ConfigDef.Validator;
 
 import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
@@ -18,7 +19,7 @@ final class SinkEntityOptions {
     static final String DELETE_ON_NULL = "delete.on.null";
     static final String ECHO_SOURCES = "echo.sources";
 
-    private static final Pattern TYPE = Pattern.compile("[^\\s&?/#<>\"'=;()]{0,256}");
+    private static final String TYPE = "[^\\s&?/#<>\"'=;()]{0,256}";
 
     private final AbstractConfig config;
     private final List<Pattern> echoSources;
@@ -31,45 +32,31 @@ final class SinkEntityOptions {
 
     static void define(ConfigDef options) {
         OptionGroup group = new OptionGroup(options, "Entities");
-        group.text(
-                SERVICE,
-                "",
-                Validators.matching(ChangeReader.SERVICE, "at most 50 of a-z 0-9 _"),
-                "Tenant",
-                "Tenant (Fiware-Service) of records without a header fiware-service; empty for the default tenant.");
-        group.text(
-                SERVICE_PATH,
-                "/",
-                Validators.matching(ChangeReader.SERVICE_PATH, "a path of A-Z a-z 0-9 _ that begins with /"),
-                "Service path",
-                "Service path (Fiware-Servicepath) of records without a header fiware-servicepath.");
+        Validator tenant = Validators.matching(ChangeReader.SERVICE.pattern(), "at most 50 of a-z 0-9 _");
+        group.text(SERVICE, "", tenant, "Tenant")
+                .help("Tenant (Fiware-Service) of records without a header fiware-service; empty for the default"
+                        + " tenant.");
+        Validator path =
+                Validators.matching(ChangeReader.SERVICE_PATH.pattern(), "a path of A-Z a-z 0-9 _ that begins with /");
+        group.text(SERVICE_PATH, "/", path, "Service path")
+                .help("Service path (Fiware-Servicepath) of records without a header fiware-servicepath.");
+        Validator type = Validators.matching(TYPE, "at most 256 characters that are allowed in a type");
         group.low()
-                .text(
-                        DEFAULT_TYPE,
-                        "",
-                        Validators.matching(TYPE, "at most 256 characters that are allowed in a type"),
-                        "Default type",
-                        "Type of entities without one; empty for Thing, the default of context brokers. A struct without a"
-                                + " field type uses the last part of its schema's name.");
+                .text(DEFAULT_TYPE, "", type, "Default type")
+                .help("Type of entities without one; empty for Thing, the default of context brokers. A struct without"
+                        + " a field type uses the last part of its schema's name.");
         defineSkipped(group);
     }
 
     private static void defineSkipped(OptionGroup group) {
-        group.flag(
-                DELETE_ON_NULL,
-                false,
-                "Delete on null",
-                "Whether a tombstone deletes the entity whose id is its key, unless a newer value is known. Otherwise"
-                        + " tombstones are skipped.");
-        group.list(
-                ECHO_SOURCES,
-                "/ngsi/.*",
-                Validators.patterns(),
-                "Echo sources",
-                "Regular expressions; a record whose header ce_source matches one as a whole came from a context broker"
-                        + " and is skipped, because writing it back would make the broker notify it again, forever. Set"
-                        + " it to the sources that read this very broker, or leave it empty, to copy one broker to"
-                        + " another.");
+        group.flag(DELETE_ON_NULL, false, "Delete on null")
+                .help("Whether a tombstone deletes the entity whose id is its key, unless a newer value is known."
+                        + " Otherwise tombstones are skipped.");
+        group.list(ECHO_SOURCES, "/ngsi/.*", Validators.patterns(), "Echo sources")
+                .help("Regular expressions; a record whose header ce_source matches one as a whole came from a context"
+                        + " broker and is skipped, because writing it back would make the broker notify it again,"
+                        + " forever. Set it to the sources that read this very broker, or leave it empty, to copy one"
+                        + " broker to another.");
     }
 
     /** The scope of records without headers. */
@@ -87,14 +74,8 @@ final class SinkEntityOptions {
 
     /** Whether a record with this {@code ce_source} is skipped. */
     boolean isEcho(String source) {
-        if (source.isEmpty()) {
-            return false;
-        }
-        for (Pattern pattern : echoSources) {
-            if (pattern.matcher(source).matches()) {
-                return true;
-            }
-        }
-        return false;
+        return !source.isEmpty()
+                && echoSources.stream()
+                        .anyMatch(pattern -> pattern.matcher(source).matches());
     }
 }

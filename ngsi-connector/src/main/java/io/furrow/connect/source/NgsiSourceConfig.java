@@ -14,12 +14,10 @@ import io.furrow.connect.source.journal.AcknowledgedRecords;
 import io.furrow.connect.source.journal.TaskJournals;
 import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.option.AccessOptions;
-import io.furrow.connect.source.option.AcknowledgingOptions;
 import io.furrow.connect.source.option.EntityOptions;
 import io.furrow.connect.source.option.JournalOptions;
 import io.furrow.connect.source.option.ListeningOptions;
 import io.furrow.connect.source.option.OverloadOptions;
-import io.furrow.connect.source.option.PendingOptions;
 import io.furrow.connect.source.option.RecordOptions;
 import io.furrow.connect.source.option.RepairOptions;
 import io.furrow.connect.source.option.SecurityOptions;
@@ -48,9 +46,7 @@ public class NgsiSourceConfig extends AbstractConfig {
     private final RecordOptions records;
     private final EntityOptions entities;
     private final SizeOptions sizes;
-    private final PendingOptions pending;
     private final JournalOptions journal;
-    private final AcknowledgingOptions acknowledging;
     private final OverloadOptions overload;
     private final AccessOptions access;
     private final SecurityOptions security;
@@ -66,9 +62,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         records = new RecordOptions(this);
         entities = new EntityOptions(this);
         sizes = new SizeOptions(this);
-        pending = new PendingOptions(this);
         journal = new JournalOptions(this);
-        acknowledging = new AcknowledgingOptions(this);
         overload = new OverloadOptions(this);
         access = new AccessOptions(this);
         security = new SecurityOptions(this);
@@ -116,10 +110,10 @@ public class NgsiSourceConfig extends AbstractConfig {
                     listening.requestTimeout().toMillis(),
                     "must be more than " + OverloadOptions.HOLD);
         }
-        if (pending.maxBytes() < sizes.maxBodyBytes()) {
+        if (journal.maxPendingBytes() < sizes.maxBodyBytes()) {
             throw new ConfigException(
-                    PendingOptions.MAX_PENDING_BYTES,
-                    pending.maxBytes(),
+                    JournalOptions.MAX_PENDING_BYTES,
+                    journal.maxPendingBytes(),
                     "must be at least " + SizeOptions.MAX_BODY_BYTES);
         }
         long room = journalSettings().largestAppend() - SizeOptions.ROOM_FOR_HEADERS;
@@ -157,9 +151,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         RecordOptions.define(options);
         EntityOptions.define(options);
         SizeOptions.define(options);
-        PendingOptions.define(options);
         JournalOptions.define(options);
-        AcknowledgingOptions.define(options);
         OverloadOptions.define(options);
         AccessOptions.define(options);
         SecurityOptions.define(options);
@@ -208,16 +200,8 @@ public class NgsiSourceConfig extends AbstractConfig {
         return sizes;
     }
 
-    PendingOptions pending() {
-        return pending;
-    }
-
     JournalOptions journal() {
         return journal;
-    }
-
-    AcknowledgingOptions acknowledging() {
-        return acknowledging;
     }
 
     OverloadOptions overload() {
@@ -253,7 +237,7 @@ public class NgsiSourceConfig extends AbstractConfig {
     }
 
     JournalSettings journalSettings() {
-        return JournalSettings.of(journal.maxBytes(), pending.maxBytes(), journal.minFreeBytes());
+        return JournalSettings.of(journal.maxBytes(), journal.maxPendingBytes(), journal.minFreeBytes());
     }
 
     /** What is done for the case that Kafka loses what it acknowledged; transforms may give records another form or topic. */

@@ -52,7 +52,7 @@ public class NgsiSourceTask extends SourceTask {
     @Override
     public void start(Map<String, String> properties) {
         config = new NgsiSourceConfig(properties);
-        batchSize = config.acknowledging().batchSize();
+        batchSize = config.journal().batchSize();
         sourceRecords = config.records();
         try {
             source.set(SourceRuntime.attach(config)

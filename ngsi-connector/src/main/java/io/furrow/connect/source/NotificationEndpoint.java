@@ -37,7 +37,6 @@ import io.furrow.model.ngsi.NgsiJson;
 
 /** Connects the port with the intake; closing it frees the port and answers all waiting senders. */
 public final class NotificationEndpoint implements AutoCloseable {
-    private static final Duration BIND_TIMEOUT = Duration.ofSeconds(10);
     private static final int HEALTH_CONNECTIONS = 64;
 
     private final AdmissionQueue admissionQueue;
@@ -54,30 +53,13 @@ public final class NotificationEndpoint implements AutoCloseable {
     /**
      * Listens and passes notifications to the intake.
      *
+     * @param arrived receives the subscription of each notification that names one
+     * @param timeout how long to wait for a port that is in use
      * @throws ConnectException if the source cannot listen on the address
      */
-    static NotificationEndpoint open(NgsiSourceConfig config, RecordLog recordLog, Ledger ledger) {
-        return open(config, recordLog, ledger, BIND_TIMEOUT);
-    }
-
-    /** @param timeout how long to wait for a port that is in use */
-    static NotificationEndpoint open(NgsiSourceConfig config, RecordLog recordLog, Ledger ledger, Duration timeout) {
-        return open(config, new NotificationTranslator(config.translation(), ledger), recordLog, ledger, timeout);
-    }
-
-    /** @param arrived receives the subscription of each notification that names one */
     static NotificationEndpoint open(
-            NgsiSourceConfig config, RecordLog recordLog, Ledger ledger, Consumer<String> arrived) {
+            NgsiSourceConfig config, RecordLog recordLog, Ledger ledger, Consumer<String> arrived, Duration timeout) {
         NotificationTranslator translator = new NotificationTranslator(config.translation(), ledger, arrived);
-        return open(config, translator, recordLog, ledger, BIND_TIMEOUT);
-    }
-
-    private static NotificationEndpoint open(
-            NgsiSourceConfig config,
-            NotificationTranslator translator,
-            RecordLog recordLog,
-            Ledger ledger,
-            Duration timeout) {
         QueuedThreadPool threads = NotificationServer.threads();
         AdmissionQueue admissionQueue = new AdmissionQueue(recordLog, ledger);
         Handler notifications = new NotificationHandler(

@@ -16,22 +16,11 @@ import io.furrow.model.ngsi.Reason;
 /**
  * Converts records that are larger than their topic accepts into dead letters: the producer's failure would stop the
  * task, and stop it again after each restart. A dead letter that is itself too large is truncated.
+ *
+ * @param maxRecordBytes the producer's limit
  */
-final class RecordSizes {
+record RecordSizes(TopicLimits limits, int maxRecordBytes, String deadLetterTopic, Ledger ledger) {
     private static final int ROOM_FOR_SENTENCE = 100;
-
-    private final TopicLimits limits;
-    private final int maxRecordBytes;
-    private final String deadLetterTopic;
-    private final Ledger ledger;
-
-    /** @param maxRecordBytes the producer's limit */
-    RecordSizes(TopicLimits limits, int maxRecordBytes, String deadLetterTopic, Ledger ledger) {
-        this.limits = limits;
-        this.maxRecordBytes = maxRecordBytes;
-        this.deadLetterTopic = deadLetterTopic;
-        this.ledger = ledger;
-    }
 
     /** The record that is sent to Kafka for a journal record. */
     KafkaRecord fitting(JournalRecord kept) {

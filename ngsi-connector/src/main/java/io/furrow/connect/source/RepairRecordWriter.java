@@ -21,17 +21,8 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** Creates records from the findings of the repair and appends them to the intake. */
-final class RepairRecordWriter implements RepairOutput {
-    private final NotificationTranslator.Settings settings;
-    private final JournalRecordLog recordLog;
-    private final Ledger ledger;
-
-    /** @param recordLog the same as that of notifications */
-    RepairRecordWriter(NotificationTranslator.Settings settings, JournalRecordLog recordLog, Ledger ledger) {
-        this.settings = settings;
-        this.recordLog = recordLog;
-        this.ledger = ledger;
-    }
+record RepairRecordWriter(NotificationTranslator.Settings settings, JournalRecordLog recordLog, Ledger ledger)
+        implements RepairOutput {
 
     @Override
     public byte[] serialize(String subscription, MissedChange finding) {

@@ -36,6 +36,7 @@ record SourceRuntime(
         LedgerBean bean)
         implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(SourceRuntime.class);
+    private static final Duration BIND_TIMEOUT = Duration.ofSeconds(10);
 
     /**
      * The sources that run without a task, by connector and task. Static, because Connect creates each task anew, and only
@@ -55,10 +56,10 @@ record SourceRuntime(
             String journal = journals.own().id();
             ledger.detail("journal", () -> JsonNodeFactory.instance.textNode(journal));
             ledger.detail("orphans", () -> orphans(journals));
-            SubscriptionManager subscriptions = SubscriptionManager.of(config, ledger);
+            SubscriptionManager subscriptions = new SubscriptionManager(config, ledger);
             JournalRecordLog recordLog = new JournalRecordLog(journals.own(), ledger);
-            NotificationEndpoint endpoint =
-                    NotificationEndpoint.open(config, subscriptions.watched(recordLog), ledger, subscriptions::arrived);
+            NotificationEndpoint endpoint = NotificationEndpoint.open(
+                    config, subscriptions.tracked(recordLog), ledger, subscriptions::arrived, BIND_TIMEOUT);
             LedgerBean bean = LedgerBean.show(ledger, "ngsi-source", config.name(), config.taskIndex());
             SourceRuntime source = new SourceRuntime(config, journals, subscriptions, endpoint, ledger, bean);
             source.subscribe(recordLog);

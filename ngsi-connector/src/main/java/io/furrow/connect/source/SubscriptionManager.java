@@ -7,6 +7,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.atomic.AtomicLong;
 
 import org.apache.kafka.connect.data.Struct;
@@ -16,14 +17,14 @@ import org.apache.kafka.connect.source.SourceRecord;
 
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.repair.ReconcileLoop;
-import io.furrow.connect.repair.ReconcileLoop.Assignment;
 import io.furrow.connect.repair.RecordTracker;
 import io.furrow.connect.repair.SubscriptionReconciler;
 import io.furrow.connect.repair.TrackedRecord;
+import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.source.journal.JournalRecordLog;
 import io.furrow.connect.source.journal.RecordLog;
-import io.furrow.connect.source.journal.TrackedRecordLog;
 import io.furrow.connect.source.option.SubscriptionOptions;
 import io.furrow.connect.subscription.DesiredSubscription;
 import io.furrow.connect.subscription.DesiredSubscription.Name;
@@ -44,40 +45,49 @@ final class SubscriptionManager implements AutoCloseable {
     private final Ledger ledger;
     private final RecordTracker live;
     private final AtomicLong unseen;
+    /** Null until it is started. */
     private volatile ReconcileLoop loop;
 
-    private SubscriptionManager(NgsiSourceConfig config, Ledger ledger) {
+    /** @param ledger that already counts the records in the journal at the start */
+    SubscriptionManager(NgsiSourceConfig config, Ledger ledger) {
         this.config = config;
         this.ledger = ledger;
         this.live = new RecordTracker(config.repair().recentMaxBytes());
         this.unseen = new AtomicLong(config.subscription().enabled() ? ledger.recovered.sum() : 0);
     }
 
-    /** @param ledger that already counts the records in the journal at the start */
-    static SubscriptionManager of(NgsiSourceConfig config, Ledger ledger) {
-        return new SubscriptionManager(config, ledger);
+    /** The same log, which tracks appended records for the repair. */
+    RecordLog tracked(JournalRecordLog recordLog) {
+        return config.subscription().enabled() ? records -> append(records, recordLog) : recordLog;
     }
 
-    /** The same intake, which notifies the repair about appended records. */
-    RecordLog watched(JournalRecordLog recordLog) {
-        return config.subscription().enabled()
-                ? new TrackedRecordLog(recordLog, live, new TrackedEntities())
-                : recordLog;
-    }
-
-    private final class TrackedEntities implements TrackedRecordLog.Entities {
-        @Override
-        public boolean covers(FiwareScope scope) {
-            ReconcileLoop started = loop;
-            return started == null || started.covers(scope);
-        }
-
-        @Override
-        public void note(String identity, boolean gone) {
-            ReconcileLoop started = loop;
-            if (started != null) {
-                started.note(identity, gone);
+    private Optional<CompletableFuture<Void>> append(List<KafkaRecord> records, JournalRecordLog recordLog) {
+        String subscription = "";
+        List<TrackedRecord> covered = new ArrayList<>(records.size());
+        for (KafkaRecord record : records) {
+            if (record.version() != null) {
+                FiwareScope scope = new FiwareScope(
+                        record.headers().get(HeaderNames.SERVICE),
+                        record.headers().get(HeaderNames.SERVICE_PATH));
+                String source = record.headers().get(HeaderNames.CE_SOURCE);
+                subscription = source.substring(source.lastIndexOf('/') + 1);
+                if (loop == null || loop.covers(scope)) {
+                    covered.add(new TrackedRecord(
+                            scope.identity(record.version().type(), record.key()),
+                            record.headers().get(HeaderNames.CE_ID),
+                            record.version().modified(),
+                            record.value() == null));
+                }
             }
+        }
+        List<byte[]> payloads = records.stream().map(JournalRecordCodec::write).toList();
+        return live.append(subscription, covered, () -> recordLog.append(payloads))
+                .map(durable -> durable.thenRun(() -> covered.forEach(this::note)));
+    }
+
+    private void note(TrackedRecord record) {
+        if (loop != null) {
+            loop.note(record.identity(), record.gone());
         }
     }
 
@@ -143,10 +153,10 @@ final class SubscriptionManager implements AutoCloseable {
         if (!config.subscription().enabled()) {
             return;
         }
-        List<Assignment> assignments = new ArrayList<>();
+        List<DesiredSubscription> subscriptions = new ArrayList<>();
         for (String tenant : config.subscription().tenants()) {
             for (String path : config.subscription().servicePaths()) {
-                assignments.add(new Assignment(new FiwareScope(tenant, path), desired(path, port)));
+                subscriptions.add(desired(new FiwareScope(tenant, path), port));
             }
         }
         Path folder = config.journal()
@@ -156,7 +166,7 @@ final class SubscriptionManager implements AutoCloseable {
                     new BrokerClient(config.broker()
                             .settings()
                             .withMaxAnswerBytes(config.repair().pageMaxBytes()))::send,
-                    assignments,
+                    subscriptions,
                     config.repair().settings(folder, config.entities()),
                     new SubscriptionReconciler.SharedServices(
                             live, new RepairRecordWriter(config.translation(), recordLog, ledger), ledger),
@@ -166,10 +176,10 @@ final class SubscriptionManager implements AutoCloseable {
         }
     }
 
-    private DesiredSubscription desired(String servicePath, int port) {
+    private DesiredSubscription desired(FiwareScope scope, int port) {
         SubscriptionOptions options = config.subscription();
         IdPartition partition = new IdPartition(config.taskIndex(), config.taskCount());
-        Name name = new Name(options.description(config.name()), partition, servicePath);
+        Name name = new Name(options.description(config.name()), partition, scope);
         return new DesiredSubscription(
                 name,
                 options.subject(partition.count() > 1 ? Optional.of(partition.pattern()) : Optional.empty()),
@@ -195,18 +205,16 @@ final class SubscriptionManager implements AutoCloseable {
      * together with its subscriptions.
      */
     void rest(boolean resting) {
-        ReconcileLoop started = loop;
-        if (started != null) {
-            started.rest(resting);
+        if (loop != null) {
+            loop.rest(resting);
         }
     }
 
     /** Stops all requests to the context broker; the subscriptions stay. */
     @Override
     public void close() {
-        ReconcileLoop started = loop;
-        if (started != null) {
-            started.close();
+        if (loop != null) {
+            loop.close();
         }
     }
 }

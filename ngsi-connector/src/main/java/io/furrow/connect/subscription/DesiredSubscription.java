@@ -9,6 +9,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.time.Instants;
 
 /**
@@ -23,8 +24,9 @@ public record DesiredSubscription(
      * The description of the subscription: {@code furrow farm 1/2}, with its service path where that is not {@code /#}.
      *
      * @param base of all subscriptions of this connector
+     * @param scope the tenant, and the service path that it is for, which may end in {@code /#}
      */
-    public record Name(String base, IdPartition partition, String servicePath) {
+    public record Name(String base, IdPartition partition, FiwareScope scope) {
         private static final String EVERYWHERE = "/#";
 
         /** The description that is stored in the context broker. */
@@ -33,7 +35,11 @@ public record DesiredSubscription(
         }
 
         private String text(String label) {
-            return base + " " + label + (servicePath.equals(EVERYWHERE) ? "" : " " + servicePath);
+            return base + " " + label + tail();
+        }
+
+        private String tail() {
+            return scope.servicePath().equals(EVERYWHERE) ? "" : " " + scope.servicePath();
         }
 
         /** Whether a description belongs to this connector with the same number of tasks. */
@@ -48,7 +54,7 @@ public record DesiredSubscription(
 
         /** Whether a description belongs to this connector with another number of tasks. */
         boolean isLeftover(String description) {
-            String tail = servicePath.equals(EVERYWHERE) ? "" : " " + servicePath;
+            String tail = tail();
             if (!description.startsWith(base + " ") || !description.endsWith(tail)) {
                 return false;
             }
@@ -66,6 +72,10 @@ public record DesiredSubscription(
     public record Throttling(Duration throttling, Optional<Duration> expiry) {
         /** Every change, without expiry. */
         public static final Throttling EVERY_CHANGE = new Throttling(Duration.ZERO, Optional.empty());
+    }
+
+    public FiwareScope scope() {
+        return name.scope();
     }
 
     /** The body of a request that creates it. */

@@ -29,22 +29,13 @@ public final class SubscriptionClient {
     private static final int PAGE = 1000;
 
     private final Function<BrokerRequest, Outcome> broker;
-    private final FiwareScope scope;
     private final DesiredSubscription desired;
+    private final FiwareScope scope;
 
-    /** @param scope the tenant, and the service path that the subscription is for */
-    public SubscriptionClient(Function<BrokerRequest, Outcome> broker, FiwareScope scope, DesiredSubscription desired) {
+    public SubscriptionClient(Function<BrokerRequest, Outcome> broker, DesiredSubscription desired) {
         this.broker = broker;
-        this.scope = scope;
         this.desired = desired;
-    }
-
-    public DesiredSubscription desired() {
-        return desired;
-    }
-
-    public FiwareScope scope() {
-        return scope;
+        this.scope = desired.scope();
     }
 
     /**

@@ -149,7 +149,7 @@ class JournalFoldersTest {
         List<Path> synced = new ArrayList<>();
         Path folder = root.resolve("a").resolve("b");
 
-        DurableFolders.create(folder, synced::add);
+        JournalFolders.create(folder, synced::add);
 
         assertThat(folder).isDirectory();
         assertThat(synced).startsWith(root.resolve("a"), root, root.getParent());

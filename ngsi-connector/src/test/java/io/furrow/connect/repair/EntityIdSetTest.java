@@ -37,7 +37,7 @@ class EntityIdSetTest {
         try (EntityIdSet known = open()) {
             assertThat(known.copy()).isEqualTo(Set.of("|/|T|b"));
         }
-        assertThat(folder.resolve("known")).hasContent("+|/|T|b");
+        assertThat(folder.resolve("known")).hasContent("+\"|/|T|b\"");
     }
 
     @Test
@@ -45,7 +45,7 @@ class EntityIdSetTest {
         try (EntityIdSet known = open()) {
             known.add("|/|T|w");
         }
-        Files.writeString(folder.resolve("known"), "+|/|T|hal", StandardOpenOption.APPEND);
+        Files.writeString(folder.resolve("known"), "+\"|/|T|hal", StandardOpenOption.APPEND);
 
         try (EntityIdSet known = open()) {
             assertThat(known.copy()).isEqualTo(Set.of("|/|T|w"));
@@ -54,7 +54,8 @@ class EntityIdSetTest {
 
     @Test
     void keepsLineBreaksAndBackslashesOfAnId() throws IOException {
-        Set<String> strange = Set.of("|/|T|one\n+|/|T|two", "|/|T|a\r\nb", "|/|T|\\n", "|/|T|100%0A\r");
+        Set<String> strange =
+                Set.of("|/|T|one\n+|/|T|two", "|/|T|a\r\nb", "|/|T|\\n", "|/|T|100%0A\r", "|/|T|\"\ud800%u");
         try (EntityIdSet known = EntityIdSet.open(folder.resolve("known"), 1 << 20)) {
             for (String identity : strange) {
                 known.add(identity);
@@ -70,7 +71,7 @@ class EntityIdSetTest {
 
     @Test
     void leavesOutLinesThatAreNoIdentity() throws IOException {
-        Files.writeString(folder.resolve("known"), "+x\n+|/|T|a\n+\n-x\n");
+        Files.writeString(folder.resolve("known"), "+x\n+|/|T|b\n+\n-\n\n+null\n+\"c\"\n+\"|/|T|a\"\n+\"|/|T|d\"+\n");
 
         try (EntityIdSet known = open()) {
             assertThat(known.copy()).isEqualTo(Set.of("|/|T|a"));

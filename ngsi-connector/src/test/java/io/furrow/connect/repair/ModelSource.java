@@ -36,7 +36,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
 
     private static final EventTimeRule TIMES = EventTimeRule.within(Duration.ofMinutes(5));
     private static final DesiredSubscription WANTED = new DesiredSubscription(
-            new DesiredSubscription.Name("furrow farm", IdPartition.ALL, "/#"),
+            new DesiredSubscription.Name("furrow farm", IdPartition.ALL, new FiwareScope("agri", "/#")),
             Subject.ANY,
             new NotificationContent(List.of("*", "dateModified"), "normalized", false),
             new Target("http://127.0.0.1:1/v2/notify", Map.of(), Optional.empty()),
@@ -81,10 +81,8 @@ final class ModelSource implements RepairOutput, AutoCloseable {
                 RepairSettings.Mode.INITIAL,
                 new Reading(bounds.page(), bounds.pageBytes(), TIMES, List.of()),
                 new Deletions(1 << 20, bounds.deletions()));
-        SubscriptionReconciler.Target target =
-                SubscriptionReconciler.Target.of(broker, new FiwareScope("agri", "/#"), WANTED, bounds.pageBytes());
-        reconciler = SubscriptionReconciler.open(
-                target, settings, new SubscriptionReconciler.SharedServices(live, this, ledger));
+        reconciler = new SubscriptionReconciler(
+                broker, WANTED, settings, new SubscriptionReconciler.SharedServices(live, this, ledger));
         live.onStale(this::markStale);
         live.onOverflow(this::noteLate);
     }

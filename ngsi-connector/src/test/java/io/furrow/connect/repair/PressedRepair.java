@@ -72,7 +72,7 @@ final class PressedRepair {
             }
         };
         DesiredSubscription desired = new DesiredSubscription(
-                new DesiredSubscription.Name("furrow farm", IdPartition.ALL, "/#"),
+                new DesiredSubscription.Name("furrow farm", IdPartition.ALL, EVERYWHERE),
                 Subject.ANY,
                 new NotificationContent(List.of("*", "dateModified"), "normalized", false),
                 new Target("http://127.0.0.1:1/", Map.of(), Optional.empty()),
@@ -83,8 +83,9 @@ final class PressedRepair {
                 Mode.INITIAL,
                 new Reading(500, 16L * MIB, EventTimeRule.within(Duration.ofDays(10_000)), List.of()),
                 new Deletions(BOUND, Duration.ofHours(1)));
-        try (SubscriptionReconciler reconciler = SubscriptionReconciler.open(
-                SubscriptionReconciler.Target.of(client::send, EVERYWHERE, desired, 16L * MIB),
+        try (SubscriptionReconciler reconciler = new SubscriptionReconciler(
+                client::send,
+                desired,
                 settings,
                 new SubscriptionReconciler.SharedServices(live, output, new Ledger()))) {
             reconciler.poll();

@@ -21,8 +21,8 @@ import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.BrokerSettings;
+import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.repair.ReconcileLoop.Assignment;
 import io.furrow.connect.repair.RepairSettings.Mode;
 import io.furrow.connect.subscription.DesiredSubscription;
 import io.furrow.connect.subscription.DesiredSubscription.Name;
@@ -53,6 +53,7 @@ class ReconcileLoopTest {
     private final RecordTracker live = new RecordTracker(1 << 20);
     private volatile boolean room = true;
     private volatile Runnable failing = () -> {};
+    private volatile Optional<Outcome> answer = Optional.empty();
     private ReconcileLoop loop;
 
     @AfterEach
@@ -236,9 +237,21 @@ class ReconcileLoopTest {
         }
     }
 
+    @Test
+    void outlivesAContextBrokerThatAsksForAPauseOfAges() {
+        answer = Optional.of(new Outcome.Unavailable("busy", Optional.of(Duration.ofDays(3_000_000)), null, 503));
+        room = false;
+        start(Mode.CHANGES);
+        await().until(() -> gauge("subscriptionsOutOfSync") == 1);
+
+        await().during(Duration.ofMillis(300))
+                .until(() -> Thread.getAllStackTraces().keySet().stream()
+                        .anyMatch(thread -> thread.getName().equals("furrow-reconcile")));
+    }
+
     private void start(Mode mode) {
         DesiredSubscription desired = new DesiredSubscription(
-                new Name("furrow farm", IdPartition.ALL, "/#"),
+                new Name("furrow farm", IdPartition.ALL, new FiwareScope("agri", "/#")),
                 Subject.ANY,
                 CONTENT,
                 new Target(NOBODY, Map.of(), Optional.empty()),
@@ -258,9 +271,9 @@ class ReconcileLoopTest {
             loop = ReconcileLoop.start(
                     request -> {
                         failing.run();
-                        return client.send(request);
+                        return answer.orElseGet(() -> client.send(request));
                     },
-                    List.of(new Assignment(new FiwareScope("agri", "/#"), desired)),
+                    List.of(desired),
                     settings,
                     new SubscriptionReconciler.SharedServices(live, new Output(), ledger),
                     Duration.ofMillis(100));

@@ -59,7 +59,7 @@ public final class NotificationRig implements AutoCloseable {
         for (int i = 0; i < options.length; i += 2) {
             all.put(options[i], options[i + 1]);
         }
-        return NotificationEndpoint.open(new NgsiSourceConfig(all), recordLog, ledger, timeout);
+        return NotificationEndpoint.open(new NgsiSourceConfig(all), recordLog, ledger, subscription -> {}, timeout);
     }
 
     /** Another one in its place, on the same port. */

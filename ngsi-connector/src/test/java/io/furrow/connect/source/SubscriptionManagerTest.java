@@ -114,7 +114,7 @@ class SubscriptionManagerTest {
                 Journal journal = Journal.open(
                                 Files.createDirectory(directory.resolve("own")), config.journalSettings())
                         .orElseThrow();
-                SubscriptionManager own = SubscriptionManager.of(config, ledger)) {
+                SubscriptionManager own = new SubscriptionManager(config, ledger)) {
             own.start(rig.port(), new JournalRecordLog(journal, ledger));
             await().until(() -> ledger.repaired.sum() == 1);
             create("after");
@@ -152,7 +152,7 @@ class SubscriptionManagerTest {
         Ledger ledger = new Ledger();
         try (Journal journal = Journal.open(Files.createDirectory(directory.resolve("own")), config.journalSettings())
                         .orElseThrow();
-                SubscriptionManager own = SubscriptionManager.of(config, ledger)) {
+                SubscriptionManager own = new SubscriptionManager(config, ledger)) {
             own.start(8091, new JournalRecordLog(journal, ledger));
             await().until(() -> broker.subscriptions().size() == 1);
         }

@@ -19,6 +19,7 @@ import org.junit.jupiter.params.provider.MethodSource;
 import io.furrow.connect.subscription.DesiredSubscription.Name;
 import io.furrow.connect.subscription.DesiredSubscription.Throttling;
 import io.furrow.connect.subscription.SubscriptionPlan.Step;
+import io.furrow.model.event.FiwareScope;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -162,7 +163,8 @@ class SubscriptionPlanTest {
 
     private static DesiredSubscription desired(IdPartition partition, Target target, Throttling throttling) {
         Subject subject = new Subject(partition.pattern(), List.of(), Optional.empty(), List.of());
-        return new DesiredSubscription(new Name("furrow farm", partition, "/#"), subject, CONTENT, target, throttling);
+        return new DesiredSubscription(
+                new Name("furrow farm", partition, new FiwareScope("", "/#")), subject, CONTENT, target, throttling);
     }
 
     private static ObjectNode ours() {

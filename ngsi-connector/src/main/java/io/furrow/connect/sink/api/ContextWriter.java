@@ -4,11 +4,12 @@ import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
 import java.util.function.Consumer;
+import java.util.stream.Stream;
 
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
-import io.furrow.connect.sink.api.EntityWriter.FailingUpdate;
-import io.furrow.connect.sink.api.EntityWriter.RejectedUpdate;
+import io.furrow.connect.sink.api.BatchSender.Failing;
+import io.furrow.connect.sink.api.BatchSender.Rejected;
 
 /**
  * Writes changes to a context broker: per attribute the value with the newest event time is stored, whatever the order
@@ -25,9 +26,6 @@ public final class ContextWriter implements AutoCloseable {
         public int stale;
         public int deleted;
         public final List<RejectedChange> refused = new ArrayList<>();
-        private final List<FailingChange> failing = new ArrayList<>();
-        /** Whether the context broker accepted a write or a deletion, and so works. */
-        private boolean anyTaken;
     }
 
     private final BrokerClient client;
@@ -58,147 +56,141 @@ public final class ContextWriter implements AutoCloseable {
     /** If it throws, the same changes must be applied again; repeating the written ones does no harm. */
     public ChangeResults apply(List<EntityChange> changes) throws BrokerUnavailableException, WrongSettingException {
         known.evict();
-        ChangeResults changeResults = new ChangeResults();
+        Delivery delivery = new Delivery(isolation.isDue(changes));
         try {
             firstSight.learn(changes);
-            apply(changes, isolation.isDue(changes), changeResults);
-            refuseFailing(changeResults);
+            delivery.apply(changes);
+            delivery.refuseFailing();
         } catch (BrokerUnavailableException e) {
-            if (FailingChange.isMeant(e.away())) {
+            if (Isolation.isMeant(e.away())) {
                 isolation.failed();
             }
             throw e;
         }
         isolation.passed();
-        return changeResults;
+        return delivery.results;
     }
 
-    /** An entity that causes a 500 alone, while the context broker accepts others, is itself at fault. */
-    private void refuseFailing(ChangeResults changeResults) throws BrokerUnavailableException {
-        if (changeResults.failing.isEmpty()) {
-            return;
-        }
-        if (!changeResults.anyTaken && !isolation.refusesWithoutProof()) {
-            throw new BrokerUnavailableException(changeResults.failing.get(0).unavailable());
-        }
-        for (FailingChange failing : changeResults.failing) {
-            isolation.suspect(failing.entityChange().key());
-            changeResults.refused.add(new RejectedChange(
-                    failing.entityChange(), failing.unavailable().reason()));
-        }
-    }
+    private final class Delivery {
+        private final boolean isolates;
+        private final ChangeResults results = new ChangeResults();
+        private final List<Failing<EntityChange>> failing = new ArrayList<>();
+        /** Whether the context broker accepted a write or a deletion, and so works. */
+        private boolean anyAccepted;
 
-    private void apply(List<EntityChange> changes, boolean apart, ChangeResults changeResults)
-            throws BrokerUnavailableException, WrongSettingException {
-        ChangeCoalescer coalescing = new ChangeCoalescer(known);
-        changes.forEach(coalescing::add);
-        DeliveryPlan deliveryPlan = coalescing.plan();
-        changeResults.stale += deliveryPlan.stale();
-        changeResults.coalesced += deliveryPlan.coalesced();
-        delete(deliveryPlan.deletions(), apart, changeResults);
-        for (EntityChange deletion : deliveryPlan.partial()) {
-            deleteOlder(deletion, apart, changeResults);
+        private Delivery(boolean isolates) {
+            this.isolates = isolates;
         }
-        EntityWriter.Result result = writer.write(deliveryPlan.updates(), apart);
-        for (AttributeUpdate written : result.written()) {
-            clear(written, changeResults);
-            remember(written);
-        }
-        changeResults.anyTaken |= !result.written().isEmpty();
-        if (result.failure() != null) {
-            fail(result.failure());
-        }
-        for (RejectedUpdate refused : result.refused()) {
-            Consumer<EntityChange> report =
-                    entityChange -> changeResults.refused.add(new RejectedChange(entityChange, refused.words()));
-            separate(refused.attributeUpdate(), report, apart, changeResults);
-        }
-        for (FailingUpdate failing : result.failing()) {
-            Consumer<EntityChange> report =
-                    entityChange -> changeResults.failing.add(new FailingChange(entityChange, failing.unavailable()));
-            separate(failing.attributeUpdate(), report, apart, changeResults);
-        }
-    }
 
-    /** Retries a rejected update of several changes change by change, so that a bad change affects no other. */
-    private void separate(
-            AttributeUpdate attributeUpdate, Consumer<EntityChange> report, boolean apart, ChangeResults changeResults)
-            throws BrokerUnavailableException, WrongSettingException {
-        List<EntityChange> changes = new ArrayList<>(attributeUpdate.changes());
-        if (changes.size() == 1) {
-            report.accept(changes.get(0));
-            return;
+        private void apply(List<EntityChange> changes) throws BrokerUnavailableException, WrongSettingException {
+            ChangeCoalescer coalescing = new ChangeCoalescer(known);
+            changes.forEach(coalescing::add);
+            DeliveryPlan plan = coalescing.plan();
+            results.stale += plan.stale();
+            results.coalesced += plan.coalesced();
+            delete(plan.deletions());
+            for (EntityChange deletion : plan.partial()) {
+                deleteOlder(deletion);
+            }
+            write(plan.updates());
         }
-        changeResults.coalesced -= changes.size() - 1;
-        changes.sort(Comparator.comparingLong(EntityChange::time));
-        for (EntityChange entityChange : changes) {
-            apply(List.of(entityChange), apart, changeResults);
-        }
-    }
 
-    private void deleteOlder(EntityChange deletion, boolean apart, ChangeResults changeResults)
-            throws BrokerUnavailableException, WrongSettingException {
-        for (EntityTimes.Name older : known.of(deletion.key()).upTo(deletion.time())) {
-            Outcome outcome = client.send(api.delete(deletion.key(), older));
-            if (outcome instanceof Outcome.Rejected refusal) {
-                changeResults.refused.add(new RejectedChange(deletion, refusal.words()));
-                return;
-            } else if (apart
-                    && outcome instanceof Outcome.Unavailable unavailable
-                    && FailingChange.isMeant(unavailable)) {
-                changeResults.failing.add(new FailingChange(deletion, unavailable));
-                return;
-            } else if (!(outcome instanceof Outcome.Done || outcome instanceof Outcome.Absent)) {
-                fail(outcome);
+        private void write(List<AttributeUpdate> updates) throws BrokerUnavailableException, WrongSettingException {
+            BatchSender.Result<AttributeUpdate> result = writer.send(updates, isolates);
+            for (AttributeUpdate written : result.accepted) {
+                clear(written);
+                written.times().forEach((name, time) -> known.set(written.key(), written.type(), name, time));
+            }
+            anyAccepted |= !result.accepted.isEmpty();
+            result.requireComplete();
+            for (Rejected<AttributeUpdate> rejected : result.rejected) {
+                separate(rejected.of(), change -> refuse(change, rejected.words()));
+            }
+            for (Failing<AttributeUpdate> one : result.failing) {
+                separate(one.of(), change -> failing.add(new Failing<>(change, one.unavailable())));
             }
         }
-        known.outlive(deletion.key(), deletion.time());
-        changeResults.deleted++;
-    }
 
-    /** The values are written: what a context broker refuses to delete is no reason not to go on. */
-    private void clear(AttributeUpdate written, ChangeResults changeResults)
-            throws BrokerUnavailableException, WrongSettingException {
-        for (String name : api.cleared(written)) {
-            if (known.of(written.key()).has(written.type(), name)) {
-                Outcome outcome = client.send(api.delete(written.key(), new EntityTimes.Name(written.type(), name)));
-                if (outcome instanceof Outcome.Unavailable) {
-                    fail(outcome);
-                } else if (!(outcome instanceof Outcome.Done || outcome instanceof Outcome.Absent)) {
-                    String words = outcome instanceof Outcome.Rejected refusal ? refusal.words() : outcome.toString();
-                    EntityChange newest =
-                            written.changes().get(written.changes().size() - 1);
-                    changeResults.refused.add(
-                            new RejectedChange(newest, "'%s' keeps its value: %s".formatted(name, words)));
+        /** Retries a rejected update of several changes change by change, so that a bad change affects no other. */
+        private void separate(AttributeUpdate update, Consumer<EntityChange> report)
+                throws BrokerUnavailableException, WrongSettingException {
+            List<EntityChange> changes = new ArrayList<>(update.changes());
+            if (changes.size() == 1) {
+                report.accept(changes.get(0));
+                return;
+            }
+            results.coalesced -= changes.size() - 1;
+            changes.sort(Comparator.comparingLong(EntityChange::time));
+            for (EntityChange change : changes) {
+                apply(List.of(change));
+            }
+        }
+
+        /** The values are written: what a context broker refuses to delete is no reason not to go on. */
+        private void clear(AttributeUpdate written) throws BrokerUnavailableException, WrongSettingException {
+            for (String name : api.cleared(written)) {
+                if (known.of(written.key()).has(written.type(), name)) {
+                    Outcome outcome =
+                            client.send(api.delete(written.key(), new EntityTimes.Name(written.type(), name)));
+                    if (outcome instanceof Outcome.Unavailable) {
+                        BatchSender.fail(outcome);
+                    } else if (!(outcome instanceof Outcome.Done || outcome instanceof Outcome.Absent)) {
+                        String words =
+                                outcome instanceof Outcome.Rejected rejected ? rejected.words() : outcome.toString();
+                        EntityChange newest =
+                                written.changes().get(written.changes().size() - 1);
+                        refuse(newest, "'%s' keeps its value: %s".formatted(name, words));
+                    }
                 }
             }
+            results.written++;
         }
-        changeResults.written++;
-    }
 
-    private void delete(List<EntityChange> deletions, boolean apart, ChangeResults changeResults)
-            throws BrokerUnavailableException, WrongSettingException {
-        EntityDeleter.Result result = deleter.delete(deletions, apart);
-        result.deleted().forEach(deletion -> known.delete(deletion.key(), deletion.time()));
-        result.absent().forEach(deletion -> known.delete(deletion.key(), deletion.time()));
-        changeResults.deleted += result.deleted().size() + result.absent().size();
-        changeResults.anyTaken |= !result.deleted().isEmpty();
-        changeResults.refused.addAll(result.refused());
-        changeResults.failing.addAll(result.failing());
-    }
-
-    private void remember(AttributeUpdate attributeUpdate) {
-        attributeUpdate
-                .times()
-                .forEach((name, time) -> known.set(attributeUpdate.key(), attributeUpdate.type(), name, time));
-    }
-
-    private static void fail(Outcome outcome) throws BrokerUnavailableException, WrongSettingException {
-        if (outcome instanceof Outcome.Unavailable unavailable) {
-            throw new BrokerUnavailableException(unavailable);
+        private void delete(List<EntityChange> deletions) throws BrokerUnavailableException, WrongSettingException {
+            BatchSender.Result<EntityChange> result = deleter.send(deletions, isolates);
+            result.requireComplete();
+            Stream.of(result.accepted, result.absent).flatMap(List::stream).forEach(deletion -> {
+                known.delete(deletion.key(), deletion.time());
+                results.deleted++;
+            });
+            anyAccepted |= !result.accepted.isEmpty();
+            result.rejected.forEach(rejected -> refuse(rejected.of(), rejected.words()));
+            failing.addAll(result.failing);
         }
-        throw new WrongSettingException(
-                outcome instanceof Outcome.WrongSetting wrong ? wrong.words() : outcome.toString());
+
+        private void deleteOlder(EntityChange deletion) throws BrokerUnavailableException, WrongSettingException {
+            for (EntityTimes.Name older : known.of(deletion.key()).upTo(deletion.time())) {
+                Outcome outcome = client.send(api.delete(deletion.key(), older));
+                if (outcome instanceof Outcome.Rejected rejected) {
+                    refuse(deletion, rejected.words());
+                    return;
+                } else if (isolates
+                        && outcome instanceof Outcome.Unavailable unavailable
+                        && Isolation.isMeant(unavailable)) {
+                    failing.add(new Failing<>(deletion, unavailable));
+                    return;
+                } else if (!(outcome instanceof Outcome.Done || outcome instanceof Outcome.Absent)) {
+                    BatchSender.fail(outcome);
+                }
+            }
+            known.outlive(deletion.key(), deletion.time());
+            results.deleted++;
+        }
+
+        private void refuse(EntityChange change, String words) {
+            results.refused.add(new RejectedChange(change, words));
+        }
+
+        /** An entity that causes a 500 alone, while the context broker accepts others, is itself at fault. */
+        private void refuseFailing() throws BrokerUnavailableException {
+            if (!failing.isEmpty() && !anyAccepted && !isolation.refusesWithoutProof()) {
+                throw new BrokerUnavailableException(failing.get(0).unavailable());
+            }
+            for (Failing<EntityChange> one : failing) {
+                isolation.suspect(one.of().key());
+                refuse(one.of(), one.unavailable().reason());
+            }
+        }
     }
 
     /** Clears the cache: other tasks may have written meanwhile. */

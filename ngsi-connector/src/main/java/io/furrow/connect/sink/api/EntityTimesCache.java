@@ -4,6 +4,7 @@ import java.time.Duration;
 import java.util.Iterator;
 import java.util.LinkedHashMap;
 import java.util.Map;
+import java.util.function.Consumer;
 import java.util.function.LongSupplier;
 
 /**
@@ -43,24 +44,23 @@ public final class EntityTimesCache {
     }
 
     void set(EntityKey key, String type, String name, long time) {
-        EntityTimes times = entities.get(key);
-        int before = times.size();
-        times.put(type, name, time);
-        attributes += times.size() - before;
+        change(key, times -> times.put(type, name, time));
     }
 
     void delete(EntityKey key, long time) {
-        EntityTimes times = entities.get(key);
-        attributes -= times.size();
-        times.delete(time);
+        change(key, times -> times.delete(time));
     }
 
     /** A deletion that newer attributes outlive. */
     void outlive(EntityKey key, long time) {
+        change(key, times -> times.outlive(time));
+    }
+
+    private void change(EntityKey key, Consumer<EntityTimes> change) {
         EntityTimes times = entities.get(key);
         int before = times.size();
-        times.outlive(time);
-        attributes -= before - times.size();
+        change.accept(times);
+        attributes += times.size() - before;
     }
 
     /**

@@ -20,18 +20,8 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
 
 /** Reads the times of entities that are not cached, or have expired, from the context broker, many per request. */
-final class EntityTimesLoader {
+record EntityTimesLoader(BrokerClient client, ContextBrokerApi api, EntityTimesCache known) {
     private static final Logger LOG = LoggerFactory.getLogger(EntityTimesLoader.class);
-
-    private final BrokerClient client;
-    private final ContextBrokerApi api;
-    private final EntityTimesCache known;
-
-    EntityTimesLoader(BrokerClient client, ContextBrokerApi api, EntityTimesCache known) {
-        this.client = client;
-        this.api = api;
-        this.known = known;
-    }
 
     /** Afterwards every entity of the changes is cached, including those that do not exist. */
     void learn(Collection<EntityChange> changes) throws BrokerUnavailableException, WrongSettingException {

@@ -6,12 +6,15 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Set;
 
+import io.furrow.connect.broker.Outcome;
+
 /**
  * Decides when a delivery that causes answers 500 is split to isolate the entities that cause them: at every n-th try
  * in a row, and at the first try if one of its entities was isolated before.
  */
 public final class Isolation {
     private static final int MAX_SUSPECTS = 1_000;
+    private static final int INTERNAL_SERVER_ERROR = 500;
 
     private final int after;
     private final int refuseAfter;
@@ -33,6 +36,11 @@ public final class Isolation {
     public Isolation(int after, int refuseAfter) {
         this.after = after;
         this.refuseAfter = refuseAfter;
+    }
+
+    /** Whether an answer may concern the content of the request; 502, 503 and 504 concern the server. */
+    static boolean isMeant(Outcome.Unavailable unavailable) {
+        return unavailable.status() == INTERNAL_SERVER_ERROR;
     }
 
     /** Whether this try splits the delivery. */

@@ -43,22 +43,18 @@ final class JournalConsumer implements AutoCloseable {
         this(journal, Math.max(committed.orElse(0), journal.begin()), NOTHING, retention);
     }
 
-    private JournalConsumer(Journal journal, long start, long outdated, Duration retention) {
+    /**
+     * Begins at a record before the committed position, because Kafka lost it.
+     *
+     * @param outdated the committed position, which says nothing until another one is committed
+     */
+    JournalConsumer(Journal journal, long start, long outdated, Duration retention) {
         this.journal = journal;
         this.start = start;
         this.released = start;
         this.outdated = outdated;
         this.retention = retention;
         this.reader = journal.reader(start);
-    }
-
-    /**
-     * Begins at a record before the committed position, because Kafka lost it.
-     *
-     * @param outdated the committed position, which says nothing until another one is committed
-     */
-    static JournalConsumer putBack(Journal journal, long start, long outdated, Duration retention) {
-        return new JournalConsumer(journal, start, outdated, retention);
     }
 
     Journal journal() {

@@ -1,6 +1,5 @@
 package io.furrow.connect.source.journal;
 
-import java.nio.file.Path;
 import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
@@ -11,14 +10,7 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.record.KafkaRecord;
 
 /** Appends records to a journal; they are durable once they are on disk. */
-public final class JournalRecordLog implements RecordLog {
-    private final Journal journal;
-    private final Ledger ledger;
-
-    public JournalRecordLog(Journal journal, Ledger ledger) {
-        this.journal = journal;
-        this.ledger = ledger;
-    }
+public record JournalRecordLog(Journal journal, Ledger ledger) implements RecordLog {
 
     @Override
     public Optional<CompletableFuture<Void>> take(List<KafkaRecord> records) {
@@ -38,10 +30,5 @@ public final class JournalRecordLog implements RecordLog {
                     ledger.durable.add(records.size());
                     return null;
                 }));
-    }
-
-    /** A folder with the lifetime of the records, for small files beside them. */
-    Path folder() {
-        return journal.folder();
     }
 }

@@ -159,7 +159,7 @@ public final class TaskJournals implements AutoCloseable {
                 journal.id(),
                 first,
                 committed);
-        return JournalConsumer.putBack(journal, first, committed, safety.retention());
+        return new JournalConsumer(journal, first, committed, safety.retention());
     }
 
     /** The journal to which new records are appended. */

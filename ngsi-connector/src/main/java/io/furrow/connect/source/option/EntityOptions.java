@@ -8,7 +8,7 @@ import java.util.stream.Collectors;
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Range;
-import org.apache.kafka.common.config.ConfigException;
+import org.apache.kafka.common.config.ConfigDef.Validator;
 
 import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
@@ -26,30 +26,20 @@ public record EntityOptions(AbstractConfig config) {
 
     public static void define(ConfigDef options) {
         OptionGroup group = new OptionGroup(options, "Entities");
-        group.list(
-                EXCLUDE_TYPES,
-                "Analytics:.*,Domain,Mission",
-                Validators.patterns(),
-                "Excluded types",
-                "Regular expressions separated by commas. An entity whose whole type matches one is dropped and"
+        group.list(EXCLUDE_TYPES, "Analytics:.*,Domain,Mission", Validators.patterns(), "Excluded types")
+                .help("Regular expressions separated by commas. An entity whose whole type matches one is dropped and"
                         + " counted. List the types that are written from Kafka into the context broker, or they are"
                         + " read back as new events.");
-        group.number(
-                MAX_CLOCK_SKEW,
-                300_000L,
-                Range.between(0, HOUR - 1),
-                "Clock skew (ms)",
-                "Milliseconds that a device's clock may be ahead, less than an hour. Beyond it the event gets the time"
-                        + " of receipt and the device is named in the log.");
-        group.list(
-                EVENT_TIME,
-                DEFAULT_TIMES,
-                new EventTimes(),
-                "Event time",
-                "Sources of the event time, in order: the first that an event has is used. device: its attribute Time,"
-                        + " else TimeInstant, dateObserved, timestamp. attributes: the newest metadata dateModified of"
-                        + " its attributes. entity: its dateModified. An event that has none of them gets the time of"
-                        + " receipt.");
+        group.number(MAX_CLOCK_SKEW, 300_000L, Range.between(0, HOUR - 1), "Clock skew (ms)")
+                .help("Milliseconds that a device's clock may be ahead, less than an hour. Beyond it the event gets the"
+                        + " time of receipt and the device is named in the log.");
+        Validator sources =
+                Validators.one(EntityOptions::requireEventTimes, DEFAULT_TIMES + " in the order of their weight");
+        group.list(EVENT_TIME, DEFAULT_TIMES, sources, "Event time")
+                .help("Sources of the event time, in order: the first that an event has is used. device: its attribute"
+                        + " Time, else TimeInstant, dateObserved, timestamp. attributes: the newest metadata"
+                        + " dateModified of its attributes. entity: its dateModified. An event that has none of them"
+                        + " gets the time of receipt.");
     }
 
     public List<Pattern> excludedTypes() {
@@ -60,19 +50,7 @@ public record EntityOptions(AbstractConfig config) {
         return EventTimeRule.of(config.getList(EVENT_TIME), Duration.ofMillis(config.getLong(MAX_CLOCK_SKEW)));
     }
 
-    private static final class EventTimes implements ConfigDef.Validator {
-        @Override
-        public void ensureValid(String name, Object value) {
-            try {
-                EventTimeRule.of(((List<?>) value).stream().map(String::valueOf).toList(), Duration.ZERO);
-            } catch (IllegalArgumentException e) {
-                throw new ConfigException(name, value, e.getMessage());
-            }
-        }
-
-        @Override
-        public String toString() {
-            return DEFAULT_TIMES + " in the order of their weight";
-        }
+    private static void requireEventTimes(List<?> sources) {
+        EventTimeRule.of(sources.stream().map(String::valueOf).toList(), Duration.ZERO);
     }
 }

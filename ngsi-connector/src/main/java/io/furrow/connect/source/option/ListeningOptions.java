@@ -24,58 +24,33 @@ public record ListeningOptions(AbstractConfig config, int task) {
     public static void define(ConfigDef options) {
         OptionGroup group = new OptionGroup(options, "Listening");
         group.high()
-                .text(
-                        HOST,
-                        "127.0.0.1",
-                        new ConfigDef.NonEmptyString(),
-                        "Address",
-                        "Address to listen on for notifications. The default accepts them from this machine only; set the"
-                                + " address that the context broker reaches if it runs elsewhere.");
+                .text(HOST, "127.0.0.1", new ConfigDef.NonEmptyString(), "Address")
+                .help("Address to listen on for notifications. The default accepts them from this machine only; set the"
+                        + " address that the context broker reaches if it runs elsewhere.");
         group.high()
-                .integer(
-                        PORT,
-                        8090,
-                        Range.between(0, 65535),
-                        "Port",
-                        "TCP port that the first task listens on; task i (from 0) listens on this port + i. 0 uses free ports,"
-                                + " which only tests can use.");
+                .integer(PORT, 8090, Range.between(0, 65535), "Port")
+                .help("TCP port that the first task listens on; task i (from 0) listens on this port + i. 0 uses free"
+                        + " ports, which only tests can use.");
         group.low()
-                .integer(
-                        HEALTH_PORT,
-                        NO_PORT,
-                        Range.between(NO_PORT, 65535),
-                        "Health port",
-                        "TCP port of the first task, at the same address, for /health and /metrics in plain HTTP besides the"
-                                + " listener: for probes and scrapers if the listener requires client certificates. Task i"
-                                + " (from 0) has this port + i. -1 for none; 0 uses free ports, which only tests can use.");
+                .integer(HEALTH_PORT, NO_PORT, Range.between(NO_PORT, 65535), "Health port")
+                .help("TCP port of the first task, at the same address, for /health and /metrics in plain HTTP besides"
+                        + " the listener: for probes and scrapers if the listener requires client certificates. Task i"
+                        + " (from 0) has this port + i. -1 for none; 0 uses free ports, which only tests can use.");
         defineLimits(group);
     }
 
     private static void defineLimits(OptionGroup group) {
         group.low()
-                .integer(
-                        MAX_CONNECTIONS,
-                        2048,
-                        Range.between(1, 100_000),
-                        "Connections",
-                        "Maximum concurrent connections; further ones wait in the network until one is closed. Each uses about"
-                                + " 20 kB.");
+                .integer(MAX_CONNECTIONS, 2048, Range.between(1, 100_000), "Connections")
+                .help("Maximum concurrent connections; further ones wait in the network until one is closed. Each uses"
+                        + " about 20 kB.");
         group.low()
-                .number(
-                        IDLE_TIMEOUT,
-                        30_000L,
-                        Range.between(100, HOUR),
-                        "Idle (ms)",
-                        "Milliseconds after which an idle connection is closed.");
+                .number(IDLE_TIMEOUT, 30_000L, Range.between(100, HOUR), "Idle (ms)")
+                .help("Milliseconds after which an idle connection is closed.");
         group.low()
-                .number(
-                        REQUEST_TIMEOUT,
-                        20_000L,
-                        Range.between(100, HOUR),
-                        "Request (ms)",
-                        "Milliseconds from the first byte of a request to its answer, including the hold time; the connection"
-                                + " of a slower sender is closed. More than "
-                                + OverloadOptions.HOLD + ".");
+                .number(REQUEST_TIMEOUT, 20_000L, Range.between(100, HOUR), "Request (ms)")
+                .help("Milliseconds from the first byte of a request to its answer, including the hold time; the"
+                        + " connection of a slower sender is closed. More than " + OverloadOptions.HOLD + ".");
     }
 
     public int maxConnections() {

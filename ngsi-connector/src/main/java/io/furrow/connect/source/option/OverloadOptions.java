@@ -26,42 +26,26 @@ public record OverloadOptions(AbstractConfig config) {
 
     public static void define(ConfigDef options) {
         OptionGroup group = new OptionGroup(options, "Overload");
-        group.choice(
-                ANSWER,
-                List.of(RESET, UNAVAILABLE),
-                "Answer",
-                "Answer to a notification that is not durable in time, or that comes while the source stops: reset"
-                        + " resets the connection, which Orion counts"
-                        + " in the subscription's failsCounter, so that the gap is visible and can be repaired; 503"
-                        + " with Retry-After is for senders that retry. Orion treats any status as success, even 503.");
-        group.number(
-                HOLD,
-                4_000L,
-                Range.between(1, 60_000),
-                "Hold (ms)",
-                "Milliseconds that a sender is held after its body has arrived until the records are durable; time that"
-                        + " its body waits for memory counts too. Less than the sender's own timeout, which is 5 s in"
-                        + " Orion unless it was started with another -httpTimeout.");
+        group.choice(ANSWER, List.of(RESET, UNAVAILABLE), "Answer")
+                .help("Answer to a notification that is not durable in time, or that comes while the source stops:"
+                        + " reset resets the connection, which Orion counts in the subscription's failsCounter, so that"
+                        + " the gap is visible and can be repaired; 503 with Retry-After is for senders that retry."
+                        + " Orion treats any status as success, even 503.");
+        group.number(HOLD, 4_000L, Range.between(1, 60_000), "Hold (ms)")
+                .help("Milliseconds that a sender is held after its body has arrived until the records are durable;"
+                        + " time that its body waits for memory counts too. Less than the sender's own timeout, which"
+                        + " is 5 s in Orion unless it was started with another -httpTimeout.");
         group.low()
-                .number(
-                        MEMORY,
-                        32 * MIB,
-                        Range.atLeast(1),
-                        "Memory (bytes)",
-                        "Bytes of bodies whose senders have no answer yet; beyond it, further bodies stay in the network and"
-                                + " their senders"
-                                + " wait. At least " + SizeOptions.MAX_BODY_BYTES + ".");
+                .number(MEMORY, 32 * MIB, Range.atLeast(1), "Memory (bytes)")
+                .help("Bytes of bodies whose senders have no answer yet; beyond it, further bodies stay in the network"
+                        + " and their senders wait. At least " + SizeOptions.MAX_BODY_BYTES + ".");
         group.low()
-                .number(
-                        TRANSLATION_MEMORY,
-                        0L,
-                        Range.atLeast(0),
-                        "Translation (bytes)",
-                        "Estimated bytes of heap that notifications may use besides their bodies, from the end of a body to its"
-                                + " answer; beyond it, their senders wait. A notification whose own estimate is higher is"
-                                + " answered 413 and"
-                                + " becomes one dead letter. A body needs at least " + HEAP_PER_BYTE
-                                + " times its size, plus an amount for each value in it. 0 for a quarter of the worker's heap.");
+                .number(TRANSLATION_MEMORY, 0L, Range.atLeast(0), "Translation (bytes)")
+                .help("Estimated bytes of heap that notifications may use besides their bodies, from the end of a body"
+                        + " to its answer; beyond it, their senders wait. A notification whose own estimate is higher"
+                        + " is answered 413 and becomes one dead letter. A body needs at least " + HEAP_PER_BYTE
+                        + " times its size, plus an amount for each value in it. 0 for a quarter of the worker's"
+                        + " heap.");
     }
 
     /** Whether a connection is reset rather than answered 503. */

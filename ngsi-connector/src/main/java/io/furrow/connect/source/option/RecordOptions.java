@@ -74,20 +74,15 @@ public record RecordOptions(AbstractConfig config) {
 
     public static void define(ConfigDef options) {
         OptionGroup group = new OptionGroup(options, "Records");
-        group.choice(
-                VALUE_MODE,
-                List.of("bytes", "text", "struct"),
-                "Values",
-                "Form of the value for the value converter and transforms: the entity's JSON as bytes (for"
+        group.choice(VALUE_MODE, List.of("bytes", "text", "struct"), "Values")
+                .help("Form of the value for the value converter and transforms: the entity's JSON as bytes (for"
                         + " ByteArrayConverter), as text (for StringConverter), or a struct of the schema"
                         + " io.furrow.ngsi.Entity (for JsonConverter and the converters of Avro, JSON Schema and"
                         + " Protobuf, and for value transforms).");
         group.low()
-                .choice(
-                        KEY_MODE,
-                        List.of("text", "bytes"),
-                        "Keys",
-                        "Form of the key for the key converter: the entity's id as text, or as bytes (for ByteArrayConverter).");
+                .choice(KEY_MODE, List.of("text", "bytes"), "Keys")
+                .help("Form of the key for the key converter: the entity's id as text, or as bytes (for"
+                        + " ByteArrayConverter).");
     }
 
     public KeyMode keys() {

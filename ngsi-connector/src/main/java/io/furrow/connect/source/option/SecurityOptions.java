@@ -10,14 +10,13 @@ import java.util.stream.Stream;
 
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
+import org.apache.kafka.common.config.ConfigDef.Validator;
 import org.apache.kafka.common.config.ConfigException;
 import org.apache.kafka.common.config.types.Password;
 
 import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
 import io.furrow.model.file.FileProblem;
-
-import static java.util.regex.Pattern.compile;
 
 /** Options for the authentication of senders. */
 public record SecurityOptions(AbstractConfig config) {
@@ -29,6 +28,9 @@ public record SecurityOptions(AbstractConfig config) {
 
     /** Stands for a notification without a tenant; no tenant can have this name. */
     static final String NO_TENANT = "-";
+
+    private static final Validator HEADER_VALUE =
+            Validators.one(SecurityOptions::requireHeaderValue, "printable ASCII");
 
     public SecurityOptions {
         if (config.getPassword(SECRET).value().isEmpty()
@@ -43,47 +45,30 @@ public record SecurityOptions(AbstractConfig config) {
 
     public static void define(ConfigDef options) {
         OptionGroup group = new OptionGroup(options, "Security");
-        group.text(
-                SECRET_HEADER,
-                "X-Furrow-Secret",
-                Validators.matching(compile("[A-Za-z0-9-]{1,64}"), "the name of an HTTP header"),
-                "Header",
-                "Header whose value must be the secret. With Authorization the secret is the whole value, Bearer"
+        Validator headers = Validators.matching("[A-Za-z0-9-]{1,64}", "the name of an HTTP header");
+        group.text(SECRET_HEADER, "X-Furrow-Secret", headers, "Header")
+                .help("Header whose value must be the secret. With Authorization the secret is the whole value, Bearer"
                         + " included.");
-        secret(group, SECRET, "Secret that each notification must carry, else it is answered 401. Empty for none.");
-        secret(group, SECRET_PREVIOUS, "Second secret that is accepted while senders change to the first.");
-        group.text(
-                SECRET_FILE,
-                null,
-                ConfigDef.LambdaValidator.with((name, value) -> {}, () -> "a path"),
-                "Secret file",
-                "File on the worker, read at the start, whose first line is the secret and whose second, if there is one, the previous"
-                        + " secret, instead of " + SECRET + " and " + SECRET_PREVIOUS
-                        + ": neither is in the connector's configuration then. Unset for none.");
-        group.list(
-                ALLOWED_TENANTS,
-                "",
-                ConfigDef.LambdaValidator.with((name, value) -> {}, () -> "names separated by commas"),
-                "Tenants",
-                "Tenants (fiware-service) whose notifications are accepted, " + NO_TENANT
-                        + " for those without one; others are answered 403, counted and not stored. Empty for all.");
-    }
-
-    private static void secret(OptionGroup group, String name, String documentation) {
         group.high()
-                .secret(
-                        name,
-                        "",
-                        ConfigDef.LambdaValidator.with(SecurityOptions::requireHeaderValue, () -> "printable ASCII"),
-                        name.equals(SECRET) ? "Secret" : "Previous secret",
-                        documentation);
+                .secret(SECRET, "", HEADER_VALUE, "Secret")
+                .help("Secret that each notification must carry, else it is answered 401. Empty for none.");
+        group.high()
+                .secret(SECRET_PREVIOUS, "", HEADER_VALUE, "Previous secret")
+                .help("Second secret that is accepted while senders change to the first.");
+        group.text(SECRET_FILE, null, Validators.any("a path"), "Secret file")
+                .help("File on the worker, read at the start, whose first line is the secret and whose second, if there"
+                        + " is one, the previous secret, instead of " + SECRET + " and " + SECRET_PREVIOUS
+                        + ": neither is in the connector's configuration then. Unset for none.");
+        group.list(ALLOWED_TENANTS, "", Validators.any("names separated by commas"), "Tenants")
+                .help("Tenants (fiware-service) whose notifications are accepted, " + NO_TENANT + " for those without"
+                        + " one; others are answered 403, counted and not stored. Empty for all.");
     }
 
-    private static void requireHeaderValue(String name, Object value) {
-        String text = ((Password) value).value();
-        if (!text.chars().allMatch(sign -> sign >= ' ' && sign <= '~') || !text.equals(text.strip())) {
-            throw new ConfigException(name, Password.HIDDEN, "printable ASCII without spaces around it is expected");
-        }
+    private static void requireHeaderValue(Password secret) {
+        String text = secret.value();
+        Validators.require(
+                text.matches("[ -~]*") && text.equals(text.strip()),
+                "printable ASCII without spaces around it is expected");
     }
 
     public String secretHeader() {
@@ -120,7 +105,7 @@ public record SecurityOptions(AbstractConfig config) {
         if (secrets.isEmpty() || secrets.size() > 2) {
             throw new ConfigException(SECRET_FILE, file, "holds no secret: one line, or two during a change");
         }
-        secrets.forEach(secret -> requireHeaderValue(SECRET_FILE, secret));
+        secrets.forEach(secret -> HEADER_VALUE.ensureValid(SECRET_FILE, secret));
         return secrets;
     }
 

@@ -44,22 +44,14 @@ public record SizeOptions(AbstractConfig config) {
 
     public static void define(ConfigDef options) {
         OptionGroup group = new OptionGroup(options, "Sizes");
-        group.integer(
-                MAX_BODY_BYTES,
-                8 * MIB,
-                Range.between(1, 256 * MIB),
-                "Body (bytes)",
-                "Maximum body of a notification in bytes; the beginning of a larger one becomes a dead letter.");
-        group.integer(
-                MAX_RECORD_BYTES,
-                0,
-                Range.between(0, 1024 * MIB),
-                "Record (bytes)",
-                "Largest record in bytes; an entity beyond it becomes a dead letter, because a record that the producer"
-                        + " or the broker rejects would stop the task. 0 uses the smaller of " + PRODUCER_LIMIT
-                        + " and "
-                        + NEW_TOPIC_LIMIT + ", 1 MiB for a missing one, which is Kafka's default for both; with "
-                        + BOOTSTRAP_SERVERS + " the source asks Kafka for the topic's max.message.bytes instead.");
+        group.integer(MAX_BODY_BYTES, 8 * MIB, Range.between(1, 256 * MIB), "Body (bytes)")
+                .help("Maximum body of a notification in bytes; the beginning of a larger one becomes a dead letter.");
+        group.integer(MAX_RECORD_BYTES, 0, Range.between(0, 1024 * MIB), "Record (bytes)")
+                .help("Largest record in bytes; an entity beyond it becomes a dead letter, because a record that the"
+                        + " producer or the broker rejects would stop the task. 0 uses the smaller of " + PRODUCER_LIMIT
+                        + " and " + NEW_TOPIC_LIMIT + ", 1 MiB for a missing one, which is Kafka's default for both;"
+                        + " with " + BOOTSTRAP_SERVERS + " the source asks Kafka for the topic's max.message.bytes"
+                        + " instead.");
     }
 
     public int maxBodyBytes() {

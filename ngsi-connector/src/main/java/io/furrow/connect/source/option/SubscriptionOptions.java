@@ -5,11 +5,11 @@ import java.util.List;
 import java.util.Locale;
 import java.util.Optional;
 import java.util.Set;
-import java.util.regex.Pattern;
 
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Range;
+import org.apache.kafka.common.config.ConfigDef.Validator;
 import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.OptionGroup;
@@ -45,7 +45,7 @@ public record SubscriptionOptions(AbstractConfig config) {
             List.of("normalized", "keyValues", "simplifiedNormalized", "simplifiedKeyValues");
     private static final List<String> ALTERATIONS = List.of("entityCreate", "entityChange", "entityUpdate", DELETED);
     private static final String ANY_ID = ".*";
-    private static final Pattern METADATA_NAME = Pattern.compile("[!-~&&[^<>\"'=;()&?/#,]]{1,256}");
+    private static final String METADATA_NAME = "[!-~&&[^<>\"'=;()&?/#,]]{1,256}";
 
     /** Checks constraints between options. */
     public SubscriptionOptions {
@@ -64,30 +64,19 @@ public record SubscriptionOptions(AbstractConfig config) {
 
     public static void define(ConfigDef options) {
         OptionGroup group = new OptionGroup(options, "Subscription").shownIf(BrokerOptions.URL, url -> !url.isEmpty());
-        group.flag(
-                ENABLED,
-                true,
-                "Keep",
-                "Whether the source creates its own subscriptions at " + BrokerOptions.URL
-                        + " and manages them as configured here. Without that URL it never does.");
-        group.text(
-                PUBLIC_URL,
-                "",
-                Validators.matching(Pattern.compile("|https?://[^\\s]+"), "empty, http://HOST:PORT/PATH or https://…"),
-                "Own address",
-                "Address of this source as the context broker reaches it; {port} stands for the port of the task. Empty"
-                        + " for"
-                        + " http://" + ListeningOptions.HOST
-                        + ":{port}/v2/notify, https if the listener has a key store. If each worker has its own"
-                        + " address, take it from each worker's environment with a config provider, for instance"
-                        + " http://${env:POD_IP}:{port}/v2/notify.");
-        group.text(
-                DESCRIPTION,
-                "",
-                Validators.matching(
-                        Pattern.compile("[^<>\"'=;()]{0,900}"), "at most 900 characters without < > \" ' = ; ( )"),
-                "Description",
-                "Description by which the source finds its subscription, followed by the number of the task, for"
+        group.flag(ENABLED, true, "Keep")
+                .help("Whether the source creates its own subscriptions at " + BrokerOptions.URL + " and manages them"
+                        + " as configured here. Without that URL it never does.");
+        Validator url = Validators.matching("|https?://[^\\s]+", "empty, http://HOST:PORT/PATH or https://…");
+        group.text(PUBLIC_URL, "", url, "Own address")
+                .help("Address of this source as the context broker reaches it; {port} stands for the port of the task."
+                        + " Empty for http://" + ListeningOptions.HOST + ":{port}/v2/notify, https if the listener has"
+                        + " a key store. If each worker has its own address, take it from each worker's environment"
+                        + " with a config provider, for instance http://${env:POD_IP}:{port}/v2/notify.");
+        Validator description =
+                Validators.matching("[^<>\"'=;()]{0,900}", "at most 900 characters without < > \" ' = ; ( )");
+        group.text(DESCRIPTION, "", description, "Description")
+                .help("Description by which the source finds its subscription, followed by the number of the task, for"
                         + " instance 1/1; empty for furrow and the connector's name. Must be unique per context"
                         + " broker.");
         defineSubject(group);
@@ -96,108 +85,61 @@ public record SubscriptionOptions(AbstractConfig config) {
     }
 
     private static void defineSubject(OptionGroup group) {
-        group.list(
-                TENANTS,
-                SecurityOptions.NO_TENANT,
-                Validators.names(Pattern.compile("[A-Za-z0-9_]{1,50}|-"), "tenants, - for the one without a name"),
-                "Tenants",
-                "Tenants (fiware-service) to subscribe in, " + SecurityOptions.NO_TENANT
-                        + " for the one without a name.");
-        group.list(
-                SERVICE_PATHS,
-                "/#",
-                Validators.names(Pattern.compile("/#|/|(/[A-Za-z0-9_]{1,50}){1,10}(/#)?"), "absolute service paths"),
-                "Service paths",
-                "Service paths to subscribe to, one subscription each; /# at the end includes the paths below.");
-        group.list(
-                TYPES,
-                "",
-                Validators.names(Pattern.compile("\\S+"), "entity types"),
-                "Types",
-                "Entity types; empty for all.");
-        group.text(
-                TYPE_PATTERN,
-                "",
-                Validators.pattern(),
-                "Pattern of types",
-                "Regular expression that is found in the entity type; empty for any. Not together with " + TYPES + ".");
-        group.text(
-                ID_PATTERN,
-                ANY_ID,
-                Validators.pattern(),
-                "Pattern of ids",
-                "Regular expression that is found in the entity id. Only with tasks.max=1: several tasks divide the ids"
-                        + " among them by their last character.");
-        group.list(
-                ALTERATION_TYPES,
-                "",
-                Validators.names(Pattern.compile(String.join("|", ALTERATIONS)), String.join(", ", ALTERATIONS)),
-                "Alterations",
-                "Alterations that are notified, of " + String.join(", ", ALTERATIONS)
-                        + "; empty for created and changed. A deletion becomes a"
-                        + " record without a value. Needs Orion 3.7 or later.");
+        Validator tenants = Validators.names("[A-Za-z0-9_]{1,50}|-", "tenants, - for the one without a name");
+        group.list(TENANTS, SecurityOptions.NO_TENANT, tenants, "Tenants")
+                .help("Tenants (fiware-service) to subscribe in, " + SecurityOptions.NO_TENANT + " for the one without"
+                        + " a name.");
+        Validator paths = Validators.names("/#|/|(/[A-Za-z0-9_]{1,50}){1,10}(/#)?", "absolute service paths");
+        group.list(SERVICE_PATHS, "/#", paths, "Service paths")
+                .help("Service paths to subscribe to, one subscription each; /# at the end includes the paths below.");
+        group.list(TYPES, "", Validators.names("\\S+", "entity types"), "Types").help("Entity types; empty for all.");
+        group.text(TYPE_PATTERN, "", Validators.pattern(), "Pattern of types")
+                .help("Regular expression that is found in the entity type; empty for any. Not together with " + TYPES
+                        + ".");
+        group.text(ID_PATTERN, ANY_ID, Validators.pattern(), "Pattern of ids")
+                .help("Regular expression that is found in the entity id. Only with tasks.max=1: several tasks divide"
+                        + " the ids among them by their last character.");
+        Validator alterations = Validators.names(String.join("|", ALTERATIONS), String.join(", ", ALTERATIONS));
+        group.list(ALTERATION_TYPES, "", alterations, "Alterations")
+                .help("Alterations that are notified, of " + String.join(", ", ALTERATIONS) + "; empty for created and"
+                        + " changed. A deletion becomes a record without a value. Needs Orion 3.7 or later.");
     }
 
     private static void defineContent(OptionGroup group) {
-        group.list(
-                ATTRS,
-                "*,dateModified",
-                Validators.names(Pattern.compile("\\S+"), "attributes"),
-                "Attributes",
-                "Attributes in a notification; * for all of the entity's own. " + ALTERATION
-                        + " is added if deletions are notified. Keep dateModified: it is the event time if the entity"
-                        + " has none.");
-        group.list(
-                METADATA,
-                "",
-                Validators.names(METADATA_NAME, "metadata, of visible ASCII without < > \" ' = ; ( ) & ? / #"),
-                "Metadata",
-                "Metadata of the attributes in a notification, and in what is repaired; empty for all of their own,"
-                        + " such as TimeInstant. With names only these are notified, * again for all of their own:"
+        group.list(ATTRS, "*,dateModified", Validators.names("\\S+", "attributes"), "Attributes")
+                .help("Attributes in a notification; * for all of the entity's own. " + ALTERATION + " is added if"
+                        + " deletions are notified. Keep dateModified: it is the event time if the entity has none.");
+        Validator metadata =
+                Validators.names(METADATA_NAME, "metadata, of visible ASCII without < > \" ' = ; ( ) & ? / #");
+        group.list(METADATA, "", metadata, "Metadata")
+                .help("Metadata of the attributes in a notification, and in what is repaired; empty for all of their"
+                        + " own, such as TimeInstant. With names only these are notified, * again for all of their own:"
                         + " *,dateModified adds the time at which the context broker stored each attribute."
                         + " previousValue and actionType are of notifications only.");
-        group.low().choice(ATTRS_FORMAT, FORMATS, "Format", "Form of the entities in a notification.");
-        group.flag(
-                ONLY_CHANGED,
-                false,
-                "Only changed",
-                "Whether a notification holds only the attributes that changed. Repaired entities hold all of them.");
+        group.low().choice(ATTRS_FORMAT, FORMATS, "Format").help("Form of the entities in a notification.");
+        group.flag(ONLY_CHANGED, false, "Only changed")
+                .help("Whether a notification holds only the attributes that changed. Repaired entities hold all of"
+                        + " them.");
     }
 
     private static void definePace(OptionGroup group) {
         group.low()
-                .number(
-                        THROTTLING,
-                        0,
-                        Range.between(0, 86_400),
-                        "Throttling (s)",
-                        "Minimum seconds between two notifications of a subscription. Changes in between are never notified or"
-                                + " repaired. Leave it at 0 unless samples are sufficient.");
+                .number(THROTTLING, 0, Range.between(0, 86_400), "Throttling (s)")
+                .help("Minimum seconds between two notifications of a subscription. Changes in between are never"
+                        + " notified or repaired. Leave it at 0 unless samples are sufficient.");
         group.low()
-                .number(
-                        EXPIRY,
-                        0,
-                        Range.atLeast(0),
-                        "Expiry (ms)",
-                        "Milliseconds until a subscription expires; it is renewed after half of them, so that it expires some"
-                                + " time after the source has stopped. 0 for one that never expires. At least 60000 makes"
-                                + " sense.");
+                .number(EXPIRY, 0, Range.atLeast(0), "Expiry (ms)")
+                .help("Milliseconds until a subscription expires; it is renewed after half of them, so that it expires"
+                        + " some time after the source has stopped. 0 for one that never expires. At least 60000 makes"
+                        + " sense.");
         group.low()
-                .number(
-                        MAX_FAILS,
-                        0,
-                        Range.between(0, 1_000_000),
-                        "Failures",
-                        "Failures in a row after which the context broker stops a subscription, so that it does not notify a"
-                                + " source that is unavailable; the source restarts it. 0 for never.");
+                .number(MAX_FAILS, 0, Range.between(0, 1_000_000), "Failures")
+                .help("Failures in a row after which the context broker stops a subscription, so that it does not"
+                        + " notify a source that is unavailable; the source restarts it. 0 for never.");
         group.low()
-                .number(
-                        CHECK_INTERVAL,
-                        10_000,
-                        Range.between(100, 600_000),
-                        "Looks (ms)",
-                        "Milliseconds between two polls of a subscription: how fast one that was changed, removed or stopped is"
-                                + " restored, and a gap is found.");
+                .number(CHECK_INTERVAL, 10_000, Range.between(100, 600_000), "Looks (ms)")
+                .help("Milliseconds between two polls of a subscription: how fast one that was changed, removed or"
+                        + " stopped is restored, and a gap is found.");
     }
 
     public boolean enabled() {

@@ -9,7 +9,6 @@ import java.util.Set;
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.ConfigKey;
-import org.apache.kafka.common.config.ConfigDef.LambdaValidator;
 import org.apache.kafka.common.config.ConfigDef.Width;
 import org.apache.kafka.common.config.ConfigException;
 import org.apache.kafka.common.config.SslConfigs;
@@ -18,6 +17,7 @@ import org.apache.kafka.common.security.ssl.DefaultSslEngineFactory;
 import org.apache.kafka.common.utils.Utils;
 
 import io.furrow.connect.OptionGroup;
+import io.furrow.connect.Validators;
 
 /**
  * Options for TLS on the listener: the listener options of a Kafka broker, defined and parsed by Kafka's own classes.
@@ -52,8 +52,6 @@ public record TlsOptions(AbstractConfig config) {
 
     /** The options of Kafka's clients, except for the check of a server's name. */
     private static final Map<String, ConfigKey> OF_KAFKA = ofKafka();
-
-    private static final ConfigDef.Validator ANY = LambdaValidator.with((name, value) -> {}, () -> "any");
 
     public TlsOptions {
         refuseFormerNames(config);
@@ -98,7 +96,7 @@ public record TlsOptions(AbstractConfig config) {
                     key.name,
                     key.type,
                     key.defaultValue,
-                    key.validator == null ? ANY : key.validator,
+                    key.validator == null ? Validators.any("any") : key.validator,
                     key.importance,
                     inMarkdown(key.documentation) + (key.name.equals(KEYSTORE) ? TURNS_ON : ""),
                     GROUP,
@@ -107,12 +105,9 @@ public record TlsOptions(AbstractConfig config) {
                     key.name.substring(PREFIX.length()).replace('.', ' '));
         }
         new OptionGroup(options, GROUP)
-                .choice(
-                        CLIENT_AUTH,
-                        List.of(NO_CLIENT_AUTH, "requested", "required"),
-                        "client certificates",
-                        "Whether clients present a certificate that the trust store trusts: required, requested (a"
-                                + " presented one must be valid) or none.");
+                .choice(CLIENT_AUTH, List.of(NO_CLIENT_AUTH, "requested", "required"), "client certificates")
+                .help("Whether clients present a certificate that the trust store trusts: required, requested (a"
+                        + " presented one must be valid) or none.");
     }
 
     private static Map<String, ConfigKey> ofKafka() {

@@ -22,19 +22,12 @@ public record TopicOptions(AbstractConfig config) {
     public static void define(ConfigDef options) {
         OptionGroup group = new OptionGroup(options, "Topics");
         group.high()
-                .text(
-                        TOPIC,
-                        Topics.RAW,
-                        Validators.topic(),
-                        "Topic",
-                        "Topic that every entity of a notification is written to, as normalized NGSI-v2 JSON under its id.");
-        group.text(
-                DEAD_LETTER_TOPIC,
-                "",
-                Validators.optionalTopic(),
-                "Dead letters",
-                "Topic for unreadable notifications and entities, with their original bytes; empty for the topic's name"
-                        + " followed by .dead.");
+                .text(TOPIC, Topics.RAW, Validators.topic(), "Topic")
+                .help("Topic that every entity of a notification is written to, as normalized NGSI-v2 JSON under its"
+                        + " id.");
+        group.text(DEAD_LETTER_TOPIC, "", Validators.optionalTopic(), "Dead letters")
+                .help("Topic for unreadable notifications and entities, with their original bytes; empty for the"
+                        + " topic's name followed by .dead.");
     }
 
     public String topic() {
