@@ -9,7 +9,7 @@ import org.apache.kafka.streams.processor.api.Record;
 import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
-import io.furrow.control.manager.ObserverProcessor.Observer;
+import io.furrow.control.manager.Observer;
 import io.furrow.control.manager.StateJson;
 import io.furrow.control.mission.MissionState;
 import io.furrow.control.mission.MissionStatus;
