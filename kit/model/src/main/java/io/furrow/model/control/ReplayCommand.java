@@ -5,6 +5,9 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.regex.Pattern;
 
+import com.fasterxml.jackson.annotation.JsonIgnore;
+import com.fasterxml.jackson.annotation.JsonTypeName;
+import com.fasterxml.jackson.annotation.JsonUnwrapped;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -35,6 +38,7 @@ public sealed interface ReplayCommand extends Command {
      * @param speed 0.1 to 1000, or {@link #MAX}
      * @param range what is played over and over; null for all
      */
+    @JsonTypeName("start")
     record Start(List<String> missions, String topic, double speed, DesiredReplay.Range range, ReplayPlan plan)
             implements ReplayCommand {
         public Start {
@@ -44,11 +48,6 @@ public sealed interface ReplayCommand extends Command {
         /** Whether it asks for replays that follow one clock. */
         public boolean isGroup() {
             return missions.size() > 1;
-        }
-
-        @Override
-        public String verb() {
-            return "start";
         }
 
         @Override
@@ -154,12 +153,6 @@ public sealed interface ReplayCommand extends Command {
             return replay;
         }
 
-        ObjectNode describe(ObjectNode request) {
-            DeviceGroup.put(request, "replay", replay);
-            DeviceGroup.put(request, "group", group);
-            return request;
-        }
-
         /** As it stands in a sentence. */
         @Override
         public String toString() {
@@ -174,71 +167,33 @@ public sealed interface ReplayCommand extends Command {
         RESUME
     }
 
-    record Simple(Target target, Verb what) implements Steering {
+    record Simple(@JsonUnwrapped Target target, @JsonIgnore Verb what) implements Steering {
         @Override
         public String verb() {
             return what.name().toLowerCase(java.util.Locale.ROOT);
         }
-
-        @Override
-        public void describe(ObjectNode request) {
-            target.describe(request);
-        }
     }
 
     /** @param to event time to continue from */
-    record Seek(Target target, Instant to) implements Steering {
-        @Override
-        public String verb() {
-            return "seek";
-        }
+    @JsonTypeName("seek")
+    record Seek(@JsonUnwrapped Target target, Instant to) implements Steering {}
 
+    @JsonTypeName("speed")
+    record Speed(@JsonUnwrapped Target target, double speed) implements Steering {
         @Override
         public void describe(ObjectNode request) {
-            DeviceGroup.put(target.describe(request), "to", to);
-        }
-    }
-
-    record Speed(Target target, double speed) implements Steering {
-        @Override
-        public String verb() {
-            return "speed";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            target.describe(request).set("speed", json(speed));
+            request.setAll(Requests.json(target));
+            request.set("speed", json(speed));
         }
     }
 
     /** @param count how many events are played, one after the other, of a replay that is paused; back where it is negative */
-    record Step(Target target, int count) implements Steering {
-        @Override
-        public String verb() {
-            return "step";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            target.describe(request).put("count", count);
-        }
-    }
+    @JsonTypeName("step")
+    record Step(@JsonUnwrapped Target target, int count) implements Steering {}
 
     /** @param range what is played over and over from now on; null for all */
-    record Loop(Target target, DesiredReplay.Range range) implements Steering {
-        @Override
-        public String verb() {
-            return "loop";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            target.describe(request);
-            if (range != null) {
-                range.describe(request);
-            }
-        }
-    }
+    @JsonTypeName("loop")
+    record Loop(@JsonUnwrapped Target target, @JsonUnwrapped DesiredReplay.Range range) implements Steering {}
 
     static ReplayCommand read(String verb, JsonObjectReader members) throws RejectedException {
         return switch (verb == null ? "" : verb) {
