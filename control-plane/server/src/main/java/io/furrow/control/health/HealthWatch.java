@@ -56,8 +56,8 @@ public final class HealthWatch {
         MonitoredDevices desired = desired(unitOfWork);
         return identity -> {
             DeviceHealth existing = health.get(identity);
-            return existing != null && existing.type() != null
-                    ? existing.type()
+            return existing != null && existing.device().type() != null
+                    ? existing.device().type()
                     : desired.of(identity).map(device -> device.type()).orElse(null);
         };
     }

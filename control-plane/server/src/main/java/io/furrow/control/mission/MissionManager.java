@@ -1,7 +1,6 @@
 package io.furrow.control.mission;
 
 import java.nio.charset.StandardCharsets;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Function;
 import java.util.stream.Stream;
@@ -9,15 +8,12 @@ import java.util.stream.Stream;
 import io.furrow.control.domain.Domain;
 import io.furrow.control.domain.DomainManager;
 import io.furrow.control.health.DeviceHealth;
-import io.furrow.control.manager.CommandHandler;
 import io.furrow.control.manager.ManagerTopic;
 import io.furrow.control.manager.ManagerTopology;
 import io.furrow.control.manager.Observer;
 import io.furrow.control.manager.StateJson;
 import io.furrow.control.manager.Table;
 import io.furrow.control.manager.UnitOfWork;
-import io.furrow.model.control.CommandResult;
-import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DeviceConnection;
@@ -65,8 +61,7 @@ public final class MissionManager {
     public static void add(ManagerTopology topology, MissionSettings options) {
         List<String> stores = Stream.concat(DomainManager.stores().stream(), stores().stream())
                 .toList();
-        topology.addManager(
-                ManagerTopic.MISSION, unitOfWork -> new TimedMissionHandler(handler(unitOfWork, options)), stores);
+        topology.addManager(ManagerTopic.MISSION, unitOfWork -> handler(unitOfWork, options), stores);
 
         topology.addStatuses(
                 Topics.DEVICES_STATUS,
@@ -113,26 +108,6 @@ public final class MissionManager {
         } catch (RejectedException e) {
             throw new IllegalStateException(
                     "a stored template cannot be read: " + new String(value, StandardCharsets.UTF_8), e);
-        }
-    }
-
-    /** Missions as time passes; the packaged template is there from the start. */
-    private record TimedMissionHandler(MissionCommandHandler missions) implements CommandHandler<MissionCommand> {
-        @Override
-        public CommandResult answer(MissionCommand command, long now) throws RejectedException {
-            return missions.answer(command, now);
-        }
-
-        @Override
-        public List<Runnable> due(long now) {
-            List<Runnable> steps = new ArrayList<>(missions.due(now));
-            steps.add(0, missions.templates()::installBuiltIn);
-            return steps;
-        }
-
-        @Override
-        public List<Runnable> pending(long now) {
-            return missions.pending(now);
         }
     }
 }

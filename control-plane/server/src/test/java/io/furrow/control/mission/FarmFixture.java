@@ -149,19 +149,16 @@ final class FarmFixture {
     void report(DesiredDevice device, long heard) {
         DeviceVersion version = device.version();
         DeviceHealth health = new DeviceHealth(
-                version.id(),
-                version.service(),
-                version.servicePath(),
-                device.type(),
-                version.domain(),
-                version.mission(),
+                new DeviceHealth.Device(
+                        version.id(),
+                        version.service(),
+                        version.servicePath(),
+                        device.type(),
+                        version.domain(),
+                        version.mission()),
                 false,
                 heard,
-                heard,
-                heard,
-                null,
-                null,
-                false);
+                new DeviceHealth.NewestReport(heard, heard, null, null, false));
         run(() -> missionHandler.reported(version.key(), health, now));
     }
 

@@ -203,7 +203,8 @@ class DeliveryPropertyTest {
                 Alarm existing = received.get(alarm.alarm());
                 boolean suppressed = alarm.isMuted(now) || alarm.inhibitedBy() != null;
                 if (alarm.state() == AlarmState.CLOSED) {
-                    boolean closedUnheard = existing == null && (suppressed || alarm.mutedUntil() != null);
+                    boolean closedUnheard =
+                            existing == null && (suppressed || alarm.handling().mutedUntil() != null);
                     assertThat(closedUnheard || existing != null && existing.state() == AlarmState.CLOSED)
                             .as(label + alarm)
                             .isTrue();
