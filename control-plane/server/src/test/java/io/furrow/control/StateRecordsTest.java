@@ -5,7 +5,7 @@ import java.nio.charset.StandardCharsets;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-import io.furrow.control.manager.StateJson;
+import io.furrow.model.ngsi.StateJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

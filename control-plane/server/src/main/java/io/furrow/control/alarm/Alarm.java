@@ -7,8 +7,8 @@ import com.fasterxml.jackson.annotation.JsonCreator;
 import com.fasterxml.jackson.annotation.JsonUnwrapped;
 import com.fasterxml.jackson.annotation.JsonValue;
 
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmKind;
+import io.furrow.model.ngsi.StateJson;
 
 /**
  * A condition that needs attention: stored, and published as a record of {@code service.alarms} keyed by its id.

@@ -18,7 +18,6 @@ import io.furrow.control.manager.ManagerTopology;
 import io.furrow.control.manager.Observer;
 import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.RecordScope;
-import io.furrow.control.manager.StateJson;
 import io.furrow.control.manager.UnitOfWork;
 import io.furrow.control.mission.Mission;
 import io.furrow.control.mission.MissionStatus;
@@ -29,6 +28,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 

@@ -4,8 +4,8 @@ import java.util.List;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.DomainDetails;
+import io.furrow.model.ngsi.StateJson;
 
 /**
  * A domain as stored, and a record of {@code service.domains} keyed by its name. Members without a value are null.

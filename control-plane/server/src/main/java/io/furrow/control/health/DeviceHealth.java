@@ -2,10 +2,10 @@ package io.furrow.control.health;
 
 import com.fasterxml.jackson.annotation.JsonUnwrapped;
 
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.StateJson;
 
 /**
  * The health of a desired device: stored, and a record of {@code service.devices.health} with the key of

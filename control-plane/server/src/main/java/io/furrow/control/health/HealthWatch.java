@@ -16,11 +16,11 @@ import org.slf4j.LoggerFactory;
 import io.furrow.control.alarm.AlarmManager;
 import io.furrow.control.manager.ManagerTopology;
 import io.furrow.control.manager.Observer;
-import io.furrow.control.manager.StateJson;
 import io.furrow.control.manager.StoreTable;
 import io.furrow.control.manager.Table;
 import io.furrow.control.manager.UnitOfWork;
 import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 

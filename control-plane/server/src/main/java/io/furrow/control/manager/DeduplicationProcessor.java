@@ -10,6 +10,8 @@ import org.apache.kafka.streams.state.KeyValueStore;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.ngsi.StateJson;
+
 /**
  * Forwards each record of a topic once, also where the topic, or the repartition topic behind it, is read again from
  * an older offset: a group that was unavailable for {@code offsets.retention.minutes} has none, and a broker that was

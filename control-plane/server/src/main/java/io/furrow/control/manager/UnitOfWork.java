@@ -9,6 +9,8 @@ import java.util.function.Function;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 import org.apache.kafka.streams.processor.api.Record;
 
+import io.furrow.model.ngsi.StateJson;
+
 /**
  * The stores and the output of a processor, whose writes take effect together or not at all: within {@link #call} they are staged, and
  * applied when that returns. What throws has changed nothing, and no record larger than {@code Limits.RECORD_BYTES} is written, so

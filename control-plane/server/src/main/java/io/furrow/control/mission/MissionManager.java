@@ -11,13 +11,13 @@ import io.furrow.control.health.DeviceHealth;
 import io.furrow.control.manager.ManagerTopic;
 import io.furrow.control.manager.ManagerTopology;
 import io.furrow.control.manager.Observer;
-import io.furrow.control.manager.StateJson;
 import io.furrow.control.manager.Table;
 import io.furrow.control.manager.UnitOfWork;
 import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 

@@ -10,12 +10,12 @@ import org.junit.jupiter.api.Test;
 import io.furrow.control.manager.CapturingPublisher;
 import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.Sequence;
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.RejectedException;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

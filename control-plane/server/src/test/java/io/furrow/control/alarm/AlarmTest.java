@@ -4,7 +4,7 @@ import java.nio.charset.StandardCharsets;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.manager.StateJson;
+import io.furrow.model.ngsi.StateJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -12,7 +12,6 @@ import io.furrow.control.domain.DomainCommandHandler;
 import io.furrow.control.domain.DomainManager;
 import io.furrow.control.health.DeviceHealth;
 import io.furrow.control.manager.CapturingPublisher;
-import io.furrow.control.manager.StateJson;
 import io.furrow.control.manager.Table;
 import io.furrow.control.manager.TestStores;
 import io.furrow.model.control.CommandResult;
@@ -32,6 +31,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.MissionDeviceLists;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.field.FieldVersion;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 

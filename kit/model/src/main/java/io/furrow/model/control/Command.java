@@ -3,6 +3,8 @@ package io.furrow.model.control;
 import com.fasterxml.jackson.annotation.JsonTypeName;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.ngsi.StateJson;
+
 /** What a manager is asked to do. The components of a command are members of the request. */
 public sealed interface Command permits DomainCommand, MissionCommand, ReplayCommand, AlarmCommand {
     /** The member {@code command}. */
@@ -12,6 +14,6 @@ public sealed interface Command permits DomainCommand, MissionCommand, ReplayCom
 
     /** Puts the other members of the request; those that are null are left out. */
     default void describe(ObjectNode request) {
-        request.setAll(Requests.json(this));
+        request.setAll(StateJson.tree(this));
     }
 }

@@ -6,6 +6,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -57,6 +58,6 @@ public record MissionTemplate(
     }
 
     public byte[] toBytes() {
-        return NgsiJson.write(Requests.json(this));
+        return StateJson.write(this);
     }
 }

@@ -13,6 +13,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.TopicName;
 
 /** What the topic {@code service.replaymanager} asks for. */
@@ -182,7 +183,7 @@ public sealed interface ReplayCommand extends Command {
     record Speed(@JsonUnwrapped Target target, double speed) implements Steering {
         @Override
         public void describe(ObjectNode request) {
-            request.setAll(Requests.json(target));
+            request.setAll(StateJson.tree(target));
             request.set("speed", json(speed));
         }
     }

@@ -1,17 +1,11 @@
 package io.furrow.model.control;
 
-import java.time.Duration;
-import java.time.Instant;
 import java.util.List;
 import java.util.regex.Pattern;
 
-import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.ObjectMapper;
-import com.fasterxml.jackson.databind.module.SimpleModule;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import com.fasterxml.jackson.databind.ser.std.ToStringSerializer;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -25,13 +19,6 @@ public final class Requests {
     private static final Pattern REQUEST_ID = Pattern.compile("[!-~]{1,200}");
     /** Members that an error answers with, so that a client without request ids knows what it is about. */
     private static final List<String> SUBJECTS = List.of("domain", "mission", "replay", "group", "alarm");
-
-    private static final ObjectMapper MAPPER = NgsiJson.mapper()
-            .copy()
-            .setDefaultPropertyInclusion(JsonInclude.Include.NON_NULL)
-            .registerModule(new SimpleModule()
-                    .addSerializer(Instant.class, ToStringSerializer.instance)
-                    .addSerializer(Duration.class, ToStringSerializer.instance));
 
     private Requests() {}
 
@@ -135,11 +122,6 @@ public final class Requests {
             }
         }
         return answer;
-    }
-
-    /** The components of a record that are not null; times and durations are those of ISO 8601. */
-    static ObjectNode json(Object message) {
-        return MAPPER.valueToTree(message);
     }
 
     private static ObjectNode json() {

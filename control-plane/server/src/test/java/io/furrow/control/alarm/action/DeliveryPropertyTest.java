@@ -19,10 +19,10 @@ import io.furrow.control.alarm.AlarmHandlerFixture;
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.alarm.Cause;
 import io.furrow.control.manager.CapturingPublisher;
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.RejectedException;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
