@@ -20,6 +20,8 @@ class StateRecordsTest {
             health.DeviceHealth; {'id':'a','service':'','servicePath':'/','domain':'','mission':'','silent':false,'since':7,'off':false}
             mission.MissionStatus; {'mission':'m','domain':'d','state':'starting','since':1,'sequence':2,'devices':3,'confirmed':1,'missing':[{'id':'a','reason':'r'},{'id':'b'}],'reason':'r','due':4,'ends':5}
             mission.MissionStatus; {'mission':'m','domain':'d','state':'created','since':1,'sequence':2,'devices':0,'confirmed':0,'missing':[]}
+            domain.Domain; {'domain':'d','name':'n','description':'x','area':{'type':'Polygon','coordinates':[1.50]},'fields':['f'],'created':1,'changed':2,'sequence':3}
+            domain.Domain; {'domain':'d','fields':[],'created':1,'changed':2,'sequence':3}
             mission.Mission; {'mission':'m','domain':'d','template':'t@1','parts':1,'deviceCount':2,'running':true,'start':3,'duration':4,'created':5,'sequence':6}
             mission.Mission; {'mission':'m','domain':'d','parts':0,'deviceCount':0,'running':false,'created':5,'sequence':6}
             """)

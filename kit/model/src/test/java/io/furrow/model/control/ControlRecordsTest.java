@@ -8,6 +8,8 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.device.SecretFingerprints;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -31,8 +33,11 @@ class ControlRecordsTest {
             template; {'template':'t','devices':[]}
             device; {'id':'a','service':'farm','servicePath':'/','domain':'d','mission':'m','from':1,'until':2,'sequence':3,'carriedBy':'b','stationary':true,'type':'T','device':'x','simulated':true,'wanted':'stopped','period':'PT0.5S','settings':{'speed':1.50},'generation':4}
             device; {'id':'a','service':'','servicePath':'/','domain':'','mission':'','from':1,'sequence':3,'wanted':'running'}
+            device; {'id':'a','service':'','servicePath':'/','domain':'','mission':'','from':1,'sequence':3,'type':'T','device':'x','simulated':false,'wanted':'running','group':{'part':1,'index':2,'member':3,'sequence':4}}
+            version; {'id':'a','service':'farm','servicePath':'/','domain':'d','mission':'m','from':1,'until':2,'sequence':3,'carriedBy':'b','stationary':true}
+            list; {'mission':'m','part':0,'sequence':7,'devices':['a',{'type':'T','speed':1.50}]}
             fault; {'text':'t'}
-            secret; {'newest':2,'apiKeys':1,'fingerprints':{'1':'a','2':'b'}}
+            secret; {'newest':10,'apiKeys':1,'fingerprints':{'1':'a','2':'b','10':'c'}}
             """)
     void areWrittenAsTheyWereRead(String kind, String record) throws Exception {
         String json = record.replace('\'', '"');
@@ -45,6 +50,8 @@ class ControlRecordsTest {
             case "recording" -> RecordedMission.read(value).toBytes();
             case "template" -> MissionTemplate.read(value).toBytes();
             case "device" -> DesiredDevice.read(value).toBytes();
+            case "version" -> DeviceVersion.read(value).toBytes();
+            case "list" -> MissionDeviceList.read(value).toBytes();
             case "fault" -> Fault.read(value).toBytes();
             default -> SecretFingerprints.read(value).toBytes();
         };
