@@ -9,11 +9,11 @@ import com.fasterxml.jackson.annotation.JsonIgnore;
 import com.fasterxml.jackson.annotation.JsonTypeName;
 import com.fasterxml.jackson.annotation.JsonUnwrapped;
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.annotation.JsonSerialize;
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.databind.util.StdConverter;
 
-import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.TopicName;
 
 /** What the topic {@code service.replaymanager} asks for. */
@@ -40,13 +40,19 @@ public sealed interface ReplayCommand extends Command {
      * @param range what is played over and over; null for all
      */
     @JsonTypeName("start")
-    record Start(List<String> missions, String topic, double speed, DesiredReplay.Range range, ReplayPlan plan)
+    record Start(
+            @JsonIgnore List<String> missions,
+            String topic,
+            @JsonSerialize(converter = SpeedToJson.class) double speed,
+            DesiredReplay.Range range,
+            @JsonUnwrapped ReplayPlan plan)
             implements ReplayCommand {
         public Start {
             missions = List.copyOf(missions);
         }
 
         /** Whether it asks for replays that follow one clock. */
+        @JsonIgnore
         public boolean isGroup() {
             return missions.size() > 1;
         }
@@ -54,17 +60,11 @@ public sealed interface ReplayCommand extends Command {
         @Override
         public void describe(ObjectNode request) {
             if (isGroup()) {
-                ArrayNode names = request.putArray("missions");
-                missions.forEach(names::add);
+                missions.forEach(request.putArray("missions")::add);
             } else {
                 request.put("mission", missions.get(0));
             }
-            DeviceGroup.put(request, "topic", topic);
-            request.set("speed", json(speed));
-            if (range != null) {
-                range.describe(request.putObject("range"));
-            }
-            plan.describe(request);
+            ReplayCommand.super.describe(request);
         }
 
         private static Start read(JsonObjectReader members) throws RejectedException {
@@ -180,13 +180,9 @@ public sealed interface ReplayCommand extends Command {
     record Seek(@JsonUnwrapped Target target, Instant to) implements Steering {}
 
     @JsonTypeName("speed")
-    record Speed(@JsonUnwrapped Target target, double speed) implements Steering {
-        @Override
-        public void describe(ObjectNode request) {
-            request.setAll(StateJson.tree(target));
-            request.set("speed", json(speed));
-        }
-    }
+    record Speed(
+            @JsonUnwrapped Target target,
+            @JsonSerialize(converter = SpeedToJson.class) double speed) implements Steering {}
 
     /** @param count how many events are played, one after the other, of a replay that is paused; back where it is negative */
     @JsonTypeName("step")
@@ -241,7 +237,10 @@ public sealed interface ReplayCommand extends Command {
     }
 
     /** A speed as requests have it: a number, or {@code max}. */
-    static JsonNode json(double speed) {
-        return speed == MAX ? JsonNodeFactory.instance.textNode("max") : JsonNodeFactory.instance.numberNode(speed);
+    final class SpeedToJson extends StdConverter<Double, Object> {
+        @Override
+        public Object convert(Double speed) {
+            return speed == MAX ? "max" : speed;
+        }
     }
 }
