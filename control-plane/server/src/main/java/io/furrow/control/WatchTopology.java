@@ -41,7 +41,7 @@ final class WatchTopology {
                 new EncounterAlarmProcessor.AlarmDurations(options.predictionHolds(), options.collisionHolds()));
 
         KStream<String, byte[]> temperatures = observed(topology, Topics.TEMPERATURE, "temperatures");
-        AnalyticsAlarms.addSensors(topology, temperatures, types);
+        AnalyticsAlarms.addSensors(temperatures, types);
 
         AnalyticsAlarms.addClocks(observed(topology, Topics.CLOCKS, "clocks"), types);
 

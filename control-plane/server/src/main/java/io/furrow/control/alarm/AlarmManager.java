@@ -12,6 +12,9 @@ import io.furrow.control.manager.UnitOfWork;
  * alarms share its stores, in one task.
  */
 public final class AlarmManager {
+    /** Store of the suspects of each field, by field. */
+    public static final String SUSPECTS = "suspect-runs";
+
     private static final String ALARMS = "alarms";
     private static final String CURRENT = "current-alarms";
     private static final String MUTES = "alarm-mutes";
@@ -23,7 +26,7 @@ public final class AlarmManager {
 
     /** Names of the stores that users of {@link #handler} need. */
     public static List<String> stores() {
-        return List.of(ALARMS, CURRENT, MUTES, SEQUENCE, GROUPS, COUNTED);
+        return List.of(ALARMS, CURRENT, MUTES, SEQUENCE, GROUPS, COUNTED, SUSPECTS);
     }
 
     /** Creates a handler on the stores of a processor. */

@@ -259,29 +259,13 @@ public record DesiredReplay(
                 members.textOrNull("group"),
                 ReplayPlan.read(members),
                 ReplayCommand.speed(members, true),
-                range(members.membersOrNull("range")),
+                members.partOrNull("range", Range::read),
                 desired(members),
-                seek(members.membersOrNull("seek")),
-                step(members.membersOrNull("step")),
-                clock(members.membersOrNull("clock")),
+                members.partOrNull("seek", part -> new Seek(part.number("to"), part.number("sequence"))),
+                members.partOrNull("step", part -> new Step(part.number("total"), part.number("sequence"))),
+                members.partOrNull("clock", part -> new Clock(part.number("at"), part.number("shows"))),
                 members.has("created") ? members.number("created") : 0,
                 members.number("sequence"));
-    }
-
-    private static Range range(JsonObjectReader members) throws RejectedException {
-        return members == null ? null : Range.read(members);
-    }
-
-    private static Seek seek(JsonObjectReader members) throws RejectedException {
-        return members == null ? null : new Seek(members.number("to"), members.number("sequence"));
-    }
-
-    private static Step step(JsonObjectReader members) throws RejectedException {
-        return members == null ? null : new Step(members.number("total"), members.number("sequence"));
-    }
-
-    private static Clock clock(JsonObjectReader members) throws RejectedException {
-        return members == null ? null : new Clock(members.number("at"), members.number("shows"));
     }
 
     private static ReplayStatus.State desired(JsonObjectReader members) throws RejectedException {

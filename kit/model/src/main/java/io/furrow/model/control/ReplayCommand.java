@@ -79,13 +79,7 @@ public sealed interface ReplayCommand extends Command {
             if (missions.size() > 1 && (speed == MAX || plan.maxGap() != null || plan.source() != null)) {
                 throw JsonObjectReader.wrong("missions", "one where 'speed' is max, or 'maxGap' or 'source' is given");
             }
-            ObjectNode range = members.objectOrNull("range");
-            return new Start(
-                    missions,
-                    topic,
-                    speed,
-                    range == null ? null : DesiredReplay.Range.read(new JsonObjectReader(range)),
-                    plan);
+            return new Start(missions, topic, speed, members.partOrNull("range", DesiredReplay.Range::read), plan);
         }
 
         private static List<String> missions(JsonObjectReader members) throws RejectedException {

@@ -49,7 +49,7 @@ public final class Requests {
 
     /** @param requestId may be null */
     public static byte[] write(String requestId, Command command) {
-        ObjectNode json = json().put("type", "request");
+        ObjectNode json = JsonNodeFactory.instance.objectNode().put("type", "request");
         DeviceGroup.put(json, "requestId", requestId);
         json.put("command", command.verb());
         command.describe(json);
@@ -58,7 +58,7 @@ public final class Requests {
 
     /** The answer to a command that was understood and not granted. */
     public static CommandResult refusal(RejectedException refusal, Command command) {
-        ObjectNode request = json();
+        ObjectNode request = JsonNodeFactory.instance.objectNode();
         command.describe(request);
         return aboutSubjects(CommandResult.refused(refusal), request);
     }
@@ -122,10 +122,6 @@ public final class Requests {
             }
         }
         return answer;
-    }
-
-    private static ObjectNode json() {
-        return JsonNodeFactory.instance.objectNode();
     }
 
     static RejectedException unknown(String verb, String known) {

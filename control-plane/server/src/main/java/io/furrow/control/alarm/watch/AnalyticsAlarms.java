@@ -40,14 +40,11 @@ public final class AnalyticsAlarms {
                 "encounters",
                 types,
                 (alarms, unitOfWork) ->
-                        new EncounterAlarmProcessor(alarms, types.opening().apply(unitOfWork), holds),
-                List.of());
+                        new EncounterAlarmProcessor(alarms, types.opening().apply(unitOfWork), holds));
     }
 
     /** @param temperatures the records of {@code data.temperature}, in a single partition */
-    public static void addSensors(ManagerTopology topology, KStream<String, byte[]> temperatures, Types types) {
-        List<String> runs = List.of(SensorAlarmProcessor.RUNS);
-        topology.addStores(runs);
+    public static void addSensors(KStream<String, byte[]> temperatures, Types types) {
         add(
                 temperatures,
                 "sensors",
@@ -55,8 +52,7 @@ public final class AnalyticsAlarms {
                 (alarms, unitOfWork) -> new SensorAlarmProcessor(
                         alarms,
                         types.opening().apply(unitOfWork),
-                        unitOfWork.table(SensorAlarmProcessor.RUNS, SuspectStreaks.class)),
-                runs);
+                        unitOfWork.table(AlarmManager.SUSPECTS, SuspectStreaks.class)));
     }
 
     /** @param clocks the records of {@code data.clocks}, in a single partition */
@@ -66,8 +62,7 @@ public final class AnalyticsAlarms {
                 "clocks",
                 types,
                 (alarms, unitOfWork) ->
-                        new ClockAlarmProcessor(alarms, types.opening().apply(unitOfWork)),
-                List.of());
+                        new ClockAlarmProcessor(alarms, types.opening().apply(unitOfWork)));
     }
 
     /** @param faults the records of {@code service.faults}, in a single partition */
@@ -77,27 +72,24 @@ public final class AnalyticsAlarms {
                 "faults",
                 types,
                 (alarms, unitOfWork) -> (Observer.OfStatuses) (key, value, now) -> alarms.raiseReworded(
-                        new Cause(AlarmKind.FAULT, key, Fault.read(value).text(), List.of(), FAULT_HOLDS), now),
-                List.of());
+                        new Cause(AlarmKind.FAULT, key, Fault.read(value).text(), List.of(), FAULT_HOLDS), now));
     }
 
     /** @param statuses the records of {@code service.missions.status}, in a single partition */
     public static void addStarts(KStream<String, byte[]> statuses, Types types) {
-        add(statuses, "starts", types, (alarms, unitOfWork) -> new StartAlarmProcessor(alarms), List.of());
+        add(statuses, "starts", types, (alarms, unitOfWork) -> new StartAlarmProcessor(alarms));
     }
 
     private static void add(
             KStream<String, byte[]> results,
             String name,
             Types types,
-            BiFunction<AlarmCommandHandler, UnitOfWork, Observer> opening,
-            List<String> own) {
+            BiFunction<AlarmCommandHandler, UnitOfWork, Observer> opening) {
         ManagerTopology.observe(
                 results,
                 new ManagerTopology.Nodes("watch-" + name, name + "-out"),
                 unitOfWork -> opening.apply(AlarmManager.handler(unitOfWork), unitOfWork),
-                Stream.of(AlarmManager.stores(), types.stores(), own)
-                        .flatMap(List::stream)
+                Stream.concat(AlarmManager.stores().stream(), types.stores().stream())
                         .toList());
     }
 }

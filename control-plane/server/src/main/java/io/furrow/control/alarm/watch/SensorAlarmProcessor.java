@@ -24,8 +24,6 @@ import io.furrow.model.ngsi.UnreadableException;
  * sound sensor by chance. The alarm ends when the sensor was not excluded for three windows.
  */
 final class SensorAlarmProcessor implements Observer {
-    static final String RUNS = "suspect-runs";
-
     private static final int WINDOWS = 3;
     private static final Duration MIN = Duration.ofMinutes(1);
     /** Runs of a field without windows for this time are discarded. */
