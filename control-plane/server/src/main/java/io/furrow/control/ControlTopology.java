@@ -1,14 +1,12 @@
 package io.furrow.control;
 
 import java.time.Duration;
-import java.util.List;
 import java.util.UUID;
 
-import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.Topology;
 
 import io.furrow.control.domain.DomainManager;
-import io.furrow.control.manager.StoreTable;
+import io.furrow.control.manager.ManagerTopology;
 import io.furrow.control.mission.MissionManager;
 import io.furrow.control.mission.MissionSettings;
 import io.furrow.control.replay.ReplayManager;
@@ -23,22 +21,17 @@ final class ControlTopology {
      * @param replays how they are managed
      */
     static Topology of(Duration remembered, MissionSettings missions, ReplaySettings replays) {
-        StreamsBuilder builder = new StreamsBuilder();
-
-        for (List<String> shared : List.of(DomainManager.stores(), MissionManager.stores())) {
-            shared.forEach(store -> builder.addStateStore(StoreTable.builder(store)));
-        }
+        ManagerTopology topology = new ManagerTopology(remembered);
+        topology.addStores(DomainManager.stores());
+        topology.addStores(MissionManager.stores());
 
         DomainManager.add(
-                builder,
-                remembered,
-                (context, publisher) -> MissionManager.handler(context, publisher, missions),
-                MissionManager.stores());
+                topology, unitOfWork -> MissionManager.handler(unitOfWork, missions), MissionManager.stores());
 
-        MissionManager.add(builder, remembered, missions);
+        MissionManager.add(topology, missions);
 
-        ReplayManager.add(builder, remembered, UUID::randomUUID, replays);
+        ReplayManager.add(topology, UUID::randomUUID, replays);
 
-        return builder.build();
+        return topology.build();
     }
 }

@@ -3,7 +3,6 @@ package io.furrow.control;
 import java.time.Duration;
 
 import org.apache.kafka.streams.AutoOffsetReset;
-import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.Topology;
 import org.apache.kafka.streams.kstream.KStream;
 
@@ -12,7 +11,7 @@ import io.furrow.control.alarm.watch.AnalyticsAlarms;
 import io.furrow.control.alarm.watch.EncounterAlarmProcessor;
 import io.furrow.control.context.ContextTopology;
 import io.furrow.control.health.HealthWatch;
-import io.furrow.control.manager.ManagerInput;
+import io.furrow.control.manager.ManagerTopology;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
@@ -28,36 +27,36 @@ final class WatchTopology {
      * @param scope of the entities of domains and missions
      */
     static Topology of(Duration remembered, WatchOptions options, FiwareScope scope) {
-        StreamsBuilder builder = new StreamsBuilder();
+        ManagerTopology topology = new ManagerTopology(remembered);
 
-        AlarmManager.add(builder, remembered);
+        AlarmManager.add(topology);
 
-        HealthWatch.add(builder, options.health());
+        HealthWatch.add(topology, options.health());
 
         AnalyticsAlarms.Types types = new AnalyticsAlarms.Types(HealthWatch::typeOf, HealthWatch.stores());
-        KStream<String, byte[]> collisions = observed(builder, Topics.COLLISION, "collisions");
+        KStream<String, byte[]> collisions = observed(topology, Topics.COLLISION, "collisions");
         AnalyticsAlarms.addEncounters(
                 collisions,
                 types,
                 new EncounterAlarmProcessor.AlarmDurations(options.predictionHolds(), options.collisionHolds()));
 
-        KStream<String, byte[]> temperatures = observed(builder, Topics.TEMPERATURE, "temperatures");
-        AnalyticsAlarms.addSensors(builder, temperatures, types);
+        KStream<String, byte[]> temperatures = observed(topology, Topics.TEMPERATURE, "temperatures");
+        AnalyticsAlarms.addSensors(temperatures, types);
 
-        AnalyticsAlarms.addClocks(observed(builder, Topics.CLOCKS, "clocks"), types);
+        AnalyticsAlarms.addClocks(observed(topology, Topics.CLOCKS, "clocks"), types);
 
-        AnalyticsAlarms.addFaults(observed(builder, Topics.FAULTS, "faults"), types);
+        AnalyticsAlarms.addFaults(observed(topology, Topics.FAULTS, "faults"), types);
 
-        KStream<String, byte[]> statuses = ManagerInput.observed(
-                builder, Topics.MISSIONS_STATUS, "context-mission-statuses", AutoOffsetReset.earliest());
+        KStream<String, byte[]> statuses =
+                topology.observed(Topics.MISSIONS_STATUS, "context-mission-statuses", AutoOffsetReset.earliest());
         AnalyticsAlarms.addStarts(statuses, types);
 
-        ContextTopology.add(builder, new ContextTopology.Shared(collisions, temperatures, statuses), scope);
+        ContextTopology.add(topology, new ContextTopology.Shared(collisions, temperatures, statuses), scope);
 
-        return builder.build();
+        return topology.build();
     }
 
-    private static KStream<String, byte[]> observed(StreamsBuilder builder, String topic, String name) {
-        return ManagerInput.observed(builder, topic, name, RECENT);
+    private static KStream<String, byte[]> observed(ManagerTopology topology, String topic, String name) {
+        return topology.observed(topic, name, RECENT);
     }
 }

@@ -2,59 +2,92 @@ package io.furrow.control.alarm;
 
 import java.util.List;
 import java.util.Locale;
-import java.util.Objects;
 
 import com.fasterxml.jackson.annotation.JsonCreator;
+import com.fasterxml.jackson.annotation.JsonUnwrapped;
 import com.fasterxml.jackson.annotation.JsonValue;
 
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmKind;
+import io.furrow.model.ngsi.StateJson;
 
 /**
  * A condition that needs attention: stored, and published as a record of {@code service.alarms} keyed by its id.
  *
- * @param alarm its id, {@code <kind>-<number>}; never reused
  * @param change its latest change
- * @param text human-readable sentence
- * @param devices devices concerned, at most {@value Cause#MAX_DEVICES}
- * @param raised when, epoch ms
- * @param changed when it last changed, epoch ms; a repeated cause is not a change
- * @param count how often the cause was observed, as of the last change
- * @param until when it expires, epoch ms; null if it is ended explicitly
- * @param mutedUntil end of its mute, epoch ms; null if it is not muted
- * @param acknowledgedBy user who acknowledged it; null if not named
- * @param reason why it was closed; null if it is not closed
  * @param sequence increases with each change of any alarm
  * @param group entity of the mission, domain or field that it belongs to; null if none
- * @param affected number of devices or pairs that a group alarm stands for now; null for an individual alarm
- * @param total out of how many; null if unknown
  * @param seen when its cause was last observed, epoch ms, as of the last change; null in a group alarm
  * @param inhibitedBy id of the alarm that inhibits its delivery; null if none
  * @param identity tenant, service path, types and subject; null where the subject is no entity and no pair
  */
 public record Alarm(
-        String alarm,
-        AlarmKind kind,
-        String subject,
-        Severity severity,
+        @JsonUnwrapped Head head,
         AlarmState state,
         Change change,
-        String text,
-        List<Cause.AffectedDevice> devices,
-        long raised,
-        long changed,
-        int count,
-        Long until,
-        Long mutedUntil,
-        String acknowledgedBy,
-        String reason,
+        @JsonUnwrapped Description description,
+        @JsonUnwrapped Period period,
+        @JsonUnwrapped Handling handling,
         long sequence,
         String group,
-        Integer affected,
-        Integer total,
+        @JsonUnwrapped Extent extent,
         Long seen,
         String inhibitedBy,
         String identity) {
+    /**
+     * What never changes.
+     *
+     * @param alarm its id, {@code <kind>-<number>}; never reused
+     */
+    public record Head(String alarm, AlarmKind kind, String subject, Severity severity) {}
+
+    /**
+     * What it says.
+     *
+     * @param text human-readable sentence
+     * @param devices devices concerned, at most {@value Cause#MAX_DEVICES}
+     */
+    public record Description(String text, List<Cause.AffectedDevice> devices) {}
+
+    /**
+     * How long it lasts.
+     *
+     * @param raised when, epoch ms
+     * @param changed when it last changed, epoch ms; a repeated cause is not a change
+     * @param count how often the cause was observed, as of the last change
+     * @param until when it expires, epoch ms; null if it is ended explicitly
+     */
+    public record Period(long raised, long changed, int count, Long until) {
+        private Period changedAt(long now) {
+            return new Period(raised, now, count, until);
+        }
+
+        private Period until(Long newUntil) {
+            return new Period(raised, changed, count, newUntil);
+        }
+    }
+
+    /**
+     * What users did about it.
+     *
+     * @param mutedUntil end of its mute, epoch ms; null if it is not muted
+     * @param acknowledgedBy user who acknowledged it; null if not named
+     * @param reason why it was closed; null if it is not closed
+     */
+    public record Handling(Long mutedUntil, String acknowledgedBy, String reason) {}
+
+    /**
+     * How large the group is that it stands for.
+     *
+     * @param affected number of devices or pairs that a group alarm stands for now; null for an individual alarm
+     * @param total out of how many; null if unknown
+     */
+    public record Extent(Integer affected, Integer total) {
+        private static Extent of(Cause cause) {
+            Cause.Extent extent = cause.extent();
+            return extent == null ? new Extent(null, null) : new Extent(extent.affected(), extent.total());
+        }
+    }
+
     /** Kinds of changes. */
     public enum Change {
         OPENED,
@@ -79,129 +112,146 @@ public record Alarm(
 
     /** @param mutedUntil null if it is not muted */
     public static Alarm raised(Cause cause, Long mutedUntil, long sequence, long now) {
-        AlarmBuilder draft = new AlarmBuilder();
-        draft.alarm = cause.kind().code() + "-" + sequence;
-        draft.kind = cause.kind();
-        draft.subject = cause.subject();
-        draft.identity = cause.identity().equals(cause.subject()) ? null : cause.identity();
-        draft.severity = Severity.of(cause.kind());
-        draft.state = AlarmState.OPEN;
-        draft.change = Change.OPENED;
-        draft.describe(cause);
-        draft.raised = now;
-        draft.changed = now;
-        draft.count = 1;
-        draft.until = cause.until(now);
-        draft.mutedUntil = mutedUntil;
-        draft.sequence = sequence;
-        draft.group = cause.group();
-        draft.seen = cause.extent() == null ? Long.valueOf(now) : null;
-        return draft.build();
+        String id = cause.kind().code() + "-" + sequence;
+        return new Alarm(
+                new Head(id, cause.kind(), cause.subject(), Severity.of(cause.kind())),
+                AlarmState.OPEN,
+                Change.OPENED,
+                new Description(cause.text(), cause.devices()),
+                new Period(now, now, 1, cause.until(now)),
+                new Handling(mutedUntil, null, null),
+                sequence,
+                cause.group(),
+                Extent.of(cause),
+                cause.extent() == null ? Long.valueOf(now) : null,
+                null,
+                cause.identity().equals(cause.subject()) ? null : cause.identity());
+    }
+
+    public String alarm() {
+        return head.alarm;
+    }
+
+    public AlarmKind kind() {
+        return head.kind;
+    }
+
+    public String subject() {
+        return head.subject;
     }
 
     String key() {
-        return Cause.key(kind, identity == null ? subject : identity);
+        return Cause.key(kind(), identity == null ? subject() : identity);
     }
 
     public boolean isMuted(long now) {
-        return mutedUntil != null && now < mutedUntil;
+        return handling.mutedUntil != null && now < handling.mutedUntil;
     }
 
     /** Whether it is a group alarm, whose cause is always known. */
     boolean isOfGroup() {
-        return affected != null;
+        return extent.affected != null;
     }
 
     /** Whether its devices and extent equal those of a cause. */
     boolean concerns(Cause cause) {
-        Cause.Extent extent = cause.extent();
-        return extent == null
-                || devices.equals(cause.devices())
-                        && Objects.equals(affected, extent.affected())
-                        && Objects.equals(total, extent.total());
+        return cause.extent() == null || description.devices.equals(cause.devices()) && extent.equals(Extent.of(cause));
     }
 
     public Alarm numbered(long newSequence) {
-        AlarmBuilder draft = new AlarmBuilder(this);
-        draft.sequence = newSequence;
-        return draft.build();
+        return new Alarm(
+                head,
+                state,
+                change,
+                description,
+                period,
+                handling,
+                newSequence,
+                group,
+                extent,
+                seen,
+                inhibitedBy,
+                identity);
     }
 
     /** Returns the alarm in another state; the reason is null unless it is closed. */
     public Alarm become(AlarmState newState, String by, String why, long now) {
-        AlarmBuilder draft = new AlarmBuilder(this);
-        draft.state = newState;
-        draft.change = newState == AlarmState.CLOSED ? Change.CLOSED : Change.ACKNOWLEDGED;
-        draft.changed = now;
-        draft.until = newState == AlarmState.CLOSED ? null : until;
-        draft.acknowledgedBy = by;
-        draft.reason = why;
-        return draft.build();
+        boolean closes = newState == AlarmState.CLOSED;
+        Change what = closes ? Change.CLOSED : Change.ACKNOWLEDGED;
+        Period then = closes ? period.changedAt(now).until(null) : period.changedAt(now);
+        Handling handled = new Handling(handling.mutedUntil, by, why);
+        return new Alarm(
+                head, newState, what, description, then, handled, sequence, group, extent, seen, inhibitedBy, identity);
     }
 
     /** @param newMutedUntil null to unmute */
     public Alarm muted(Long newMutedUntil, long now) {
-        AlarmBuilder draft = new AlarmBuilder(this);
-        draft.change = newMutedUntil == null ? Change.UNMUTED : Change.MUTED;
-        draft.changed = now;
-        draft.mutedUntil = newMutedUntil;
-        return draft.build();
+        Handling muted = new Handling(newMutedUntil, handling.acknowledgedBy, handling.reason);
+        Change what = newMutedUntil == null ? Change.UNMUTED : Change.MUTED;
+        Period then = period.changedAt(now);
+        return new Alarm(
+                head, state, what, description, then, muted, sequence, group, extent, seen, inhibitedBy, identity);
     }
 
     /** Counts another observation of the cause; text and extent stay unchanged. */
     Alarm repeated(Long newUntil, long now) {
-        AlarmBuilder draft = new AlarmBuilder(this);
-        draft.count = count == Integer.MAX_VALUE ? count : count + 1;
-        draft.until = newUntil;
-        draft.seen = now;
-        return draft.build();
+        int count = period.count == Integer.MAX_VALUE ? period.count : period.count + 1;
+        return lasting(new Period(period.raised, period.changed, count, newUntil), now);
     }
 
     /** The cause goes on; it is not counted again. */
     Alarm lasting(Long newUntil, long now) {
-        AlarmBuilder draft = new AlarmBuilder(this);
-        draft.until = newUntil;
-        draft.seen = now;
-        return draft.build();
+        return lasting(period.until(newUntil), now);
     }
 
     /** Whoever was notified of it need not know that it will end. */
     Alarm ending(long newUntil) {
-        AlarmBuilder draft = new AlarmBuilder(this);
-        draft.until = newUntil;
-        return draft.build();
+        return lasting(period.until(newUntil), seen);
+    }
+
+    private Alarm lasting(Period then, Long newSeen) {
+        return new Alarm(
+                head,
+                state,
+                change,
+                description,
+                then,
+                handling,
+                sequence,
+                group,
+                extent,
+                newSeen,
+                inhibitedBy,
+                identity);
     }
 
     /** Copies text, devices and extent from the cause. */
     Alarm updated(Cause cause, long now) {
-        AlarmBuilder draft = new AlarmBuilder(this);
-        draft.describe(cause);
-        draft.change = Change.UPDATED;
-        draft.changed = now;
-        return draft.build();
+        Description what = new Description(cause.text(), cause.devices());
+        Period then = period.changedAt(now);
+        Extent size = Extent.of(cause);
+        return new Alarm(
+                head, state, Change.UPDATED, what, then, handling, sequence, group, size, seen, inhibitedBy, identity);
     }
 
     /** Copies the text alone from the cause: that is no change, so nobody is notified of it. */
     Alarm reworded(Cause cause) {
-        AlarmBuilder draft = new AlarmBuilder(this);
-        draft.text = cause.text();
-        return draft.build();
+        Description what = new Description(cause.text(), description.devices);
+        return new Alarm(
+                head, state, change, what, period, handling, sequence, group, extent, seen, inhibitedBy, identity);
     }
 
     /** @param by id of the inhibiting alarm; null if no longer inhibited */
     public Alarm inhibited(String by, long now) {
-        AlarmBuilder draft = new AlarmBuilder(this);
-        draft.inhibitedBy = by;
-        draft.change = Change.UPDATED;
-        draft.changed = now;
-        return draft.build();
+        Period then = period.changedAt(now);
+        return new Alarm(
+                head, state, Change.UPDATED, description, then, handling, sequence, group, extent, seen, by, identity);
     }
 
     /** Returns the alarm as inhibited when it was raised, without a further change. */
     public Alarm inhibitedFromStart(String by) {
-        AlarmBuilder draft = new AlarmBuilder(this);
-        draft.inhibitedBy = by;
-        return draft.build();
+        return new Alarm(
+                head, state, change, description, period, handling, sequence, group, extent, seen, by, identity);
     }
 
     /** UTF-8 JSON; members without a value are omitted. */

@@ -128,7 +128,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     }
 
     private Alarm reworded(Alarm existing, Cause cause) {
-        if (!existing.concerns(cause) || existing.text().equals(cause.text())) {
+        if (!existing.concerns(cause) || existing.description().text().equals(cause.text())) {
             return existing;
         }
         Alarm reworded = existing.reworded(cause);
@@ -269,9 +269,10 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
                 closed.add(alarm);
             }
         });
-        closed.sort(Comparator.comparingLong(Alarm::changed).reversed());
+        closed.sort(Comparator.comparingLong((Alarm alarm) -> alarm.period().changed())
+                .reversed());
         for (int i = 0; i < closed.size(); i++) {
-            if (i >= MAX_CLOSED || closed.get(i).changed() + CLOSED_RETENTION.toMillis() <= now) {
+            if (i >= MAX_CLOSED || closed.get(i).period().changed() + CLOSED_RETENTION.toMillis() <= now) {
                 tables.alarms().put(closed.get(i).alarm(), null);
                 publisher.put(Topics.ALARMS, closed.get(i).alarm(), null);
             }

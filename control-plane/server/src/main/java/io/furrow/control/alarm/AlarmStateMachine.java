@@ -33,7 +33,7 @@ final class AlarmStateMachine {
         } else if (event instanceof AlarmEvent.Reported reported) {
             return reported(alarm, reported, now);
         } else if (event instanceof AlarmEvent.Ended ended) {
-            return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), ended.reason(), now);
+            return alarm.become(AlarmState.CLOSED, alarm.handling().acknowledgedBy(), ended.reason(), now);
         } else if (event instanceof AlarmEvent.ManuallyClosed by) {
             return closedManually(alarm, by, now);
         } else if (event instanceof AlarmEvent.Acknowledged by) {
@@ -44,12 +44,13 @@ final class AlarmStateMachine {
         } else if (event instanceof AlarmEvent.Muted muted) {
             return alarm.muted(muted.until(), now);
         }
-        return alarm.mutedUntil() == null ? alarm : alarm.muted(null, now);
+        return alarm.handling().mutedUntil() == null ? alarm : alarm.muted(null, now);
     }
 
     private static Alarm reported(Alarm alarm, AlarmEvent.Reported reported, long now) {
         boolean inhibition = !Objects.equals(alarm.inhibitedBy(), reported.inhibitedBy());
-        boolean extent = !alarm.concerns(reported.cause()) && now - alarm.changed() >= UPDATE_INTERVAL.toMillis();
+        boolean extent =
+                !alarm.concerns(reported.cause()) && now - alarm.period().changed() >= UPDATE_INTERVAL.toMillis();
         if (!inhibition && !extent) {
             return alarm;
         }
@@ -66,20 +67,22 @@ final class AlarmStateMachine {
             throw new RejectedException(
                     ErrorCode.WRONG_STATE,
                     "alarm '%s' closes when its cause is over: %s%s. Acknowledge it, or mute it for a while."
-                            .formatted(alarm.alarm(), alarm.text(), seen));
+                            .formatted(alarm.alarm(), alarm.description().text(), seen));
         }
         String by = event.user() == null ? "somebody" : event.user();
-        return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), "closed by " + by, now);
+        return alarm.become(AlarmState.CLOSED, alarm.handling().acknowledgedBy(), "closed by " + by, now);
     }
 
     private static Alarm afterTime(Alarm alarm, long now) {
         if (alarm.state() == AlarmState.CLOSED) {
             return alarm;
         }
-        if (alarm.until() != null && alarm.until() <= now) {
-            return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), expired(alarm), now);
+        if (alarm.period().until() != null && alarm.period().until() <= now) {
+            return alarm.become(AlarmState.CLOSED, alarm.handling().acknowledgedBy(), expired(alarm), now);
         }
-        return alarm.mutedUntil() != null && alarm.mutedUntil() <= now ? alarm.muted(null, now) : alarm;
+        return alarm.handling().mutedUntil() != null && alarm.handling().mutedUntil() <= now
+                ? alarm.muted(null, now)
+                : alarm;
     }
 
     /** The report of its end lets a collision expire at another time than its other reports. */
@@ -88,7 +91,7 @@ final class AlarmStateMachine {
             return "its cause was no longer observed";
         }
         Duration holds = AlarmCommandHandler.COLLISION_HOLDS;
-        return alarm.until() - alarm.seen() == holds.toMillis()
+        return alarm.period().until() - alarm.seen() == holds.toMillis()
                 ? "nothing was reported of the encounter for %d min, not its end either".formatted(holds.toMinutes())
                 : "the encounter has ended, and the pair has had no other since";
     }

@@ -10,6 +10,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -130,20 +131,6 @@ public record AuditEntry(
 
     /** UTF-8 JSON; members without a value are omitted. */
     public byte[] toBytes() {
-        ObjectNode json = JsonNodeFactory.instance.objectNode();
-        json.put("time", time).put("user", user).put("target", target);
-        put(json, "command", command);
-        json.set("about", about);
-        json.put("result", result);
-        put(json, "error", error);
-        put(json, "reason", reason);
-        put(json, "requestId", requestId);
-        return NgsiJson.write(json);
-    }
-
-    private static void put(ObjectNode json, String member, String value) {
-        if (value != null) {
-            json.put(member, value);
-        }
+        return StateJson.write(this);
     }
 }

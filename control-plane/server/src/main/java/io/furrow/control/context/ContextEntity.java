@@ -41,11 +41,17 @@ final class ContextEntity {
      */
     static EntityBuilder of(Domain domain, int missions, List<FieldState> fields) {
         EntityBuilder entity = Entity.builder(domainId(domain.domain()), DOMAIN);
-        entity.freeText("name", domain.name() == null ? domain.domain() : domain.name());
-        entity.freeText("description", domain.description());
+        entity.freeText(
+                "name",
+                domain.details().name() == null
+                        ? domain.domain()
+                        : domain.details().name());
+        entity.freeText("description", domain.details().description());
         entity.integer(
                         "fieldCount",
-                        domain.fields() == null ? 0 : domain.fields().size())
+                        domain.details().fields() == null
+                                ? 0
+                                : domain.details().fields().size())
                 .integer("missionCount", missions);
         number(
                 entity,

@@ -154,7 +154,8 @@ final class ContextProjection {
     /** Whether the domain lists the field or the field names the domain. */
     private static boolean isOf(FieldState field, Domain domain) {
         return domain.domain().equals(field.domain())
-                || domain.fields() != null && domain.fields().contains(field.field());
+                || domain.details().fields() != null
+                        && domain.details().fields().contains(field.field());
     }
 
     private void outdateDomainsOf(FieldState field) {

@@ -8,23 +8,17 @@ import java.util.Map;
 import java.util.function.Function;
 
 import org.apache.kafka.streams.AutoOffsetReset;
-import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.kstream.KStream;
-import org.apache.kafka.streams.kstream.Named;
-import org.apache.kafka.streams.processor.api.ProcessorContext;
-import org.apache.kafka.streams.processor.api.ProcessorSupplier;
 import org.apache.kafka.streams.processor.api.Record;
 
 import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.control.alarm.watch.FieldWindow;
 import io.furrow.control.domain.Domain;
-import io.furrow.control.manager.ManagerInput;
-import io.furrow.control.manager.ObserverProcessor;
-import io.furrow.control.manager.ObserverProcessor.Observer;
+import io.furrow.control.manager.ManagerTopology;
+import io.furrow.control.manager.Observer;
 import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.RecordScope;
-import io.furrow.control.manager.StateJson;
-import io.furrow.control.manager.StoreTable;
+import io.furrow.control.manager.UnitOfWork;
 import io.furrow.control.mission.Mission;
 import io.furrow.control.mission.MissionStatus;
 import io.furrow.model.event.EntityDeletion;
@@ -34,6 +28,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -49,11 +44,11 @@ public final class ContextTopology {
             "context-outdated",
             "context-told");
 
-    private final StreamsBuilder builder;
+    private final ManagerTopology topology;
     private final FiwareScope scope;
 
-    private ContextTopology(StreamsBuilder builder, FiwareScope scope) {
-        this.builder = builder;
+    private ContextTopology(ManagerTopology topology, FiwareScope scope) {
+        this.topology = topology;
         this.scope = scope;
     }
 
@@ -67,33 +62,33 @@ public final class ContextTopology {
             KStream<String, byte[]> statuses) {}
 
     /** @param scope of the entities */
-    public static void add(StreamsBuilder builder, Shared shared, FiwareScope scope) {
-        STORES.forEach(store -> builder.addStateStore(StoreTable.builder(store)));
-        ContextTopology watch = new ContextTopology(builder, scope);
+    public static void add(ManagerTopology topology, Shared shared, FiwareScope scope) {
+        topology.addStores(STORES);
+        ContextTopology watch = new ContextTopology(topology, scope);
 
-        watch.send(
+        watch.observe(
                 "domains",
                 watch.desired(Topics.DOMAINS, "domains"),
                 projection -> new TimedObserver(
                         (record, now) -> projection.domain(record.key(), read(record, Domain.class)), projection));
 
-        watch.send(
+        watch.observe(
                 "missions",
                 watch.desired(Topics.MISSIONS, "missions"),
                 projection -> (record, now) -> projection.mission(record.key(), read(record, Mission.class)));
 
-        watch.sendShared(
+        watch.observeShared(
                 "statuses",
                 shared.statuses(),
                 projection -> (record, now) -> projection.status(record.key(), read(record, MissionStatus.class)));
 
-        watch.sendShared("encounters", shared.collisions(), projection -> (record, now) -> {
+        watch.observeShared("encounters", shared.collisions(), projection -> (record, now) -> {
             if (record.value() != null) {
                 projection.encounter(EncounterReport.read(record.value(), RecordScope.of(record)));
             }
         });
 
-        watch.sendShared("fields", shared.temperatures(), projection -> (record, now) -> {
+        watch.observeShared("fields", shared.temperatures(), projection -> (record, now) -> {
             FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));
             if (window != null) {
                 projection.window(window, now);
@@ -102,29 +97,23 @@ public final class ContextTopology {
     }
 
     private KStream<String, byte[]> desired(String topic, String name) {
-        return ManagerInput.observed(builder, topic, "context-" + name, AutoOffsetReset.earliest());
+        return topology.observed(topic, "context-" + name, AutoOffsetReset.earliest());
     }
 
-    private void send(String name, KStream<String, byte[]> records, Function<ContextProjection, Observer> observing) {
-        send(name, records, () -> new ObserverProcessor((context, publisher) -> observing.apply(projection(context))));
+    private void observe(
+            String name, KStream<String, byte[]> records, Function<ContextProjection, Observer> observing) {
+        ManagerTopology.observe(records, nodes(name), unitOfWork -> observing.apply(projection(unitOfWork)), STORES);
     }
 
     /** Does not write dead letters: the processors that raise alarms from the same records already do. */
-    private void sendShared(
+    private void observeShared(
             String name, KStream<String, byte[]> records, Function<ContextProjection, Observer> observing) {
-        send(
-                name,
-                records,
-                () -> ObserverProcessor.besideAnother((context, publisher) -> observing.apply(projection(context))));
+        ManagerTopology.observeBesideAnother(
+                records, nodes(name), unitOfWork -> observing.apply(projection(unitOfWork)), STORES);
     }
 
-    private void send(
-            String name,
-            KStream<String, byte[]> records,
-            ProcessorSupplier<String, byte[], String, OutputRecord> observers) {
-        OutputRecord.send(
-                records.process(observers, Named.as("context-of-" + name), STORES.toArray(String[]::new)),
-                "context-of-" + name + "-out");
+    private static ManagerTopology.Nodes nodes(String name) {
+        return new ManagerTopology.Nodes("context-of-" + name, "context-of-" + name + "-out");
     }
 
     /** The one observer that notifies the projection about the passing of time. */
@@ -144,24 +133,24 @@ public final class ContextTopology {
         return record.value() == null ? null : StateJson.readRecord(record.value(), type);
     }
 
-    private ContextProjection projection(ProcessorContext<String, OutputRecord> context) {
+    private ContextProjection projection(UnitOfWork unitOfWork) {
         ContextTables records = new ContextTables(
-                StoreTable.of(context, STORES.get(0), Domain.class),
-                StoreTable.of(context, STORES.get(1), Mission.class),
-                StoreTable.of(context, STORES.get(2), MissionStatus.class),
-                StoreTable.of(context, STORES.get(3), MissionCounts.class),
-                StoreTable.of(context, STORES.get(4), FieldState.class),
-                StoreTable.of(context, STORES.get(5), String.class),
-                StoreTable.of(context, STORES.get(6), Function.identity(), Function.identity()));
-        return new ContextProjection(records, new EntityForwarder(context, scope));
+                unitOfWork.table(STORES.get(0), Domain.class),
+                unitOfWork.table(STORES.get(1), Mission.class),
+                unitOfWork.table(STORES.get(2), MissionStatus.class),
+                unitOfWork.table(STORES.get(3), MissionCounts.class),
+                unitOfWork.table(STORES.get(4), FieldState.class),
+                unitOfWork.table(STORES.get(5), String.class),
+                unitOfWork.table(STORES.get(6)));
+        return new ContextProjection(records, new EntityForwarder(unitOfWork, scope));
     }
 
     /** Forwards entities as records of {@code data.context}, with the headers of all {@code data.*} topics. */
-    private record EntityForwarder(ProcessorContext<String, OutputRecord> context, FiwareScope scope)
+    private record EntityForwarder(UnitOfWork unitOfWork, FiwareScope scope)
             implements ContextProjection.PublicationListener {
         @Override
         public void changed(EntityBuilder entity) {
-            Instant now = Instant.ofEpochMilli(context.currentSystemTimeMs());
+            Instant now = Instant.ofEpochMilli(unitOfWork.now());
             Map<String, String> headers = new LinkedHashMap<>();
             headers.put(HeaderNames.CE_ID, EventId.of(scope, entity, now));
             headers.put(HeaderNames.CE_SOURCE, SOURCE);
@@ -176,7 +165,7 @@ public final class ContextTopology {
 
         @Override
         public void deleted(String type, String entityId) {
-            Instant now = Instant.ofEpochMilli(context.currentSystemTimeMs());
+            Instant now = Instant.ofEpochMilli(unitOfWork.now());
             Map<String, String> headers = new LinkedHashMap<>(
                     new EntityDeletion(type, entityId, scope, now, now, Origin.NOTIFICATION).headers(SOURCE));
             headers.remove(HeaderNames.ORIGIN);
@@ -188,7 +177,7 @@ public final class ContextTopology {
             Record<String, OutputRecord> record =
                     new Record<>(key, new OutputRecord(Topics.CONTEXT, value), now.toEpochMilli());
             headers.forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
-            context.forward(record);
+            unitOfWork.forward(record);
         }
     }
 }

@@ -1,103 +1,82 @@
 package io.furrow.control.health;
 
-import io.furrow.control.manager.StateJson;
+import com.fasterxml.jackson.annotation.JsonUnwrapped;
+
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.StateJson;
 
 /**
  * The health of a desired device: stored, and a record of {@code service.devices.health} with the key of
  * {@code service.devices}.
  *
- * @param id of the entity
- * @param service tenant, empty for the default one
- * @param servicePath {@code /} for the root
- * @param type type of the entity; null if unknown
  * @param silent whether it has not reported for longer than its time limit
  * @param since when it became silent or reported again, epoch ms
- * @param lastSeen event time of its newest report, epoch ms; null if none
- * @param heard when that report arrived, epoch ms, at most about 30 s behind; null if none
- * @param deviceTime what the device itself gave as the time of that report, epoch ms; null if it gave none
- * @param battery 0 to 1; null if never reported
- * @param off whether it reported that it is switched off; it is never silent then
  */
 public record DeviceHealth(
-        String id,
-        String service,
-        String servicePath,
-        String type,
-        String domain,
-        String mission,
+        @JsonUnwrapped Device device,
         boolean silent,
         long since,
-        Long lastSeen,
-        Long heard,
-        Long deviceTime,
-        Double battery,
-        boolean off) {
+        @JsonUnwrapped NewestReport report) {
+    /**
+     * Which device it is.
+     *
+     * @param id of the entity
+     * @param service tenant, empty for the default one
+     * @param servicePath {@code /} for the root
+     * @param type type of the entity; null if unknown
+     */
+    public record Device(String id, String service, String servicePath, String type, String domain, String mission) {
+        private static Device of(DesiredDevice device, String type) {
+            DeviceVersion version = device.version();
+            return new Device(
+                    version.id(), version.service(), version.servicePath(), type, version.domain(), version.mission());
+        }
+
+        private Device typed(String newType) {
+            return new Device(id, service, servicePath, newType, domain, mission);
+        }
+    }
+
+    /**
+     * Its newest report.
+     *
+     * @param lastSeen event time, epoch ms; null if there is none
+     * @param heard when it arrived, epoch ms, at most about 30 s behind; null if none did
+     * @param deviceTime what the device itself gave as its time, epoch ms; null if it gave none
+     * @param battery 0 to 1; null if never reported
+     * @param off whether it reported that it is switched off; it is never silent then
+     */
+    public record NewestReport(Long lastSeen, Long heard, Long deviceTime, Double battery, boolean off) {}
 
     /** Creates the health of a device that has not reported yet. */
     static DeviceHealth unheard(DesiredDevice device, long now) {
-        DeviceVersion version = device.version();
         return new DeviceHealth(
-                version.id(),
-                version.service(),
-                version.servicePath(),
-                device.type(),
-                version.domain(),
-                version.mission(),
-                false,
-                now,
-                null,
-                null,
-                null,
-                null,
-                false);
+                Device.of(device, device.type()), false, now, new NewestReport(null, null, null, null, false));
     }
 
     DeviceHealth heard(Heartbeat heartbeat, long now) {
+        Double battery = heartbeat.battery() == null ? report.battery : heartbeat.battery();
         return new DeviceHealth(
-                id,
-                service,
-                servicePath,
-                heartbeat.type(),
-                domain,
-                mission,
+                device.typed(heartbeat.type()),
                 false,
                 silent ? now : since,
-                heartbeat.reported(),
-                heartbeat.heard(),
-                heartbeat.deviceTime(),
-                heartbeat.battery() == null ? battery : heartbeat.battery(),
-                heartbeat.off());
+                new NewestReport(
+                        heartbeat.reported(), heartbeat.heard(), heartbeat.deviceTime(), battery, heartbeat.off()));
     }
 
     DeviceHealth silent(long now) {
-        return new DeviceHealth(
-                id, service, servicePath, type, domain, mission, true, now, lastSeen, heard, deviceTime, battery, off);
+        return new DeviceHealth(device, true, now, report);
     }
 
     /** Returns the health with the device's current domain and mission. */
-    DeviceHealth of(DesiredDevice device) {
-        DeviceVersion version = device.version();
-        return new DeviceHealth(
-                id,
-                service,
-                servicePath,
-                type,
-                version.domain(),
-                version.mission(),
-                silent,
-                since,
-                lastSeen,
-                heard,
-                deviceTime,
-                battery,
-                off);
+    DeviceHealth of(DesiredDevice desired) {
+        return new DeviceHealth(Device.of(desired, device.type), silent, since, report);
     }
 
     String key() {
-        return new FiwareScope(service, servicePath).identity(id);
+        return new FiwareScope(device.service, device.servicePath).identity(device.id);
     }
 
     byte[] toBytes() {

@@ -57,7 +57,8 @@ final class DeviceHealthTracker {
         DeviceHealth remembered = health.get(key);
         DeviceHealth existing =
                 remembered == null ? DeviceHealth.unheard(device.get(), now) : remembered.of(device.get());
-        boolean outdated = existing.heard() != null && heartbeat.heard() < existing.heard();
+        boolean outdated = existing.report().heard() != null
+                && heartbeat.heard() < existing.report().heard();
         if (outdated) {
             return; // another detector has a newer report
         }
@@ -91,9 +92,11 @@ final class DeviceHealthTracker {
         String key = device.version().key();
         DeviceHealth remembered = health.get(key);
         DeviceHealth existing = remembered == null ? DeviceHealth.unheard(device, now) : remembered.of(device);
-        long quietSince = Math.max(device.version().from(), existing.heard() == null ? 0 : existing.heard());
+        long quietSince = Math.max(
+                device.version().from(),
+                existing.report().heard() == null ? 0 : existing.report().heard());
         boolean quiet = now - Math.max(quietSince, began) > options.silentAfter(device) + TIMEOUT.toMillis();
-        DeviceHealth judged = quiet && !existing.off() && !existing.silent() ? existing.silent(now) : existing;
+        DeviceHealth judged = quiet && !existing.report().off() && !existing.silent() ? existing.silent(now) : existing;
         if (!judged.equals(remembered)) {
             store(key, judged);
         }

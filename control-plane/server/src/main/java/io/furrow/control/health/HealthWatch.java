@@ -2,14 +2,10 @@ package io.furrow.control.health;
 
 import java.util.List;
 import java.util.Optional;
-import java.util.function.BiFunction;
 import java.util.function.Function;
 import java.util.stream.Stream;
 
-import org.apache.kafka.common.serialization.Serdes;
 import org.apache.kafka.streams.AutoOffsetReset;
-import org.apache.kafka.streams.StreamsBuilder;
-import org.apache.kafka.streams.kstream.Consumed;
 import org.apache.kafka.streams.kstream.KStream;
 import org.apache.kafka.streams.kstream.Named;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
@@ -18,16 +14,13 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.control.alarm.AlarmManager;
-import io.furrow.control.manager.EventPublisher;
-import io.furrow.control.manager.GlobalStoreProcessor;
-import io.furrow.control.manager.ManagerInput;
-import io.furrow.control.manager.ObserverProcessor;
-import io.furrow.control.manager.ObserverProcessor.Observer;
-import io.furrow.control.manager.OutputRecord;
-import io.furrow.control.manager.StateJson;
+import io.furrow.control.manager.ManagerTopology;
+import io.furrow.control.manager.Observer;
 import io.furrow.control.manager.StoreTable;
 import io.furrow.control.manager.Table;
+import io.furrow.control.manager.UnitOfWork;
 import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -44,8 +37,12 @@ public final class HealthWatch {
     private HealthWatch() {}
 
     /** Returns the desired devices from a global store, which every instance and any processor can read. */
-    public static MonitoredDevices desired(ProcessorContext<?, ?> context) {
-        return new MonitoredDevices(StoreTable.of(context, WANTED, Function.identity(), Function.identity()));
+    static MonitoredDevices desired(ProcessorContext<?, ?> context) {
+        return new MonitoredDevices(StoreTable.readOnly(context, WANTED));
+    }
+
+    private static MonitoredDevices desired(UnitOfWork unitOfWork) {
+        return new MonitoredDevices(unitOfWork.table(WANTED));
     }
 
     /** Names of the stores that users of {@link #typeOf} need. */
@@ -54,57 +51,38 @@ public final class HealthWatch {
     }
 
     /** Returns a lookup of a device's entity type: the reported type, else the desired type, else null. */
-    public static Function<String, String> typeOf(ProcessorContext<?, ?> context) {
-        Table<DeviceHealth> health = StoreTable.of(context, HEALTH, DeviceHealth.class);
-        MonitoredDevices desired = desired(context);
+    public static Function<String, String> typeOf(UnitOfWork unitOfWork) {
+        Table<DeviceHealth> health = unitOfWork.table(HEALTH, DeviceHealth.class);
+        MonitoredDevices desired = desired(unitOfWork);
         return identity -> {
             DeviceHealth existing = health.get(identity);
-            return existing != null && existing.type() != null
-                    ? existing.type()
+            return existing != null && existing.device().type() != null
+                    ? existing.device().type()
                     : desired.of(identity).map(device -> device.type()).orElse(null);
         };
     }
 
     /** Adds the processors. The stores of alarms must exist already. */
-    public static void add(StreamsBuilder builder, HealthOptions options) {
-        builder.addGlobalStore(
-                StoreTable.builder(WANTED).withLoggingDisabled(),
-                Topics.DEVICES,
-                Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("wanted-devices-in"),
-                () -> new GlobalStoreProcessor(WANTED));
-        builder.addGlobalStore(
-                StoreTable.builder(CONNECTIONS).withLoggingDisabled(),
-                Topics.DEVICES_CONNECTION,
-                Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("device-connections-in"),
-                () -> new GlobalStoreProcessor(CONNECTIONS));
-        builder.addStateStore(StoreTable.builder(HEALTH));
-        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening =
-                (context, publisher) -> observer(new DeviceHealthTracker(
-                        StoreTable.of(context, HEALTH, DeviceHealth.class),
-                        desired(context),
-                        options,
-                        new SilenceAlarmReconciler(
-                                options, AlarmManager.handler(context, publisher), connections(context)),
-                        publisher));
-
-        KStream<String, byte[]> signs = builder.stream(
-                        Topics.RAW,
-                        Consumed.with(Serdes.String(), Serdes.ByteArray())
-                                .withName("reports-in")
-                                .withOffsetResetPolicy(AutoOffsetReset.latest()))
+    public static void add(ManagerTopology topology, HealthOptions options) {
+        topology.addGlobalStore(WANTED, Topics.DEVICES);
+        topology.addGlobalStore(CONNECTIONS, Topics.DEVICES_CONNECTION);
+        topology.addStores(stores());
+        KStream<String, byte[]> signs = topology.stream(Topics.RAW, "reports-in", AutoOffsetReset.latest())
                 .process(() -> new HeartbeatProcessor(options), Named.as("hear-devices"));
-        OutputRecord.send(
-                ManagerInput.toSinglePartition(signs, "device-signs")
-                        .process(
-                                () -> new ObserverProcessor(opening),
-                                Named.as("keep-device-health"),
-                                Stream.concat(stores().stream(), AlarmManager.stores().stream())
-                                        .toArray(String[]::new)),
-                "device-health-out");
+        ManagerTopology.observe(
+                ManagerTopology.toSinglePartition(signs, "device-signs"),
+                new ManagerTopology.Nodes("keep-device-health", "device-health-out"),
+                unitOfWork -> observer(new DeviceHealthTracker(
+                        unitOfWork.table(HEALTH, DeviceHealth.class),
+                        desired(unitOfWork),
+                        options,
+                        new SilenceAlarmReconciler(options, AlarmManager.handler(unitOfWork), connections(unitOfWork)),
+                        unitOfWork)),
+                Stream.concat(stores().stream(), AlarmManager.stores().stream()).toList());
     }
 
-    private static Function<String, Optional<DeviceConnection>> connections(ProcessorContext<?, ?> context) {
-        Table<byte[]> records = StoreTable.of(context, CONNECTIONS, Function.identity(), Function.identity());
+    private static Function<String, Optional<DeviceConnection>> connections(UnitOfWork unitOfWork) {
+        Table<byte[]> records = unitOfWork.table(CONNECTIONS);
         return key -> {
             try {
                 byte[] value = records.get(key);

@@ -73,14 +73,14 @@ final class SilenceAlarmReconciler {
             SilenceCause cause) {
         static MonitoredDevice of(DeviceHealth health, long silentAfter) {
             return new MonitoredDevice(
-                    health.id(),
-                    health.type(),
-                    FiwareScope.of(health.service(), health.servicePath()),
-                    AlarmGroup.of(health.mission(), health.domain()),
+                    health.device().id(),
+                    health.device().type(),
+                    FiwareScope.of(health.device().service(), health.device().servicePath()),
+                    AlarmGroup.of(health.device().mission(), health.device().domain()),
                     health.silent(),
-                    health.off(),
+                    health.report().off(),
                     health.since(),
-                    health.heard(),
+                    health.report().heard(),
                     silentAfter,
                     null);
         }

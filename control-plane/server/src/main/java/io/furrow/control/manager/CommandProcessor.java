@@ -3,7 +3,7 @@ package io.furrow.control.manager;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.Optional;
-import java.util.function.BiFunction;
+import java.util.function.Function;
 
 import org.apache.kafka.streams.processor.PunctuationType;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
@@ -37,15 +37,14 @@ import io.furrow.model.topic.Topics;
  *
  * @param <C> commands of the manager
  */
-public final class CommandProcessor<C extends Command>
-        extends ContextualProcessor<String, byte[], String, OutputRecord> {
+final class CommandProcessor<C extends Command> extends ContextualProcessor<String, byte[], String, OutputRecord> {
     private static final Logger LOG = LoggerFactory.getLogger(CommandProcessor.class);
     private static final Duration TICK = Duration.ofSeconds(1);
     private static final Duration STEP = Duration.ofMillis(100);
 
     private final ManagerTopic<C> manager;
     private final Duration remembered;
-    private final BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<C>> opening;
+    private final Function<UnitOfWork, CommandHandler<C>> opening;
     private RequestLog answered;
     private UnitOfWork unitOfWork;
     private Punctuations punctuations;
@@ -56,10 +55,7 @@ public final class CommandProcessor<C extends Command>
      * @param remembered how long ids of requests are
      * @param opening makes the handler, whose stores are those of the context
      */
-    public CommandProcessor(
-            ManagerTopic<C> manager,
-            Duration remembered,
-            BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<C>> opening) {
+    CommandProcessor(ManagerTopic<C> manager, Duration remembered, Function<UnitOfWork, CommandHandler<C>> opening) {
         this.manager = manager;
         this.remembered = remembered;
         this.opening = opening;
@@ -70,17 +66,11 @@ public final class CommandProcessor<C extends Command>
         super.init(context);
         answered = new RequestLog(context, manager.answers(), remembered);
         unitOfWork = new UnitOfWork(context);
-        handler = opening.apply(unitOfWork, publisher(unitOfWork));
+        handler = opening.apply(unitOfWork);
         opened = false;
-        punctuations = new Punctuations(unitOfWork);
+        punctuations = new Punctuations(unitOfWork, context.taskId());
         context.schedule(TICK, PunctuationType.WALL_CLOCK_TIME, now -> punctuations.run(handler.due(now)));
         context.schedule(STEP, PunctuationType.WALL_CLOCK_TIME, now -> punctuations.run(handler.pending(now)));
-    }
-
-    /** Where handlers write to: on to the next node, under the time of the control plane's clock. */
-    public static EventPublisher publisher(ProcessorContext<String, OutputRecord> context) {
-        return (topic, key, value) ->
-                context.forward(new Record<>(key, new OutputRecord(topic, value), context.currentSystemTimeMs()));
     }
 
     @Override
@@ -174,8 +164,9 @@ public final class CommandProcessor<C extends Command>
                     .add(RequestFingerprint.HEADER, requested.fingerprint().getBytes(StandardCharsets.UTF_8));
         }
         context().forward(response);
-        AuditEntry entry = AuditEntry.of(manager.topic(), requested.record().value(), answer, now);
-        publisher(context()).put(Topics.AUDIT, key, entry.toBytes());
+        byte[] entry = AuditEntry.of(manager.topic(), requested.record().value(), answer, now)
+                .toBytes();
+        context().forward(new Record<>(key, new OutputRecord(Topics.AUDIT, entry), response.timestamp()));
     }
 
     private CommandResult answer(Record<String, byte[]> record, C command, long now) {

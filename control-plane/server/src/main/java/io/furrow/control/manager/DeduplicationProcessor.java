@@ -6,8 +6,11 @@ import java.util.Set;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 import org.apache.kafka.streams.processor.api.Record;
+import org.apache.kafka.streams.state.KeyValueStore;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
+
+import io.furrow.model.ngsi.StateJson;
 
 /**
  * Forwards each record of a topic once, also where the topic, or the repartition topic behind it, is read again from
@@ -26,7 +29,7 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
     /** Partitions of which the last record was skipped, so that the log reports it once. */
     private final Set<String> readAgain = new HashSet<>();
 
-    private Table<Position> positions;
+    private KeyValueStore<String, byte[]> positions;
 
     /**
      * How far a partition was read.
@@ -38,8 +41,8 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
             return other <= offset && timestamp <= newest;
         }
 
-        Position with(long other, long timestamp) {
-            return new Position(other, Math.max(newest, timestamp));
+        Position with(Position later) {
+            return new Position(later.offset, Math.max(newest, later.newest));
         }
     }
 
@@ -51,7 +54,7 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
     @Override
     public void init(ProcessorContext<String, byte[]> context) {
         super.init(context);
-        positions = StoreTable.of(context, store, Position.class);
+        positions = context.getStateStore(store);
     }
 
     @Override
@@ -60,7 +63,8 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
                 .orElseThrow(() -> new IllegalStateException(
                         "a record has no origin; RequestProcessor or SourcePositionProcessor adds it"));
         String partition = origin.topicPartition();
-        Position existing = positions.get(partition);
+        byte[] stored = positions.get(partition);
+        Position existing = stored == null ? null : StateJson.read(stored, Position.class);
         if (existing != null && existing.covers(origin.offset(), record.timestamp())) {
             if (readAgain.add(partition)) {
                 LOG.warn("{} is read again; records up to {}@{} are passed over", origin, partition, existing.offset());
@@ -69,7 +73,7 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
         }
         readAgain.remove(partition);
         Position now = new Position(origin.offset(), record.timestamp());
-        positions.put(partition, existing == null ? now : existing.with(origin.offset(), record.timestamp()));
+        positions.put(partition, StateJson.write(existing == null ? now : existing.with(now)));
         context().forward(record);
     }
 }

@@ -30,7 +30,7 @@ import io.furrow.model.topic.Topics;
 /**
  * What Kafka Streams does where a record makes it fail, in all applications of the control plane: the record becomes a dead letter and
  * the rest continues. Processors handle their failures themselves, whole and with an answer, see {@link CommandProcessor} and {@link
- * GuardedWork}; this is for what escapes them. Where Kafka itself failed the thread is replaced instead, and the record read again.
+ * EventProcessor}; this is for what escapes them. Where Kafka itself failed the thread is replaced instead, and the record read again.
  */
 public final class FailureHandler
         implements DeserializationExceptionHandler, ProcessingExceptionHandler, ProductionExceptionHandler {

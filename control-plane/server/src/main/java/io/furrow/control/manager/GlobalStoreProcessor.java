@@ -10,12 +10,12 @@ import org.apache.kafka.streams.state.KeyValueStore;
  *
  * <p><b>State</b>: the newest value by key. <b>Cleared</b>: by a tombstone. <b>Emits</b>: nothing; a record without a key is skipped.
  */
-public final class GlobalStoreProcessor extends ContextualProcessor<String, byte[], Void, Void> {
+final class GlobalStoreProcessor extends ContextualProcessor<String, byte[], Void, Void> {
     private final String name;
     private KeyValueStore<String, byte[]> store;
 
     /** @param name of the store */
-    public GlobalStoreProcessor(String name) {
+    GlobalStoreProcessor(String name) {
         this.name = name;
     }
 

@@ -3,6 +3,7 @@ package io.furrow.control.manager;
 import java.time.Duration;
 import java.util.List;
 
+import org.apache.kafka.streams.processor.TaskId;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -15,10 +16,12 @@ final class Punctuations {
     private static final long LOG_INTERVAL = Duration.ofMinutes(1).toNanos();
 
     private final UnitOfWork unitOfWork;
+    private final TaskId task;
     private long nextLog = System.nanoTime();
 
-    Punctuations(UnitOfWork unitOfWork) {
+    Punctuations(UnitOfWork unitOfWork, TaskId task) {
         this.unitOfWork = unitOfWork;
+        this.task = task;
     }
 
     void run(List<Runnable> steps) {
@@ -37,10 +40,7 @@ final class Punctuations {
     private void log(RuntimeException failure) {
         if (System.nanoTime() - nextLog >= 0) {
             nextLog = System.nanoTime() + LOG_INTERVAL;
-            LOG.error(
-                    "a punctuation of task {} failed and changed nothing; it is tried again",
-                    unitOfWork.taskId(),
-                    failure);
+            LOG.error("a punctuation of task {} failed and changed nothing; it is tried again", task, failure);
         }
     }
 }

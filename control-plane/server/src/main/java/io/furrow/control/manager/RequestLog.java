@@ -23,7 +23,7 @@ import io.furrow.model.control.Limits;
  * drops whole windows, some time between one and {@code 1 + 1/}{@value #WINDOWS} times what was asked for, by the clock of the
  * control plane: that of a client must not decide what is forgotten.
  */
-public final class RequestLog {
+final class RequestLog {
     /** A look-up costs as many steps. */
     private static final int WINDOWS = 12;
 
@@ -39,7 +39,7 @@ public final class RequestLog {
         }
     }
 
-    public static StoreBuilder<WindowStore<String, byte[]>> builder(String name, Duration remembered) {
+    static StoreBuilder<WindowStore<String, byte[]>> builder(String name, Duration remembered) {
         Duration window = Duration.ofMillis(window(remembered.toMillis()));
         return Stores.windowStoreBuilder(
                 Stores.inMemoryWindowStore(name, remembered.plus(window), window, false),

@@ -1,32 +1,22 @@
 package io.furrow.control.manager;
 
-import java.io.File;
-import java.time.Duration;
-import java.time.Instant;
 import java.util.ArrayList;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.Optional;
+import java.util.function.Function;
 
-import org.apache.kafka.common.serialization.Serde;
-import org.apache.kafka.streams.StreamsMetrics;
-import org.apache.kafka.streams.processor.Cancellable;
-import org.apache.kafka.streams.processor.PunctuationType;
-import org.apache.kafka.streams.processor.Punctuator;
-import org.apache.kafka.streams.processor.StateStore;
-import org.apache.kafka.streams.processor.TaskId;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 import org.apache.kafka.streams.processor.api.Record;
-import org.apache.kafka.streams.processor.api.RecordMetadata;
-import org.apache.kafka.streams.state.KeyValueStore;
+
+import io.furrow.model.ngsi.StateJson;
 
 /**
- * The context of a processor whose writes, to its stores and to the next processors, take effect together or not at all: within
- * {@link #call} they are staged, and applied when that returns. What throws has changed nothing, and no record larger than
- * {@code Limits.RECORD_BYTES} is written, so that neither can end the thread. Its stores are key-value stores of texts and bytes.
+ * The stores and the output of a processor, whose writes take effect together or not at all: within {@link #call} they are staged, and
+ * applied when that returns. What throws has changed nothing, and no record larger than {@code Limits.RECORD_BYTES} is written, so
+ * that neither can end the thread.
  */
-final class UnitOfWork implements ProcessorContext<String, OutputRecord> {
+public final class UnitOfWork implements EventPublisher {
     private final ProcessorContext<String, OutputRecord> context;
     private final Map<String, BufferedStore> stores = new LinkedHashMap<>();
     private final List<Record<String, OutputRecord>> staged = new ArrayList<>();
@@ -76,92 +66,34 @@ final class UnitOfWork implements ProcessorContext<String, OutputRecord> {
         records.forEach(context::forward);
     }
 
+    /** Writes under the time of the control plane's clock. */
     @Override
-    public <K extends String, V extends OutputRecord> void forward(Record<K, V> record) {
-        staged.add(new Record<>(record.key(), record.value(), record.timestamp(), record.headers()));
+    public void put(String topic, String key, byte[] value) {
+        forward(new Record<>(key, new OutputRecord(topic, value), now()));
     }
 
-    @Override
-    public <K extends String, V extends OutputRecord> void forward(Record<K, V> record, String childName) {
-        throw new UnsupportedOperationException("records go to all next processors; name no child");
+    /** Writes a record that has a time and headers. */
+    public void forward(Record<String, OutputRecord> record) {
+        staged.add(record);
     }
 
-    @Override
-    @SuppressWarnings("unchecked")
-    public <S extends StateStore> S getStateStore(String name) {
-        return (S) stores.computeIfAbsent(name, any -> {
-            KeyValueStore<String, byte[]> store = context.getStateStore(name);
-            return new BufferedStore(store);
-        });
-    }
-
-    @Override
-    public String applicationId() {
-        return context.applicationId();
-    }
-
-    @Override
-    public TaskId taskId() {
-        return context.taskId();
-    }
-
-    @Override
-    public Optional<RecordMetadata> recordMetadata() {
-        return context.recordMetadata();
-    }
-
-    @Override
-    public Serde<?> keySerde() {
-        return context.keySerde();
-    }
-
-    @Override
-    public Serde<?> valueSerde() {
-        return context.valueSerde();
-    }
-
-    @Override
-    public File stateDir() {
-        return context.stateDir();
-    }
-
-    @Override
-    public StreamsMetrics metrics() {
-        return context.metrics();
-    }
-
-    @Override
-    public Cancellable schedule(Duration interval, PunctuationType type, Punctuator punctuator) {
-        return context.schedule(interval, type, punctuator);
-    }
-
-    @Override
-    public Cancellable schedule(Instant start, Duration interval, PunctuationType type, Punctuator punctuator) {
-        return context.schedule(start, interval, type, punctuator);
-    }
-
-    @Override
-    public void commit() {
-        context.commit();
-    }
-
-    @Override
-    public Map<String, Object> appConfigs() {
-        return context.appConfigs();
-    }
-
-    @Override
-    public Map<String, Object> appConfigsWithPrefix(String prefix) {
-        return context.appConfigsWithPrefix(prefix);
-    }
-
-    @Override
-    public long currentSystemTimeMs() {
+    /** The time of the control plane's clock, epoch ms. */
+    public long now() {
         return context.currentSystemTimeMs();
     }
 
-    @Override
-    public long currentStreamTimeMs() {
-        return context.currentStreamTimeMs();
+    /** The values in a store as they are. */
+    public Table<byte[]> table(String store) {
+        return stores.computeIfAbsent(store, name -> new BufferedStore(context.getStateStore(name)));
+    }
+
+    /** What is in a store as JSON of a type. */
+    public <T> Table<T> table(String store, Class<T> type) {
+        return table(store, StateJson::write, json -> StateJson.read(json, type));
+    }
+
+    /** What is in a store in a format of its own. */
+    public <T> Table<T> table(String store, Function<T, byte[]> writer, Function<byte[], T> reader) {
+        return new StoreTable<>(table(store), writer, reader);
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.control.mission;
 
-import io.furrow.control.manager.StateJson;
+import io.furrow.model.ngsi.StateJson;
 
 /**
  * What is requested of a mission: remembered, and a record of {@code service.missions} under its name. Its devices are listed on {@code

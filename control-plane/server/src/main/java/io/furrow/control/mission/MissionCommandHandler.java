@@ -6,6 +6,7 @@ import java.util.function.Predicate;
 
 import io.furrow.control.domain.DomainMissions;
 import io.furrow.control.health.DeviceHealth;
+import io.furrow.control.manager.CommandHandler;
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.Sequence;
@@ -21,7 +22,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
 /** Grants or refuses what is asked of missions, and takes them through their life. What is refused has changed nothing. */
-final class MissionCommandHandler implements DomainMissions {
+final class MissionCommandHandler implements CommandHandler<MissionCommand>, DomainMissions {
     private final MissionTables tables;
     private final Predicate<String> isDomain;
     private final TemplateStore templates;
@@ -51,8 +52,8 @@ final class MissionCommandHandler implements DomainMissions {
         return templates;
     }
 
-    /** @param now epoch ms */
-    CommandResult answer(MissionCommand command, long now) throws RejectedException {
+    @Override
+    public CommandResult answer(MissionCommand command, long now) throws RejectedException {
         if (command instanceof MissionCommand.Create create) {
             return create(create, now);
         } else if (command instanceof MissionCommand.Start start) {
@@ -221,8 +222,8 @@ final class MissionCommandHandler implements DomainMissions {
                 && !existing.confirmed()
                 && !existing.device().simulated()
                 && existing.device().running()
-                && health.heard() != null
-                && health.heard() >= existing.device().version().from();
+                && health.report().heard() != null
+                && health.report().heard() >= existing.device().version().from();
         if (isUp) {
             changed(existing, existing.reported(true, null), now);
         }
@@ -258,9 +259,11 @@ final class MissionCommandHandler implements DomainMissions {
         }
     }
 
-    /** What waits for no one but the time, mission by mission: start dates, durations, devices that are late. */
-    List<Runnable> due(long now) {
+    /** The packaged template, and what waits for no one but the time, mission by mission: start dates, durations, devices that are late. */
+    @Override
+    public List<Runnable> due(long now) {
         List<Runnable> steps = new ArrayList<>();
+        steps.add(templates::installBuiltIn);
         tables.statuses().forEach(status -> {
             boolean ends = status.ends() != null && status.ends() <= now;
             if (status.isDue(now) && (ends || !devices.isBeingWritten(status.mission()))) {
@@ -271,7 +274,8 @@ final class MissionCommandHandler implements DomainMissions {
     }
 
     /** The next devices of each mission of which some are still to be written. */
-    List<Runnable> pending(long now) {
+    @Override
+    public List<Runnable> pending(long now) {
         List<Runnable> steps = new ArrayList<>();
         tables.pending().forEach(pending -> steps.add(() -> advance(pending, now)));
         return steps;

@@ -1,37 +1,24 @@
 package io.furrow.control.mission;
 
 import java.nio.charset.StandardCharsets;
-import java.time.Duration;
-import java.util.ArrayList;
 import java.util.List;
-import java.util.function.BiFunction;
 import java.util.function.Function;
 import java.util.stream.Stream;
-
-import org.apache.kafka.streams.StreamsBuilder;
-import org.apache.kafka.streams.kstream.Named;
-import org.apache.kafka.streams.processor.api.ProcessorContext;
 
 import io.furrow.control.domain.Domain;
 import io.furrow.control.domain.DomainManager;
 import io.furrow.control.health.DeviceHealth;
-import io.furrow.control.manager.CommandHandler;
-import io.furrow.control.manager.CommandProcessor;
-import io.furrow.control.manager.EventPublisher;
-import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ManagerTopic;
-import io.furrow.control.manager.OutputRecord;
-import io.furrow.control.manager.RequestLog;
-import io.furrow.control.manager.StateJson;
-import io.furrow.control.manager.StatusProcessor;
-import io.furrow.control.manager.StoreTable;
+import io.furrow.control.manager.ManagerTopology;
+import io.furrow.control.manager.Observer;
 import io.furrow.control.manager.Table;
-import io.furrow.model.control.CommandResult;
-import io.furrow.model.control.MissionCommand;
+import io.furrow.control.manager.UnitOfWork;
 import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.ngsi.StateJson;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -46,7 +33,6 @@ public final class MissionManager {
     private static final String ROLLOUTS = "mission-rollouts";
     private static final String TEMPLATES = "templates";
     private static final String VERSIONS = "template-versions";
-    private static final ManagerTopic<MissionCommand> TOPIC = ManagerTopic.MISSION;
 
     private MissionManager() {}
 
@@ -56,75 +42,64 @@ public final class MissionManager {
     }
 
     /** Missions as they are in the stores of a processor. */
-    public static MissionCommandHandler handler(
-            ProcessorContext<?, ?> context, EventPublisher publisher, MissionSettings options) {
-        Table<Domain> domains = DomainManager.domains(context);
+    public static MissionCommandHandler handler(UnitOfWork unitOfWork, MissionSettings options) {
+        Table<Domain> domains = DomainManager.domains(unitOfWork);
         MissionTables tables = new MissionTables(
-                StoreTable.of(context, MISSIONS, Mission.class),
-                StoreTable.of(context, STATUSES, MissionStatus.class),
-                StoreTable.of(context, LISTS, Function.identity(), Function.identity()),
-                StoreTable.of(context, ROLLOUTS, PendingAssignment.class),
-                StoreTable.of(context, DEVICES, DeviceState.class),
-                StoreTable.of(context, TEMPLATES, MissionTemplate::toBytes, MissionManager::template),
-                StoreTable.of(context, VERSIONS, TemplateStore.Versions.class));
-        SharedStores farm =
-                new SharedStores(domains::contains, DomainManager.sequence(context), DomainManager.quota(context));
-        return new MissionCommandHandler(tables, farm, options, publisher);
+                unitOfWork.table(MISSIONS, Mission.class),
+                unitOfWork.table(STATUSES, MissionStatus.class),
+                unitOfWork.table(LISTS),
+                unitOfWork.table(ROLLOUTS, PendingAssignment.class),
+                unitOfWork.table(DEVICES, DeviceState.class),
+                unitOfWork.table(TEMPLATES, MissionTemplate::toBytes, MissionManager::template),
+                unitOfWork.table(VERSIONS, TemplateStore.Versions.class));
+        SharedStores farm = new SharedStores(
+                domains::contains, DomainManager.sequence(unitOfWork), DomainManager.quota(unitOfWork));
+        return new MissionCommandHandler(tables, farm, options, unitOfWork);
     }
 
-    /** Its stores and those of domains are there already. @param remembered how long ids of requests are */
-    public static void add(StreamsBuilder builder, Duration remembered, MissionSettings options) {
-        builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
-        BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<MissionCommand>> opening =
-                (context, publisher) -> new TimedMissionHandler(handler(context, publisher, options));
-        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.StatusHandler> reports =
-                (context, publisher) -> {
-                    MissionCommandHandler handler = handler(context, publisher, options);
-                    return (key, value, now) -> handler.reported(key, DeviceStatus.read(value), now);
-                };
-        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.StatusHandler> healths =
-                (context, publisher) -> {
-                    MissionCommandHandler handler = handler(context, publisher, options);
-                    return (key, value, now) ->
-                            handler.reported(key, StateJson.readRecord(value, DeviceHealth.class), now);
-                };
-        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.StatusHandler> connections =
-                (context, publisher) -> {
-                    MissionCommandHandler handler = handler(context, publisher, options);
-                    return (key, value, now) -> handler.reported(key, DeviceConnection.read(value), now);
-                };
+    /** Its stores and those of domains are there already. */
+    public static void add(ManagerTopology topology, MissionSettings options) {
+        List<String> stores = Stream.concat(DomainManager.stores().stream(), stores().stream())
+                .toList();
+        topology.addManager(ManagerTopic.MISSION, unitOfWork -> handler(unitOfWork, options), stores);
 
-        OutputRecord.send(
-                ManagerInput.requests(builder, TOPIC)
-                        .process(
-                                () -> new CommandProcessor<>(TOPIC, remembered, opening),
-                                Named.as("answer-mission-requests"),
-                                storesWith(TOPIC.answers())),
-                "missions-out");
+        topology.addStatuses(
+                Topics.DEVICES_STATUS,
+                "device-statuses",
+                "progress-out",
+                reports(options, (missions, key, value, now) -> missions.reported(key, DeviceStatus.read(value), now)),
+                stores);
 
-        OutputRecord.send(
-                ManagerInput.statuses(builder, Topics.DEVICES_STATUS, "device-statuses")
-                        .process(() -> new StatusProcessor(reports), Named.as("take-device-statuses"), storesWith()),
-                "progress-out");
+        topology.addStatuses(
+                Topics.DEVICES_HEALTH,
+                "device-healths",
+                "first-reports-out",
+                reports(
+                        options,
+                        (missions, key, value, now) ->
+                                missions.reported(key, StateJson.readRecord(value, DeviceHealth.class), now)),
+                stores);
 
-        OutputRecord.send(
-                ManagerInput.statuses(builder, Topics.DEVICES_HEALTH, "device-healths")
-                        .process(() -> new StatusProcessor(healths), Named.as("take-device-healths"), storesWith()),
-                "first-reports-out");
-
-        OutputRecord.send(
-                ManagerInput.statuses(builder, Topics.DEVICES_CONNECTION, "device-connections")
-                        .process(
-                                () -> new StatusProcessor(connections),
-                                Named.as("take-device-connections"),
-                                storesWith()),
-                "silences-out");
+        topology.addStatuses(
+                Topics.DEVICES_CONNECTION,
+                "device-connections",
+                "silences-out",
+                reports(
+                        options,
+                        (missions, key, value, now) -> missions.reported(key, DeviceConnection.read(value), now)),
+                stores);
     }
 
-    private static String[] storesWith(String... further) {
-        return Stream.of(DomainManager.stores(), stores(), List.of(further))
-                .flatMap(List::stream)
-                .toArray(String[]::new);
+    private static Function<UnitOfWork, Observer.OfStatuses> reports(MissionSettings options, Report report) {
+        return unitOfWork -> {
+            MissionCommandHandler missions = handler(unitOfWork, options);
+            return (key, value, now) -> report.take(missions, key, value, now);
+        };
+    }
+
+    /** A record that missions take. */
+    private interface Report {
+        void take(MissionCommandHandler missions, String key, byte[] value, long now) throws UnreadableException;
     }
 
     private static MissionTemplate template(byte[] value) {
@@ -133,26 +108,6 @@ public final class MissionManager {
         } catch (RejectedException e) {
             throw new IllegalStateException(
                     "a stored template cannot be read: " + new String(value, StandardCharsets.UTF_8), e);
-        }
-    }
-
-    /** Missions as time passes; the packaged template is there from the start. */
-    private record TimedMissionHandler(MissionCommandHandler missions) implements CommandHandler<MissionCommand> {
-        @Override
-        public CommandResult answer(MissionCommand command, long now) throws RejectedException {
-            return missions.answer(command, now);
-        }
-
-        @Override
-        public List<Runnable> due(long now) {
-            List<Runnable> steps = new ArrayList<>(missions.due(now));
-            steps.add(0, missions.templates()::installBuiltIn);
-            return steps;
-        }
-
-        @Override
-        public List<Runnable> pending(long now) {
-            return missions.pending(now);
         }
     }
 }

@@ -4,7 +4,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.stream.Collectors;
 
-import io.furrow.control.manager.StateJson;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.text.Counts;
 
 /**

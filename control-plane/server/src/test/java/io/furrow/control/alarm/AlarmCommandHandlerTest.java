@@ -10,12 +10,12 @@ import org.junit.jupiter.api.Test;
 import io.furrow.control.manager.CapturingPublisher;
 import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.Sequence;
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.RejectedException;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -56,9 +56,9 @@ class AlarmCommandHandlerTest {
         assertThat(publisher.all()).hasSize(2);
         handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "it reports again", NOW + 3);
         assertThat(alarm("silent-device-1"))
-                .returns(2, Alarm::count)
+                .returns(2, alarm -> alarm.period().count())
                 .returns(AlarmState.CLOSED, Alarm::state)
-                .returns("it reports again", Alarm::reason);
+                .returns("it reports again", alarm -> alarm.handling().reason());
         handler.raise(silent("urn:t:1"), NOW + 4);
         assertThat(alarm("silent-device-4").state()).isEqualTo(AlarmState.OPEN);
     }
@@ -69,13 +69,13 @@ class AlarmCommandHandlerTest {
         assertThat(handler.answer(acknowledge("silent-device-1"), NOW).status()).isEqualTo("acknowledged");
         assertThat(alarm("silent-device-1"))
                 .returns(AlarmState.ACKNOWLEDGED, Alarm::state)
-                .returns("ann", Alarm::acknowledgedBy);
+                .returns("ann", alarm -> alarm.handling().acknowledgedBy());
         refused(ErrorCode.WRONG_STATE, acknowledge("silent-device-1"));
         handler.answer(
                 new AlarmCommand.Close("silent-device-1", "bob"), NOW + AlarmStateMachine.CAUSE_LASTS.toMillis());
         assertThat(alarm("silent-device-1"))
-                .returns("closed by bob", Alarm::reason)
-                .returns("ann", Alarm::acknowledgedBy);
+                .returns("closed by bob", alarm -> alarm.handling().reason())
+                .returns("ann", alarm -> alarm.handling().acknowledgedBy());
         refused(ErrorCode.WRONG_STATE, new AlarmCommand.Close("silent-device-1", "bob"));
         refused(ErrorCode.WRONG_STATE, acknowledge("silent-device-1"));
         refused(ErrorCode.UNKNOWN_ALARM, acknowledge("silent-device-2"));
@@ -113,12 +113,12 @@ class AlarmCommandHandlerTest {
         handler.raise(pair(AlarmLimit.MAX_ALARMS + 2).identifiedBy("farm|/|ROBOT ROBOT|" + last), NOW + 1);
         handler.passTime(NOW + 20_000);
         Alarm crowd = alarm("collision-" + (AlarmLimit.MAX_ALARMS + 1));
-        assertThat(crowd.affected()).isEqualTo(3);
+        assertThat(crowd.extent().affected()).isEqualTo(3);
 
         handler.end(AlarmKind.COLLISION, "farm|/|ROBOT ROBOT|" + last, "over", NOW + 20_001);
         handler.endAt(AlarmKind.COLLISION, "farm|/|ROBOT ROBOT|pair" + AlarmLimit.MAX_ALARMS, NOW + 30_000);
         handler.passTime(NOW + 40_000);
-        assertThat(alarm(crowd.alarm()).affected()).isEqualTo(1);
+        assertThat(alarm(crowd.alarm()).extent().affected()).isEqualTo(1);
     }
 
     @Test
@@ -168,12 +168,12 @@ class AlarmCommandHandlerTest {
     void updatesAGroupAlarmAtMostEveryTenSeconds() {
         handler.report(many(1), null, NOW);
         handler.report(many(2), null, NOW + 9_999);
-        assertThat(alarm("silent-device-1").affected()).isEqualTo(1);
+        assertThat(alarm("silent-device-1").extent().affected()).isEqualTo(1);
         handler.report(many(2), null, NOW + 10_000);
         assertThat(alarm("silent-device-1"))
-                .returns(2, Alarm::affected)
+                .returns(2, alarm -> alarm.extent().affected())
                 .returns(Alarm.Change.UPDATED, Alarm::change)
-                .returns("2 are silent", Alarm::text);
+                .returns("2 are silent", alarm -> alarm.description().text());
         handler.report(many(2), null, NOW + 30_000);
         assertThat(publisher.all()).hasSize(2);
     }
@@ -205,8 +205,10 @@ class AlarmCommandHandlerTest {
         Alarm crowd = alarm("collision-" + (AlarmLimit.MAX_ALARMS + 1));
         assertThat(crowd)
                 .returns("urn:ngsi-ld:Mission:m", Alarm::subject)
-                .returns(30, Alarm::affected)
-                .returns("30 more pairs of mission m are too close", Alarm::text);
+                .returns(30, alarm -> alarm.extent().affected())
+                .returns(
+                        "30 more pairs of mission m are too close",
+                        alarm -> alarm.description().text());
         for (int i = AlarmLimit.MAX_ALARMS; i < AlarmLimit.MAX_ALARMS + 30; i++) {
             handler.end(AlarmKind.COLLISION, "pair" + i, "over", NOW);
         }
@@ -265,15 +267,15 @@ class AlarmCommandHandlerTest {
     void mutesOneAlarmUntilItsTimeIsOver() throws Exception {
         handler.raise(silent("urn:t:1"), NOW);
         handler.answer(new AlarmCommand.Mute(new AlarmCommand.OfAlarm("silent-device-1"), HOUR), NOW);
-        assertThat(alarm("silent-device-1").mutedUntil()).isEqualTo(NOW + HOUR.toMillis());
+        assertThat(alarm("silent-device-1").handling().mutedUntil()).isEqualTo(NOW + HOUR.toMillis());
         handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "over", NOW);
         handler.raise(silent("urn:t:1"), NOW);
-        assertThat(alarm("silent-device-4").mutedUntil()).isNull();
+        assertThat(alarm("silent-device-4").handling().mutedUntil()).isNull();
 
         handler.answer(new AlarmCommand.Mute(new AlarmCommand.OfAlarm("silent-device-4"), HOUR), NOW);
         handler.passTime(NOW + HOUR.toMillis());
         assertThat(alarm("silent-device-4"))
-                .returns(null, Alarm::mutedUntil)
+                .returns(null, alarm -> alarm.handling().mutedUntil())
                 .returns(Alarm.Change.UNMUTED, Alarm::change);
     }
 
@@ -303,13 +305,13 @@ class AlarmCommandHandlerTest {
         handler.answer(new AlarmCommand.Mute(new AlarmCommand.OfKind(AlarmKind.SILENT_DEVICE, "urn:t:1"), HOUR), NOW);
         handler.raise(silent("urn:t:1"), NOW + 1);
         handler.raise(silent("urn:t:2"), NOW + 1);
-        assertThat(alarm("silent-device-1").mutedUntil()).isEqualTo(NOW + HOUR.toMillis());
-        assertThat(alarm("silent-device-2").mutedUntil()).isNull();
+        assertThat(alarm("silent-device-1").handling().mutedUntil()).isEqualTo(NOW + HOUR.toMillis());
+        assertThat(alarm("silent-device-2").handling().mutedUntil()).isNull();
 
         handler.answer(new AlarmCommand.Mute(new AlarmCommand.OfKind(AlarmKind.SILENT_DEVICE, null), HOUR), NOW + 2);
-        assertThat(alarm("silent-device-2").mutedUntil()).isEqualTo(NOW + 2 + HOUR.toMillis());
+        assertThat(alarm("silent-device-2").handling().mutedUntil()).isEqualTo(NOW + 2 + HOUR.toMillis());
         handler.answer(new AlarmCommand.Unmute(new AlarmCommand.OfKind(AlarmKind.SILENT_DEVICE, null)), NOW + 3);
-        assertThat(alarm("silent-device-1").mutedUntil()).isNull();
+        assertThat(alarm("silent-device-1").handling().mutedUntil()).isNull();
         assertThat(mutes.all()).hasSize(1);
         handler.passTime(NOW + HOUR.toMillis());
         assertThat(mutes.all()).isEmpty();

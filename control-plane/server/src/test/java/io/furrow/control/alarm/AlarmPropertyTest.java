@@ -16,10 +16,10 @@ import org.junit.jupiter.api.TestReporter;
 import io.furrow.control.manager.CapturingPublisher;
 import io.furrow.control.manager.MapTable;
 import io.furrow.control.manager.Sequence;
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.RejectedException;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -88,7 +88,10 @@ class AlarmPropertyTest {
             handler.passTime(now);
             assertThat(mutes.all()).as(label).isEmpty();
             assertThat(counted.all()).as(label).allMatch(each -> each.until() == null);
-            assertThat(alarms.all()).as(label).allMatch(alarm -> alarm.changed() == now || alarm.until() == null);
+            assertThat(alarms.all())
+                    .as(label)
+                    .allMatch(alarm ->
+                            alarm.period().changed() == now || alarm.period().until() == null);
         }
 
         private void step() {
@@ -167,7 +170,7 @@ class AlarmPropertyTest {
                 assertThat(after == state || state.canBecome(after)).as(label).isTrue();
             });
             alarms.forEach(alarm -> {
-                assertThat(alarm.reason() != null).as(label).isEqualTo(alarm.state() == AlarmState.CLOSED);
+                assertThat(alarm.handling().reason() != null).as(label).isEqualTo(alarm.state() == AlarmState.CLOSED);
                 if (alarm.state() == AlarmState.CLOSED) {
                     closed.add(alarm.alarm());
                 }
@@ -194,8 +197,12 @@ class AlarmPropertyTest {
                 Alarm alarm = StateJson.read(json, Alarm.class);
                 Alarm existing = alarms.get(id);
                 assertThat(alarm.state()).as(label).isEqualTo(existing.state());
-                assertThat(alarm.mutedUntil()).as(label).isEqualTo(existing.mutedUntil());
-                assertThat(alarm.count()).as(label).isLessThanOrEqualTo(existing.count());
+                assertThat(alarm.handling().mutedUntil())
+                        .as(label)
+                        .isEqualTo(existing.handling().mutedUntil());
+                assertThat(alarm.period().count())
+                        .as(label)
+                        .isLessThanOrEqualTo(existing.period().count());
                 assertThat(sequences.add(alarm.sequence())).as(label).isTrue();
             });
         }

@@ -14,13 +14,13 @@ import io.furrow.control.alarm.AlarmHandlerFixture;
 import io.furrow.control.alarm.Cause;
 import io.furrow.control.manager.CapturingPublisher;
 import io.furrow.control.manager.MapTable;
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -49,7 +49,9 @@ class DeviceHealthTrackerTest {
         assertThat(existing().silent()).isFalse();
         tracker.passTime(START + LONG_ENOUGH + 10_000);
         assertThat(existing().silent()).isTrue();
-        assertThat(alarms()).extracting(Alarm::text).containsExactly("1 of 1 device of mission m is silent: " + ID);
+        assertThat(alarms())
+                .extracting(alarm -> alarm.description().text())
+                .containsExactly("1 of 1 device of mission m is silent: " + ID);
     }
 
     /** As it was first said: an alarm that counts would be delivered again and again. */
@@ -63,14 +65,14 @@ class DeviceHealthTrackerTest {
         tracker.passTime(START + LONG_ENOUGH + 30_000);
 
         assertThat(alarms())
-                .extracting(Alarm::text)
+                .extracting(alarm -> alarm.description().text())
                 .containsExactly("1 of 1 device of mission m is silent: " + ID
                         + " (its password was refused 12 times, last at 2023-11-14T22:13:21Z)");
 
         connection = new DeviceConnection(START, null, null, null, null, false);
         tracker.passTime(START + LONG_ENOUGH + 50_000);
         assertThat(alarms())
-                .extracting(Alarm::text)
+                .extracting(alarm -> alarm.description().text())
                 .allMatch(text -> text.endsWith("(the IoT Agent does not know it)"));
     }
 
@@ -89,9 +91,9 @@ class DeviceHealthTrackerTest {
         tracker.passTime(START + LONG_ENOUGH + 11_000);
         assertThat(existing())
                 .returns(false, DeviceHealth::silent)
-                .returns(77L, DeviceHealth::lastSeen)
+                .returns(77L, health -> health.report().lastSeen())
                 .returns(START + LONG_ENOUGH + 11_000, DeviceHealth::since);
-        assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
+        assertThat(alarms()).extracting(alarm -> alarm.handling().reason()).containsExactly(OVER);
     }
 
     @Test
@@ -125,7 +127,7 @@ class DeviceHealthTrackerTest {
         tracker.take(KEY, heartbeat(true, START + 5), START + 31_000);
         assertThat(existing().silent()).isTrue();
         tracker.passTime(START + 31_000);
-        assertThat(alarms()).extracting(Alarm::affected).containsExactly(1);
+        assertThat(alarms()).extracting(alarm -> alarm.extent().affected()).containsExactly(1);
     }
 
     @Test
@@ -139,7 +141,7 @@ class DeviceHealthTrackerTest {
         tracker.passTime(START + 20_000);
         assertThat(publisher.compacted(Topics.DEVICES_HEALTH)).isEmpty();
         assertThat(health.all()).isEmpty();
-        assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
+        assertThat(alarms()).extracting(alarm -> alarm.handling().reason()).containsExactly(OVER);
     }
 
     @Test
@@ -148,7 +150,7 @@ class DeviceHealthTrackerTest {
         alarms.raise(single, START);
         addDesired("m", START);
         tracker.passTime(START);
-        assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
+        assertThat(alarms()).extracting(alarm -> alarm.handling().reason()).containsExactly(OVER);
     }
 
     @Test
@@ -161,7 +163,7 @@ class DeviceHealthTrackerTest {
         assertThat(publisher.all()).hasSize(written);
         addDesired("other", START);
         tracker.passTime(START + 30_000);
-        assertThat(existing().mission()).isEqualTo("other");
+        assertThat(existing().device().mission()).isEqualTo("other");
     }
 
     private DeviceHealthTracker tracker() {

@@ -22,13 +22,13 @@ import io.furrow.control.alarm.AlarmHandlerFixture;
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.manager.CapturingPublisher;
 import io.furrow.control.manager.MapTable;
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -151,12 +151,15 @@ class SilencePropertyTest {
                     .extracting(alarm -> alarm.kind() + alarm.subject())
                     .doesNotHaveDuplicates();
             Map<String, Long> silent = health.all().stream()
-                    .filter(device -> device.silent() && !alarms.isMuted(AlarmKind.SILENT_DEVICE, device.id(), now))
+                    .filter(device -> device.silent()
+                            && !alarms.isMuted(
+                                    AlarmKind.SILENT_DEVICE, device.device().id(), now))
                     .collect(Collectors.groupingBy(
-                            device -> "urn:ngsi-ld:Mission:" + device.mission(), Collectors.counting()));
+                            device -> "urn:ngsi-ld:Mission:" + device.device().mission(), Collectors.counting()));
             Map<String, Long> counted = open.stream()
                     .filter(alarm -> alarm.kind() == AlarmKind.SILENT_DEVICE)
-                    .collect(Collectors.toMap(Alarm::subject, alarm -> (long) alarm.affected()));
+                    .collect(Collectors.toMap(
+                            Alarm::subject, alarm -> (long) alarm.extent().affected()));
             assertThat(counted)
                     .as(label + "every cause has an alarm, none is without")
                     .isEqualTo(silent);
@@ -166,7 +169,9 @@ class SilencePropertyTest {
                     assertThat(ids).as(label).contains(alarm.inhibitedBy());
                 }
                 if (alarm.kind() != AlarmKind.SILENT_DEVICE) {
-                    assertThat(alarm.affected() * 4).as(label + alarm).isGreaterThanOrEqualTo(alarm.total());
+                    assertThat(alarm.extent().affected() * 4)
+                            .as(label + alarm)
+                            .isGreaterThanOrEqualTo(alarm.extent().total());
                 }
             }
             boolean nothing = talking.isEmpty()

@@ -90,7 +90,7 @@ class FailureHandlerTest {
         StreamsBuilder builder = new StreamsBuilder();
         KStream<String, byte[]> stream = builder.stream(topic, Consumed.with(Serdes.String(), Serdes.ByteArray()));
         if (repartitions) {
-            stream = ManagerInput.toSinglePartition(stream.process(SourcePositionProcessor::new), "in-line");
+            stream = ManagerTopology.toSinglePartition(stream.process(SourcePositionProcessor::new), "in-line");
         }
         stream.process(Failing::new).to("out", Produced.with(Serdes.String(), Serdes.ByteArray()));
         Properties settings = new Properties();

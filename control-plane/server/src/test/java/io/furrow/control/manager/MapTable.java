@@ -6,6 +6,8 @@ import java.util.TreeMap;
 import java.util.function.Consumer;
 import java.util.function.Function;
 
+import io.furrow.model.ngsi.StateJson;
+
 /** Remembers in the form in which stores do, so that what a store could not give back is not given back here either. */
 public final class MapTable<T> implements Table<T> {
     private final Map<String, byte[]> bytes = new TreeMap<>();

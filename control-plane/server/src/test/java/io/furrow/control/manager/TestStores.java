@@ -27,7 +27,7 @@ public final class TestStores {
     }
 
     /** For handlers. */
-    public UnitOfWork context() {
+    public UnitOfWork unitOfWork() {
         return unitOfWork;
     }
 

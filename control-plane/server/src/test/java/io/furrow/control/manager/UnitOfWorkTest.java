@@ -13,8 +13,8 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class UnitOfWorkTest {
     private final TestStores stores = new TestStores(List.of("one", "two"));
-    private final Table<String> one = StoreTable.of(stores.context(), "one", String.class);
-    private final Table<String> two = StoreTable.of(stores.context(), "two", String.class);
+    private final Table<String> one = stores.unitOfWork().table("one", String.class);
+    private final Table<String> two = stores.unitOfWork().table("two", String.class);
 
     @Test
     void appliesAllThatWorkWrote() {
@@ -95,6 +95,6 @@ class UnitOfWorkTest {
     }
 
     private void send(String topic, String key, int bytes) {
-        stores.context().forward(new Record<>(key, new OutputRecord(topic, new byte[bytes]), 0));
+        stores.unitOfWork().forward(new Record<>(key, new OutputRecord(topic, new byte[bytes]), 0));
     }
 }

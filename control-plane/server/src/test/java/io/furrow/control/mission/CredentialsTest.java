@@ -5,13 +5,13 @@ import java.nio.charset.StandardCharsets;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.RejectedException;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceStatus.State;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -12,9 +12,6 @@ import io.furrow.control.domain.DomainCommandHandler;
 import io.furrow.control.domain.DomainManager;
 import io.furrow.control.health.DeviceHealth;
 import io.furrow.control.manager.CapturingPublisher;
-import io.furrow.control.manager.CommandProcessor;
-import io.furrow.control.manager.StateJson;
-import io.furrow.control.manager.StoreTable;
 import io.furrow.control.manager.Table;
 import io.furrow.control.manager.TestStores;
 import io.furrow.model.control.CommandResult;
@@ -34,6 +31,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.MissionDeviceLists;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.field.FieldVersion;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -51,13 +49,12 @@ final class FarmFixture {
                     .toList());
 
     final CapturingPublisher publisher = stores.publisher();
-    final Table<Domain> domains = StoreTable.of(stores.context(), "domains", Domain.class);
-    final Table<Mission> missions = StoreTable.of(stores.context(), "missions", Mission.class);
-    final Table<MissionStatus> statuses = StoreTable.of(stores.context(), "mission-statuses", MissionStatus.class);
-    final Table<DeviceState> devices = StoreTable.of(stores.context(), "devices", DeviceState.class);
-    final Table<PendingAssignment> rollouts =
-            StoreTable.of(stores.context(), "mission-rollouts", PendingAssignment.class);
-    final Table<FieldVersion> fields = StoreTable.of(stores.context(), "fields", FieldVersion::toBytes, bytes -> {
+    final Table<Domain> domains = stores.unitOfWork().table("domains", Domain.class);
+    final Table<Mission> missions = stores.unitOfWork().table("missions", Mission.class);
+    final Table<MissionStatus> statuses = stores.unitOfWork().table("mission-statuses", MissionStatus.class);
+    final Table<DeviceState> devices = stores.unitOfWork().table("devices", DeviceState.class);
+    final Table<PendingAssignment> rollouts = stores.unitOfWork().table("mission-rollouts", PendingAssignment.class);
+    final Table<FieldVersion> fields = stores.unitOfWork().table("fields", FieldVersion::toBytes, bytes -> {
         throw new AssertionError("only the handler reads them");
     });
     final MissionCommandHandler missionHandler;
@@ -71,10 +68,8 @@ final class FarmFixture {
     FarmFixture(int devicesPerStep) {
         MissionSettings options =
                 new MissionSettings(Duration.ofMillis(TIMEOUT), new FiwareScope("farm", "/"), false, devicesPerStep);
-        missionHandler =
-                MissionManager.handler(stores.context(), CommandProcessor.publisher(stores.context()), options);
-        domainHandler =
-                DomainManager.handler(stores.context(), missionHandler, CommandProcessor.publisher(stores.context()));
+        missionHandler = MissionManager.handler(stores.unitOfWork(), options);
+        domainHandler = DomainManager.handler(stores.unitOfWork(), missionHandler);
         run(missionHandler.templates()::installBuiltIn);
     }
 
@@ -154,19 +149,16 @@ final class FarmFixture {
     void report(DesiredDevice device, long heard) {
         DeviceVersion version = device.version();
         DeviceHealth health = new DeviceHealth(
-                version.id(),
-                version.service(),
-                version.servicePath(),
-                device.type(),
-                version.domain(),
-                version.mission(),
+                new DeviceHealth.Device(
+                        version.id(),
+                        version.service(),
+                        version.servicePath(),
+                        device.type(),
+                        version.domain(),
+                        version.mission()),
                 false,
                 heard,
-                heard,
-                heard,
-                null,
-                null,
-                false);
+                new DeviceHealth.NewestReport(heard, heard, null, null, false));
         run(() -> missionHandler.reported(version.key(), health, now));
     }
 

@@ -4,92 +4,44 @@ import java.time.Duration;
 import java.util.Arrays;
 import java.util.stream.Collectors;
 
-import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.annotation.JsonProperty;
+import com.fasterxml.jackson.annotation.JsonTypeName;
+import com.fasterxml.jackson.annotation.JsonUnwrapped;
 
 /** What the topic {@code service.alarmmanager} asks for. */
 public sealed interface AlarmCommand extends Command {
     /** What is muted: one alarm, or all of a kind, those to come too. */
-    sealed interface Target {
-        void describe(ObjectNode request);
-    }
+    sealed interface Target {}
 
-    record OfAlarm(String alarm) implements Target {
-        @Override
-        public void describe(ObjectNode request) {
-            request.put(ALARM, alarm);
-        }
-    }
+    record OfAlarm(String alarm) implements Target {}
 
     /** @param subject null for all subjects */
-    record OfKind(AlarmKind kind, String subject) implements Target {
-        @Override
-        public void describe(ObjectNode request) {
-            request.put("kind", kind.code());
-            DeviceGroup.put(request, "subject", subject);
-        }
-    }
+    record OfKind(AlarmKind kind, String subject) implements Target {}
 
     /**
      * Somebody looks at it.
      *
      * @param user who; null if nobody says so
      */
-    record Acknowledge(String alarm, String user) implements AlarmCommand {
-        @Override
-        public String verb() {
-            return "acknowledge";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            request.put(ALARM, alarm);
-            DeviceGroup.put(request, USER, user);
-        }
-    }
+    @JsonTypeName("acknowledge")
+    record Acknowledge(String alarm, String user) implements AlarmCommand {}
 
     /**
      * It is over, whatever devices say.
      *
      * @param user who says so; null if nobody does
      */
-    record Close(String alarm, String user) implements AlarmCommand {
-        @Override
-        public String verb() {
-            return "close";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            request.put(ALARM, alarm);
-            DeviceGroup.put(request, USER, user);
-        }
-    }
+    @JsonTypeName("close")
+    record Close(String alarm, String user) implements AlarmCommand {}
 
     /** Nobody is notified of it for a while. */
-    record Mute(Target target, Duration time) implements AlarmCommand {
-        @Override
-        public String verb() {
-            return "mute";
-        }
+    @JsonTypeName("mute")
+    record Mute(
+            @JsonUnwrapped Target target,
+            @JsonProperty("for") Duration time) implements AlarmCommand {}
 
-        @Override
-        public void describe(ObjectNode request) {
-            target.describe(request);
-            request.put("for", time.toString());
-        }
-    }
-
-    record Unmute(Target target) implements AlarmCommand {
-        @Override
-        public String verb() {
-            return "unmute";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            target.describe(request);
-        }
-    }
+    @JsonTypeName("unmute")
+    record Unmute(@JsonUnwrapped Target target) implements AlarmCommand {}
 
     String ALARM = "alarm";
     String USER = "user";

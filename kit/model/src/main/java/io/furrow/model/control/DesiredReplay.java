@@ -2,12 +2,16 @@ package io.furrow.model.control;
 
 import java.util.Objects;
 
+import com.fasterxml.jackson.annotation.JsonProperty;
+import com.fasterxml.jackson.annotation.JsonUnwrapped;
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.annotation.JsonSerialize;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.databind.util.StdConverter;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -32,10 +36,16 @@ public record DesiredReplay(
         String mission,
         String topic,
         String group,
-        ReplayPlan plan,
+        @JsonUnwrapped ReplayPlan plan,
+
+        @JsonSerialize(converter = ReplayCommand.SpeedToJson.class)
         double speed,
+
         Range range,
+
+        @JsonProperty("wanted") @JsonSerialize(converter = StateToText.class)
         ReplayStatus.State desired,
+
         Seek seek,
         Step step,
         Clock clock,
@@ -56,10 +66,6 @@ public record DesiredReplay(
                 throw JsonObjectReader.wrong("to", "after 'from'");
             }
             return new Range(from, to);
-        }
-
-        void describe(ObjectNode json) {
-            json.put("from", from).put("to", to);
         }
     }
 
@@ -90,6 +96,13 @@ public record DesiredReplay(
         public long position(long now, double speed, Range loop) {
             long position = position(now, speed);
             return position < loop.to ? position : loop.from + (position - loop.from) % (loop.to - loop.from);
+        }
+    }
+
+    private static final class StateToText extends StdConverter<ReplayStatus.State, String> {
+        @Override
+        public String convert(ReplayStatus.State state) {
+            return state.code();
         }
     }
 
@@ -246,29 +259,13 @@ public record DesiredReplay(
                 members.textOrNull("group"),
                 ReplayPlan.read(members),
                 ReplayCommand.speed(members, true),
-                range(members.membersOrNull("range")),
+                members.partOrNull("range", Range::read),
                 desired(members),
-                seek(members.membersOrNull("seek")),
-                step(members.membersOrNull("step")),
-                clock(members.membersOrNull("clock")),
+                members.partOrNull("seek", part -> new Seek(part.number("to"), part.number("sequence"))),
+                members.partOrNull("step", part -> new Step(part.number("total"), part.number("sequence"))),
+                members.partOrNull("clock", part -> new Clock(part.number("at"), part.number("shows"))),
                 members.has("created") ? members.number("created") : 0,
                 members.number("sequence"));
-    }
-
-    private static Range range(JsonObjectReader members) throws RejectedException {
-        return members == null ? null : Range.read(members);
-    }
-
-    private static Seek seek(JsonObjectReader members) throws RejectedException {
-        return members == null ? null : new Seek(members.number("to"), members.number("sequence"));
-    }
-
-    private static Step step(JsonObjectReader members) throws RejectedException {
-        return members == null ? null : new Step(members.number("total"), members.number("sequence"));
-    }
-
-    private static Clock clock(JsonObjectReader members) throws RejectedException {
-        return members == null ? null : new Clock(members.number("at"), members.number("shows"));
     }
 
     private static ReplayStatus.State desired(JsonObjectReader members) throws RejectedException {
@@ -289,24 +286,6 @@ public record DesiredReplay(
     }
 
     public byte[] toBytes() {
-        ObjectNode json = JsonNodeFactory.instance.objectNode();
-        json.put("replay", replay).put("mission", mission).put("topic", topic);
-        DeviceGroup.put(json, "group", group);
-        plan.describe(json);
-        json.set("speed", ReplayCommand.json(speed));
-        if (range != null) {
-            range.describe(json.putObject("range"));
-        }
-        json.put("wanted", desired.code());
-        if (seek != null) {
-            json.putObject("seek").put("to", seek.to).put("sequence", seek.sequence);
-        }
-        if (step != null) {
-            json.putObject("step").put("total", step.total).put("sequence", step.sequence);
-        }
-        if (clock != null) {
-            json.putObject("clock").put("at", clock.at).put("shows", clock.shows);
-        }
-        return NgsiJson.write(json.put("created", created).put("sequence", sequence));
+        return StateJson.write(this);
     }
 }

@@ -1,50 +1,22 @@
 package io.furrow.model.control;
 
-import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.annotation.JsonTypeName;
+import com.fasterxml.jackson.annotation.JsonUnwrapped;
 
 /** What the topic {@code service.domainmanager} asks for. */
 public sealed interface DomainCommand extends Command {
     String domain();
 
-    record Create(String domain, DomainDetails details) implements DomainCommand {
-        @Override
-        public String verb() {
-            return "create";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            request.put("domain", domain);
-            details.describe(request);
-        }
-    }
+    @JsonTypeName("create")
+    record Create(String domain, @JsonUnwrapped DomainDetails details) implements DomainCommand {}
 
     /** What the details do not say stays as it is. */
-    record Change(String domain, DomainDetails details) implements DomainCommand {
-        @Override
-        public String verb() {
-            return "change";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            request.put("domain", domain);
-            details.describe(request);
-        }
-    }
+    @JsonTypeName("change")
+    record Change(String domain, @JsonUnwrapped DomainDetails details) implements DomainCommand {}
 
     /** @param force whether missions that run in it are stopped, rather than the request refused */
-    record Delete(String domain, boolean force) implements DomainCommand {
-        @Override
-        public String verb() {
-            return "delete";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            request.put("domain", domain).put("force", force);
-        }
-    }
+    @JsonTypeName("delete")
+    record Delete(String domain, boolean force) implements DomainCommand {}
 
     /** A request without {@code command} creates: that is how the WeLASER dashboard asks. */
     static DomainCommand read(String verb, JsonObjectReader members) throws RejectedException {

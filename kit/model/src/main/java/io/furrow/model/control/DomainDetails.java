@@ -3,7 +3,6 @@ package io.furrow.model.control;
 import java.util.List;
 import java.util.regex.Pattern;
 
-import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
@@ -38,18 +37,5 @@ public record DomainDetails(String name, String description, ObjectNode area, Li
                 members.textOrNull("description"),
                 area,
                 members.has("fields") ? members.texts("fields", FIELD, "ids of fields") : null);
-    }
-
-    /** Puts what is said. */
-    void describe(ObjectNode json) {
-        DeviceGroup.put(json, "name", name);
-        DeviceGroup.put(json, "description", description);
-        if (area != null) {
-            json.set("area", area);
-        }
-        if (fields != null) {
-            ArrayNode ids = json.putArray("fields");
-            fields.forEach(ids::add);
-        }
     }
 }

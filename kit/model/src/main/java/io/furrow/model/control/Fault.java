@@ -4,6 +4,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -23,6 +24,6 @@ public record Fault(String text) {
     }
 
     public byte[] toBytes() {
-        return NgsiJson.write(NgsiJson.mapper().createObjectNode().put("text", text));
+        return StateJson.write(this);
     }
 }

@@ -191,10 +191,15 @@ public final class JsonObjectReader {
         }
     }
 
-    /** Those of an object; null if it is missing. */
-    JsonObjectReader membersOrNull(String member) throws RejectedException {
+    /** Makes something of the members of an object. */
+    interface Part<T> {
+        T read(JsonObjectReader members) throws RejectedException;
+    }
+
+    /** What the members of an object are; null if it is missing. */
+    <T> T partOrNull(String member, Part<T> part) throws RejectedException {
         ObjectNode object = objectOrNull(member);
-        return object == null ? null : new JsonObjectReader(object);
+        return object == null ? null : part.read(new JsonObjectReader(object));
     }
 
     /** Null if it is missing. */

@@ -3,16 +3,15 @@ package io.furrow.model.control;
 import java.time.Duration;
 import java.time.Instant;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
+import com.fasterxml.jackson.annotation.JsonTypeName;
+import com.fasterxml.jackson.annotation.JsonUnwrapped;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /** What the topic {@code service.missionmanager} asks for. */
 public sealed interface MissionCommand extends Command {
+    @JsonTypeName("create")
     record Create(String mission, String domain, MissionPlan plan) implements MissionCommand {
-        @Override
-        public String verb() {
-            return "create";
-        }
-
         @Override
         public void describe(ObjectNode request) {
             request.put("mission", mission).put("domain", domain);
@@ -27,13 +26,9 @@ public sealed interface MissionCommand extends Command {
      * @param start when it shall start; null, and a time that has passed, is now
      * @param duration after which it is stopped, from its start on; null for never
      */
+    @JsonTypeName("start")
     record Start(String mission, String domain, MissionPlan plan, Instant start, Duration duration)
             implements MissionCommand {
-        @Override
-        public String verb() {
-            return "start";
-        }
-
         @Override
         public void describe(ObjectNode request) {
             request.put("mission", mission);
@@ -44,89 +39,33 @@ public sealed interface MissionCommand extends Command {
         }
     }
 
-    record Stop(String mission) implements MissionCommand {
-        @Override
-        public String verb() {
-            return "stop";
-        }
+    @JsonTypeName("stop")
+    record Stop(String mission) implements MissionCommand {}
 
-        @Override
-        public void describe(ObjectNode request) {
-            request.put("mission", mission);
-        }
-    }
-
-    record Delete(String mission) implements MissionCommand {
-        @Override
-        public String verb() {
-            return "delete";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            request.put("mission", mission);
-        }
-    }
+    @JsonTypeName("delete")
+    record Delete(String mission) implements MissionCommand {}
 
     /** Adds to the list of a mission that is not active. */
-    record AddDevices(String mission, MissionDevices devices) implements MissionCommand {
-        @Override
-        public String verb() {
-            return "add-devices";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            request.put("mission", mission);
-            request.set("devices", devices.toJson());
-        }
-    }
+    @JsonTypeName("add-devices")
+    record AddDevices(String mission, MissionDevices devices) implements MissionCommand {}
 
     /** Keeps a new version; the version that the template names is skipped. */
-    record SaveTemplate(MissionTemplate template) implements MissionCommand {
-        @Override
-        public String verb() {
-            return "save-template";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            template.describe(request);
-        }
-    }
+    @JsonTypeName("save-template")
+    record SaveTemplate(@JsonUnwrapped MissionTemplate template) implements MissionCommand {}
 
     /** @param version 0 for all */
-    record DeleteTemplate(String template, int version) implements MissionCommand {
-        @Override
-        public String verb() {
-            return "delete-template";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            request.put("template", template);
-            if (version > 0) {
-                request.put("version", version);
-            }
-        }
-    }
+    @JsonTypeName("delete-template")
+    record DeleteTemplate(
+            String template,
+            @JsonInclude(JsonInclude.Include.NON_DEFAULT) int version) implements MissionCommand {}
 
     /**
      * Gives a device a new password; the old one is refused from then on.
      *
      * @param device id of its entity
      */
-    record RotateCredentials(String device) implements MissionCommand {
-        @Override
-        public String verb() {
-            return "rotate-credentials";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            request.put("device", device);
-        }
-    }
+    @JsonTypeName("rotate-credentials")
+    record RotateCredentials(String device) implements MissionCommand {}
 
     static MissionCommand read(String verb, JsonObjectReader members) throws RejectedException {
         return switch (verb == null ? "" : verb) {

@@ -7,6 +7,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 
+import com.fasterxml.jackson.annotation.JsonValue;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -139,6 +140,7 @@ public record MissionDevices(List<DeviceGroup> groups) {
     }
 
     /** As {@code devices} has it. */
+    @JsonValue
     public ArrayNode toJson() {
         ArrayNode array = JsonNodeFactory.instance.arrayNode();
         groups.forEach(group -> array.add(group.toJson()));

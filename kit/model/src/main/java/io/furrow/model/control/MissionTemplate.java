@@ -1,10 +1,12 @@
 package io.furrow.model.control;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
+import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -14,7 +16,11 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param version from 1 on; a version never changes. 0 where it is not yet given
  * @param description null if there is none
  */
-public record MissionTemplate(String name, int version, String description, MissionDevices devices) {
+public record MissionTemplate(
+        @JsonProperty("template") String name,
+        @JsonInclude(JsonInclude.Include.NON_DEFAULT) int version,
+        String description,
+        MissionDevices devices) {
     /** {@code <name>@<version>}. */
     public String key() {
         return name + "@" + version;
@@ -51,19 +57,7 @@ public record MissionTemplate(String name, int version, String description, Miss
                 MissionDevices.read(members));
     }
 
-    /** Puts all of it. */
-    void describe(ObjectNode json) {
-        json.put("template", name);
-        if (version > 0) {
-            json.put("version", version);
-        }
-        DeviceGroup.put(json, "description", description);
-        json.set("devices", devices.toJson());
-    }
-
     public byte[] toBytes() {
-        ObjectNode json = JsonNodeFactory.instance.objectNode();
-        describe(json);
-        return NgsiJson.write(json);
+        return StateJson.write(this);
     }
 }

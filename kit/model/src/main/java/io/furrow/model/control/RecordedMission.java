@@ -1,10 +1,10 @@
 package io.furrow.model.control;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -14,10 +14,6 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param last event time of its newest event, epoch ms, inclusive
  */
 public record RecordedMission(String mission, long first, long last) {
-    private static final String MISSION = "mission";
-    private static final String FIRST = "first";
-    private static final String LAST = "last";
-
     /**
      * Reads the value of a record; members of other names are skipped.
      *
@@ -29,14 +25,13 @@ public record RecordedMission(String mission, long first, long last) {
         }
         JsonObjectReader members = new JsonObjectReader(json);
         try {
-            return new RecordedMission(members.text(MISSION), members.number(FIRST), members.number(LAST));
+            return new RecordedMission(members.text("mission"), members.number("first"), members.number("last"));
         } catch (RejectedException e) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
         }
     }
 
     public byte[] toBytes() {
-        ObjectNode json = JsonNodeFactory.instance.objectNode();
-        return NgsiJson.write(json.put(MISSION, mission).put(FIRST, first).put(LAST, last));
+        return StateJson.write(this);
     }
 }

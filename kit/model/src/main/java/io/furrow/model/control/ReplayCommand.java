@@ -5,10 +5,14 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.regex.Pattern;
 
+import com.fasterxml.jackson.annotation.JsonIgnore;
+import com.fasterxml.jackson.annotation.JsonTypeName;
+import com.fasterxml.jackson.annotation.JsonUnwrapped;
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.annotation.JsonSerialize;
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.databind.util.StdConverter;
 
 import io.furrow.model.topic.TopicName;
 
@@ -35,36 +39,32 @@ public sealed interface ReplayCommand extends Command {
      * @param speed 0.1 to 1000, or {@link #MAX}
      * @param range what is played over and over; null for all
      */
-    record Start(List<String> missions, String topic, double speed, DesiredReplay.Range range, ReplayPlan plan)
+    @JsonTypeName("start")
+    record Start(
+            @JsonIgnore List<String> missions,
+            String topic,
+            @JsonSerialize(converter = SpeedToJson.class) double speed,
+            DesiredReplay.Range range,
+            @JsonUnwrapped ReplayPlan plan)
             implements ReplayCommand {
         public Start {
             missions = List.copyOf(missions);
         }
 
         /** Whether it asks for replays that follow one clock. */
+        @JsonIgnore
         public boolean isGroup() {
             return missions.size() > 1;
         }
 
         @Override
-        public String verb() {
-            return "start";
-        }
-
-        @Override
         public void describe(ObjectNode request) {
             if (isGroup()) {
-                ArrayNode names = request.putArray("missions");
-                missions.forEach(names::add);
+                missions.forEach(request.putArray("missions")::add);
             } else {
                 request.put("mission", missions.get(0));
             }
-            DeviceGroup.put(request, "topic", topic);
-            request.set("speed", json(speed));
-            if (range != null) {
-                range.describe(request.putObject("range"));
-            }
-            plan.describe(request);
+            ReplayCommand.super.describe(request);
         }
 
         private static Start read(JsonObjectReader members) throws RejectedException {
@@ -79,13 +79,7 @@ public sealed interface ReplayCommand extends Command {
             if (missions.size() > 1 && (speed == MAX || plan.maxGap() != null || plan.source() != null)) {
                 throw JsonObjectReader.wrong("missions", "one where 'speed' is max, or 'maxGap' or 'source' is given");
             }
-            ObjectNode range = members.objectOrNull("range");
-            return new Start(
-                    missions,
-                    topic,
-                    speed,
-                    range == null ? null : DesiredReplay.Range.read(new JsonObjectReader(range)),
-                    plan);
+            return new Start(missions, topic, speed, members.partOrNull("range", DesiredReplay.Range::read), plan);
         }
 
         private static List<String> missions(JsonObjectReader members) throws RejectedException {
@@ -154,12 +148,6 @@ public sealed interface ReplayCommand extends Command {
             return replay;
         }
 
-        ObjectNode describe(ObjectNode request) {
-            DeviceGroup.put(request, "replay", replay);
-            DeviceGroup.put(request, "group", group);
-            return request;
-        }
-
         /** As it stands in a sentence. */
         @Override
         public String toString() {
@@ -174,71 +162,29 @@ public sealed interface ReplayCommand extends Command {
         RESUME
     }
 
-    record Simple(Target target, Verb what) implements Steering {
+    record Simple(@JsonUnwrapped Target target, @JsonIgnore Verb what) implements Steering {
         @Override
         public String verb() {
             return what.name().toLowerCase(java.util.Locale.ROOT);
         }
-
-        @Override
-        public void describe(ObjectNode request) {
-            target.describe(request);
-        }
     }
 
     /** @param to event time to continue from */
-    record Seek(Target target, Instant to) implements Steering {
-        @Override
-        public String verb() {
-            return "seek";
-        }
+    @JsonTypeName("seek")
+    record Seek(@JsonUnwrapped Target target, Instant to) implements Steering {}
 
-        @Override
-        public void describe(ObjectNode request) {
-            DeviceGroup.put(target.describe(request), "to", to);
-        }
-    }
-
-    record Speed(Target target, double speed) implements Steering {
-        @Override
-        public String verb() {
-            return "speed";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            target.describe(request).set("speed", json(speed));
-        }
-    }
+    @JsonTypeName("speed")
+    record Speed(
+            @JsonUnwrapped Target target,
+            @JsonSerialize(converter = SpeedToJson.class) double speed) implements Steering {}
 
     /** @param count how many events are played, one after the other, of a replay that is paused; back where it is negative */
-    record Step(Target target, int count) implements Steering {
-        @Override
-        public String verb() {
-            return "step";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            target.describe(request).put("count", count);
-        }
-    }
+    @JsonTypeName("step")
+    record Step(@JsonUnwrapped Target target, int count) implements Steering {}
 
     /** @param range what is played over and over from now on; null for all */
-    record Loop(Target target, DesiredReplay.Range range) implements Steering {
-        @Override
-        public String verb() {
-            return "loop";
-        }
-
-        @Override
-        public void describe(ObjectNode request) {
-            target.describe(request);
-            if (range != null) {
-                range.describe(request);
-            }
-        }
-    }
+    @JsonTypeName("loop")
+    record Loop(@JsonUnwrapped Target target, @JsonUnwrapped DesiredReplay.Range range) implements Steering {}
 
     static ReplayCommand read(String verb, JsonObjectReader members) throws RejectedException {
         return switch (verb == null ? "" : verb) {
@@ -285,7 +231,10 @@ public sealed interface ReplayCommand extends Command {
     }
 
     /** A speed as requests have it: a number, or {@code max}. */
-    static JsonNode json(double speed) {
-        return speed == MAX ? JsonNodeFactory.instance.textNode("max") : JsonNodeFactory.instance.numberNode(speed);
+    final class SpeedToJson extends StdConverter<Double, Object> {
+        @Override
+        public Object convert(Double speed) {
+            return speed == MAX ? "max" : speed;
+        }
     }
 }

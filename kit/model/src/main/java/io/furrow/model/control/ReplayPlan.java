@@ -6,8 +6,10 @@ import java.util.List;
 import java.util.Locale;
 import java.util.regex.Pattern;
 
-import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.annotation.JsonInclude;
+import com.fasterxml.jackson.databind.annotation.JsonSerialize;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.databind.util.StdConverter;
 
 import io.furrow.model.result.AnalyticsKind;
 
@@ -29,11 +31,14 @@ public record ReplayPlan(
         Long from,
         Long to,
         boolean loop,
-        List<String> devices,
-        Long maxGap,
+        @JsonInclude(JsonInclude.Include.NON_EMPTY) List<String> devices,
+        @JsonSerialize(converter = GapToText.class) Long maxGap,
+
+        @JsonSerialize(converter = StampsToText.class) @JsonInclude(JsonInclude.Include.NON_EMPTY)
         Stamps stamps,
+
         Long startAt,
-        List<String> analytics) {
+        @JsonInclude(JsonInclude.Include.NON_EMPTY) List<String> analytics) {
     /** The whole of a mission, once. */
     public static final ReplayPlan PLAIN =
             new ReplayPlan(null, null, null, false, List.of(), null, Stamps.ORIGINAL, null, List.of());
@@ -68,6 +73,21 @@ public record ReplayPlan(
 
         String code() {
             return name().toLowerCase(Locale.ROOT);
+        }
+    }
+
+    private static final class GapToText extends StdConverter<Long, String> {
+        @Override
+        public String convert(Long millis) {
+            return Duration.ofMillis(millis).toString();
+        }
+    }
+
+    /** Original ones are not said. */
+    private static final class StampsToText extends StdConverter<Stamps, String> {
+        @Override
+        public String convert(Stamps stamps) {
+            return stamps == Stamps.ORIGINAL ? null : stamps.code();
         }
     }
 
@@ -115,40 +135,6 @@ public record ReplayPlan(
 
     private static Long millis(Instant time) {
         return time == null ? null : Long.valueOf(time.toEpochMilli());
-    }
-
-    void describe(ObjectNode json) {
-        if (source != null) {
-            ObjectNode where = json.putObject("source");
-            DeviceGroup.put(where, "topic", source.topic);
-            DeviceGroup.put(where, "file", source.file);
-        }
-        put(json, "from", from);
-        put(json, "to", to);
-        json.put("loop", loop);
-        put(json, "devices", devices);
-        DeviceGroup.put(
-                json,
-                "maxGap",
-                maxGap == null ? null : Duration.ofMillis(maxGap).toString());
-        if (stamps != Stamps.ORIGINAL) {
-            json.put("stamps", stamps.code());
-        }
-        put(json, "startAt", startAt);
-        put(json, "analytics", analytics);
-    }
-
-    private static void put(ObjectNode json, String member, Long number) {
-        if (number != null) {
-            json.put(member, number);
-        }
-    }
-
-    private static void put(ObjectNode json, String member, List<String> texts) {
-        if (!texts.isEmpty()) {
-            ArrayNode array = json.putArray(member);
-            texts.forEach(array::add);
-        }
     }
 
     /** The same between other times. */

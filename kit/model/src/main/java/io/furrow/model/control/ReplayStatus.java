@@ -3,12 +3,14 @@ package io.furrow.model.control;
 import java.util.Locale;
 import java.util.Objects;
 
+import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -67,13 +69,17 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
             long from,
             long to,
             long offset,
-            long latenessMillis,
-            long slipMillis,
-            double eventsPerSecond,
+            @JsonProperty("lateness") long latenessMillis,
+            @JsonProperty("slip") long slipMillis,
+            @JsonProperty("rate") double eventsPerSecond,
             long events,
             long primes,
             long skipped,
             String waiting) {
+        public Progress {
+            waiting = Limits.reason(waiting);
+        }
+
         private static Progress read(JsonNode json) {
             return new Progress(
                     json.path("epoch").asLong(),
@@ -87,17 +93,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
                     json.path("events").asLong(),
                     json.path("primes").asLong(),
                     json.path("skipped").asLong(),
-                    Limits.reason(json.path("waiting").textValue()));
-        }
-
-        private void describe(ObjectNode json) {
-            json.put("epoch", epoch).put("position", position).put("from", from).put("to", to);
-            json.put("offset", offset).put("lateness", latenessMillis).put("slip", slipMillis);
-            json.put("rate", eventsPerSecond)
-                    .put("events", events)
-                    .put("primes", primes)
-                    .put("skipped", skipped);
-            DeviceGroup.put(json, "waiting", Limits.reason(waiting));
+                    json.path("waiting").textValue());
         }
     }
 
@@ -138,7 +134,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
             json.put(SETTLED, settled);
         }
         if (progress != null) {
-            progress.describe(json.putObject(PROGRESS));
+            json.set(PROGRESS, StateJson.tree(progress));
         }
         return NgsiJson.write(json);
     }

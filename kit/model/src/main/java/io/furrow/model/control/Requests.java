@@ -58,7 +58,7 @@ public final class Requests {
 
     /** The answer to a command that was understood and not granted. */
     public static CommandResult refusal(RejectedException refusal, Command command) {
-        ObjectNode request = json();
+        ObjectNode request = JsonNodeFactory.instance.objectNode();
         command.describe(request);
         return aboutSubjects(CommandResult.refused(refusal), request);
     }
@@ -122,10 +122,6 @@ public final class Requests {
             }
         }
         return answer;
-    }
-
-    private static ObjectNode json() {
-        return JsonNodeFactory.instance.objectNode();
     }
 
     static RejectedException unknown(String verb, String known) {

@@ -12,6 +12,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.control.MeasuredAttribute;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -121,7 +122,7 @@ public record DesiredDevice(
     }
 
     public byte[] toBytes() {
-        ObjectNode json = version.toJson();
+        ObjectNode json = StateJson.tree(version);
         if (type != null) {
             json.put("type", type).put("device", device).put(SIMULATED, simulated);
         }
@@ -133,7 +134,7 @@ public record DesiredDevice(
             json.set(SETTINGS, settings);
         }
         if (group != null) {
-            group.describe(json.putObject(GROUP));
+            json.set(GROUP, StateJson.tree(group));
         }
         if (generation > 0) {
             json.put(GENERATION, generation);

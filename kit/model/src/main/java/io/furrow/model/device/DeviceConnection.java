@@ -1,15 +1,7 @@
 package io.furrow.model.device;
 
-import java.io.IOException;
-import java.io.UncheckedIOException;
-
-import com.fasterxml.jackson.annotation.JsonInclude;
-import com.fasterxml.jackson.databind.DeserializationFeature;
-import com.fasterxml.jackson.databind.ObjectMapper;
-
-import io.furrow.model.ngsi.JsonProblem;
-import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -34,11 +26,6 @@ public record DeviceConnection(
     public static final String UNKNOWN_USER = "unknown-user";
     /** Reason of a refused login: the user exists and has another password. */
     public static final String WRONG_PASSWORD = "wrong-password";
-
-    private static final ObjectMapper MAPPER = NgsiJson.mapper()
-            .copy()
-            .setDefaultPropertyInclusion(JsonInclude.Include.NON_NULL)
-            .disable(DeserializationFeature.FAIL_ON_UNKNOWN_PROPERTIES);
 
     /**
      * Logins that the MQTT broker refused since the last one that it accepted.
@@ -66,17 +53,13 @@ public record DeviceConnection(
     /** @throws UnreadableException if it is no such record */
     public static DeviceConnection read(byte[] value) throws UnreadableException {
         try {
-            return MAPPER.readValue(value, DeviceConnection.class);
-        } catch (IOException e) {
-            throw new UnreadableException(Reason.NOT_JSON, "no record of a device's connection: " + JsonProblem.of(e));
+            return StateJson.readRecord(value, DeviceConnection.class);
+        } catch (UnreadableException e) {
+            throw new UnreadableException(Reason.NOT_JSON, "no record of a device's connection: " + e.getMessage(), e);
         }
     }
 
     public byte[] toBytes() {
-        try {
-            return MAPPER.writeValueAsBytes(this);
-        } catch (IOException e) {
-            throw new UncheckedIOException("cannot be written as JSON", e);
-        }
+        return StateJson.write(this);
     }
 }

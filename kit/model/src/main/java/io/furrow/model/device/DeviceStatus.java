@@ -3,13 +3,13 @@ package io.furrow.model.device;
 import java.util.Locale;
 import java.util.Objects;
 
+import com.fasterxml.jackson.annotation.JsonValue;
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.Limits;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -27,6 +27,7 @@ public record DeviceStatus(long sequence, State state, String reason) {
         FAILED;
 
         /** As the record has it. */
+        @JsonValue
         public String code() {
             return name().toLowerCase(Locale.ROOT);
         }
@@ -59,11 +60,6 @@ public record DeviceStatus(long sequence, State state, String reason) {
     }
 
     public byte[] toBytes() {
-        ObjectNode json = JsonNodeFactory.instance.objectNode();
-        json.put("sequence", sequence).put("state", state.code());
-        if (reason != null) {
-            json.put("reason", reason);
-        }
-        return NgsiJson.write(json);
+        return StateJson.write(this);
     }
 }

@@ -2,12 +2,13 @@ package io.furrow.model.device;
 
 import java.util.Objects;
 
+import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -35,7 +36,7 @@ public record DeviceVersion(
         Long until,
         long sequence,
         String carriedBy,
-        boolean stationary) {
+        @JsonInclude(JsonInclude.Include.NON_DEFAULT) boolean stationary) {
     public DeviceVersion {
         Objects.requireNonNull(id);
         Objects.requireNonNull(domain);
@@ -109,24 +110,7 @@ public record DeviceVersion(
 
     /** UTF-8 JSON; members without a value are left out. */
     public byte[] toBytes() {
-        return NgsiJson.write(toJson());
-    }
-
-    ObjectNode toJson() {
-        ObjectNode json = NgsiJson.mapper().createObjectNode();
-        json.put("id", id).put("service", service).put("servicePath", servicePath);
-        json.put("domain", domain).put("mission", mission).put("from", from);
-        if (until != null) {
-            json.put("until", until);
-        }
-        json.put("sequence", sequence);
-        if (carriedBy != null) {
-            json.put("carriedBy", carriedBy);
-        }
-        if (stationary) {
-            json.put("stationary", true);
-        }
-        return json;
+        return StateJson.write(this);
     }
 
     private static String text(JsonNode json, String member) throws UnreadableException {

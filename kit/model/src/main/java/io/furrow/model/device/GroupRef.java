@@ -1,7 +1,6 @@
 package io.furrow.model.device;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
  * Where the settings of a device are: those of a group in a part of its mission's device list, see {@link MissionDeviceList}.
@@ -29,9 +28,5 @@ public record GroupRef(int part, int index, int member, long sequence) {
     /** That of another device of the group. */
     public GroupRef ofMember(int number) {
         return new GroupRef(part, index, number, sequence);
-    }
-
-    void describe(ObjectNode json) {
-        json.put("part", part).put("index", index).put("member", member).put("sequence", sequence);
     }
 }

@@ -8,6 +8,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -61,12 +62,6 @@ public record MissionDeviceList(String mission, int part, long sequence, ArrayNo
     }
 
     public byte[] toBytes() {
-        ObjectNode json = JsonNodeFactory.instance
-                .objectNode()
-                .put("mission", mission)
-                .put("part", part)
-                .put("sequence", sequence);
-        json.set("devices", devices);
-        return NgsiJson.write(json);
+        return StateJson.write(this);
     }
 }

@@ -1,13 +1,15 @@
 package io.furrow.model.device;
 
+import java.util.Collections;
 import java.util.Map;
 import java.util.TreeMap;
 
+import com.fasterxml.jackson.annotation.JsonProperty;
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -17,7 +19,10 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param apiKeys number of the key that makes API keys
  * @param byNumber fingerprint of each key
  */
-public record SecretFingerprints(int newest, int apiKeys, Map<Integer, String> byNumber) {
+public record SecretFingerprints(
+        int newest,
+        int apiKeys,
+        @JsonProperty("fingerprints") Map<Integer, String> byNumber) {
     /** Key of the one record of the topic. */
     public static final String KEY = "farm";
 
@@ -34,7 +39,7 @@ public record SecretFingerprints(int newest, int apiKeys, Map<Integer, String> b
     }
 
     public SecretFingerprints {
-        byNumber = Map.copyOf(byNumber);
+        byNumber = Collections.unmodifiableMap(new TreeMap<>(byNumber));
     }
 
     public static SecretFingerprints of(FarmSecret secret) {
@@ -80,11 +85,7 @@ public record SecretFingerprints(int newest, int apiKeys, Map<Integer, String> b
 
     /** UTF-8 JSON. */
     public byte[] toBytes() {
-        ObjectNode json = NgsiJson.mapper().createObjectNode();
-        json.put("newest", newest).put("apiKeys", apiKeys);
-        ObjectNode fingerprints = json.putObject("fingerprints");
-        new TreeMap<>(byNumber).forEach((number, fingerprint) -> fingerprints.put(number.toString(), fingerprint));
-        return NgsiJson.write(json);
+        return StateJson.write(this);
     }
 
     /** Fingerprint and number of the newest key, as in {@link FarmSecret#toString()}. */

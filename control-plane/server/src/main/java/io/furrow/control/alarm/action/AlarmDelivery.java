@@ -30,9 +30,9 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.AlarmState;
-import io.furrow.control.manager.StateJson;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.SupervisedWorker;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 

@@ -33,7 +33,7 @@ final class DeliveryQueue {
     private static final int UNAVAILABLE_AFTER = 5;
 
     private static final Comparator<Entry> MOST_SEVERE_FIRST = Comparator.comparing(
-                    (Entry entry) -> entry.newest.severity())
+                    (Entry entry) -> entry.newest.head().severity())
             .thenComparingLong(entry -> entry.readySince)
             .thenComparingLong(entry -> entry.newest.sequence());
 
@@ -192,7 +192,7 @@ final class DeliveryQueue {
         if (!needed) {
             waiting.remove(entry);
         } else if (waiting.add(entry) && entry.failures == 0) {
-            entry.readySince = Math.min(now, entry.newest.changed());
+            entry.readySince = Math.min(now, entry.newest.period().changed());
             entry.notBefore = entry.readySince + groupWait(entry);
         } else if (entry.failures == 0) {
             entry.notBefore = Math.min(entry.notBefore, entry.readySince + groupWait(entry));
@@ -201,7 +201,7 @@ final class DeliveryQueue {
 
     private long groupWait(Entry entry) {
         boolean first = entry.delivered == null && entry.newest.state() != AlarmState.CLOSED;
-        boolean lesser = entry.newest.severity().compareTo(Severity.MAJOR) > 0;
+        boolean lesser = entry.newest.head().severity().compareTo(Severity.MAJOR) > 0;
         return first && lesser ? settings.groupWait().toMillis() : 0;
     }
 
@@ -213,7 +213,9 @@ final class DeliveryQueue {
         }
         boolean suppressed = alarm.isMuted(now) || alarm.inhibitedBy() != null;
         if (alarm.state() == AlarmState.CLOSED) {
-            return existing == null ? !suppressed && alarm.changed() >= since : existing.state() != AlarmState.CLOSED;
+            return existing == null
+                    ? !suppressed && alarm.period().changed() >= since
+                    : existing.state() != AlarmState.CLOSED;
         }
         if (suppressed) {
             return false;

@@ -1,7 +1,7 @@
 package io.furrow.control.alarm.action;
 
 import io.furrow.control.alarm.AlarmState;
-import io.furrow.control.manager.StateJson;
+import io.furrow.model.ngsi.StateJson;
 
 /**
  * The last delivery of an alarm to the webhook: a record of {@code service.alarms.delivered} keyed by the alarm's id.

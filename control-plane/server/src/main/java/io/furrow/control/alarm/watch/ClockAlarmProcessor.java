@@ -5,9 +5,13 @@ import java.util.List;
 import java.util.Locale;
 import java.util.function.Function;
 
+import org.apache.kafka.streams.processor.api.Record;
+
 import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
+import io.furrow.control.manager.Observer;
+import io.furrow.control.manager.RecordScope;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
@@ -19,7 +23,7 @@ import io.furrow.model.result.ClockResult;
  * Raises alarms for devices whose reports arrive too late and are dropped by all analyses. A job reports such a
  * device once a minute; the alarm ends after three minutes without a report.
  */
-final class ClockAlarmProcessor {
+final class ClockAlarmProcessor implements Observer {
     private static final Duration HOLDS = Duration.ofMinutes(3);
 
     private final AlarmCommandHandler alarms;
@@ -30,12 +34,13 @@ final class ClockAlarmProcessor {
         this.types = types;
     }
 
-    /**
-     * @param now epoch ms
-     * @throws UnreadableException if the record is not an entity or names no device
-     */
-    void take(byte[] record, FiwareScope scope, long now) throws UnreadableException {
-        Entity entity = Entity.parse(record);
+    @Override
+    public void take(Record<String, byte[]> record, long now) throws UnreadableException {
+        if (record.value() == null) {
+            return;
+        }
+        FiwareScope scope = RecordScope.of(record);
+        Entity entity = Entity.parse(record.value());
         if (!entity.type().equals(ClockResult.BEHIND_TYPE)) {
             return;
         }

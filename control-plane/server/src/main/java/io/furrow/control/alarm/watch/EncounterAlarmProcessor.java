@@ -4,10 +4,15 @@ import java.time.Duration;
 import java.util.List;
 import java.util.function.Function;
 
+import org.apache.kafka.streams.processor.api.Record;
+
 import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
+import io.furrow.control.manager.Observer;
+import io.furrow.control.manager.RecordScope;
 import io.furrow.model.control.AlarmKind;
+import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * Raises alarms for encounters. A collision lasts until the encounter has ended and the pair has kept its distance for a
@@ -16,7 +21,7 @@ import io.furrow.model.control.AlarmKind;
  * it ends when it is not repeated for a while, or when the encounter starts, and there is none while there is a collision. A
  * collision that is not repeated for {@link AlarmCommandHandler#COLLISION_HOLDS} has ended, too: its last record was lost.
  */
-public final class EncounterAlarmProcessor {
+public final class EncounterAlarmProcessor implements Observer {
     private final AlarmCommandHandler alarms;
     private final Function<String, String> types;
     private final AlarmDurations holds;
@@ -30,14 +35,18 @@ public final class EncounterAlarmProcessor {
     public record AlarmDurations(Duration prediction, Duration collision) {}
 
     /** @param types returns the type of a device's entity by tenant, service path and id */
-    public EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations holds) {
+    EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations holds) {
         this.alarms = alarms;
         this.types = types;
         this.holds = holds;
     }
 
-    /** @param now epoch ms */
-    public void take(EncounterReport encounter, long now) {
+    @Override
+    public void take(Record<String, byte[]> record, long now) throws UnreadableException {
+        if (record.value() == null) {
+            return;
+        }
+        EncounterReport encounter = EncounterReport.read(record.value(), RecordScope.of(record));
         String pair = encounter.identity();
         switch (encounter.phase()) {
             case "started" -> {

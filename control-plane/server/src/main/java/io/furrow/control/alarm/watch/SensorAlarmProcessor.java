@@ -6,20 +6,24 @@ import java.util.List;
 import java.util.Map;
 import java.util.function.Function;
 
+import org.apache.kafka.streams.processor.api.Record;
+
 import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
+import io.furrow.control.manager.Observer;
+import io.furrow.control.manager.RecordScope;
 import io.furrow.control.manager.Table;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * Raises an alarm for a sensor that was excluded in three consecutive windows, because a single window may exclude a
  * sound sensor by chance. The alarm ends when the sensor was not excluded for three windows.
  */
-final class SensorAlarmProcessor {
-    static final String RUNS = "suspect-runs";
-
+final class SensorAlarmProcessor implements Observer {
     private static final int WINDOWS = 3;
     private static final Duration MIN = Duration.ofMinutes(1);
     /** Runs of a field without windows for this time are discarded. */
@@ -38,8 +42,13 @@ final class SensorAlarmProcessor {
         this.runs = runs;
     }
 
-    /** @param now epoch ms */
-    void take(FieldWindow window, FiwareScope scope, long now) {
+    @Override
+    public void take(Record<String, byte[]> record, long now) throws UnreadableException {
+        FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));
+        if (window == null) {
+            return;
+        }
+        FiwareScope scope = RecordScope.of(record);
         SuspectStreaks existing = runsOf(scope.identity(window.field()), window.windowEnd());
         SuspectStreaks run = existing.after(window);
         if (run == existing) {
@@ -63,7 +72,8 @@ final class SensorAlarmProcessor {
     }
 
     /** Removes the runs of fields that no longer produce windows. */
-    void passTime(long now) {
+    @Override
+    public void passTime(long now) {
         if (now < nextClearing) {
             return;
         }

@@ -9,11 +9,11 @@ import org.apache.kafka.streams.processor.api.Record;
 import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
-import io.furrow.control.manager.ObserverProcessor.Observer;
-import io.furrow.control.manager.StateJson;
+import io.furrow.control.manager.Observer;
 import io.furrow.control.mission.MissionState;
 import io.furrow.control.mission.MissionStatus;
 import io.furrow.model.control.AlarmKind;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** Raises an alarm while devices of a mission that starts or runs are missing, as its status says. */

@@ -19,10 +19,10 @@ import io.furrow.control.alarm.AlarmHandlerFixture;
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.alarm.Cause;
 import io.furrow.control.manager.CapturingPublisher;
-import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.RejectedException;
+import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -203,7 +203,8 @@ class DeliveryPropertyTest {
                 Alarm existing = received.get(alarm.alarm());
                 boolean suppressed = alarm.isMuted(now) || alarm.inhibitedBy() != null;
                 if (alarm.state() == AlarmState.CLOSED) {
-                    boolean closedUnheard = existing == null && (suppressed || alarm.mutedUntil() != null);
+                    boolean closedUnheard =
+                            existing == null && (suppressed || alarm.handling().mutedUntil() != null);
                     assertThat(closedUnheard || existing != null && existing.state() == AlarmState.CLOSED)
                             .as(label + alarm)
                             .isTrue();

@@ -1,23 +1,29 @@
-package io.furrow.control.manager;
+package io.furrow.model.ngsi;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
+import java.time.Duration;
+import java.time.Instant;
 
 import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.DeserializationFeature;
 import com.fasterxml.jackson.databind.ObjectMapper;
+import com.fasterxml.jackson.databind.module.SimpleModule;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.databind.ser.std.ToStringSerializer;
 
-import io.furrow.model.ngsi.JsonProblem;
-import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.Reason;
-import io.furrow.model.ngsi.UnreadableException;
-
-/** Records of plain members as JSON; members that a later version has are skipped, so that one can go back. */
+/**
+ * Records of plain members as JSON, times and durations in ISO 8601. What is null is left out; members that a later version has are
+ * skipped, so that one can go back.
+ */
 public final class StateJson {
     private static final ObjectMapper MAPPER = NgsiJson.mapper()
             .copy()
             .setDefaultPropertyInclusion(JsonInclude.Include.NON_NULL)
-            .disable(DeserializationFeature.FAIL_ON_UNKNOWN_PROPERTIES);
+            .disable(DeserializationFeature.FAIL_ON_UNKNOWN_PROPERTIES)
+            .registerModule(new SimpleModule()
+                    .addSerializer(Instant.class, ToStringSerializer.instance)
+                    .addSerializer(Duration.class, ToStringSerializer.instance));
 
     private StateJson() {}
 
@@ -27,6 +33,11 @@ public final class StateJson {
         } catch (IOException e) {
             throw new UncheckedIOException("cannot be written as JSON: " + state.getClass(), e);
         }
+    }
+
+    /** The members of a record. */
+    public static ObjectNode tree(Object record) {
+        return MAPPER.valueToTree(record);
     }
 
     /** Reads the value of a record that another process wrote. */

@@ -1,0 +1,65 @@
+package io.furrow.model.control;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/**
+ * What managers understand and refuse, to the byte: in each file of {@code golden/request} a request, and under it the same as Furrow
+ * writes it, or the refusal. Rewritten with {@code -Dgolden.renew=true}.
+ */
+class GoldenRequestsTest {
+    private static final Path FOLDER = Path.of("src/test/resources/golden/request");
+
+    @ParameterizedTest
+    @ValueSource(strings = {"domain", "mission", "replay", "alarm"})
+    void staysAsItIs(String manager) throws IOException {
+        Path file = FOLDER.resolve(manager + ".txt");
+        List<String> golden = Files.readAllLines(file);
+        List<String> now = new ArrayList<>();
+        for (String line : golden) {
+            if (!line.startsWith(" ") && !line.isEmpty()) {
+                now.addAll(List.of(line, "  " + answer(manager, whole(line)), ""));
+            }
+        }
+        if (Boolean.getBoolean("golden.renew")) {
+            Files.write(file, now);
+        }
+        assertThat(now).hasSizeGreaterThan(20).isEqualTo(Files.readAllLines(file));
+    }
+
+    private static byte[] whole(String line) {
+        String json = line.startsWith("{'type'") || !line.startsWith("{") || line.equals("{}")
+                ? line
+                : line.replaceFirst("\\{", "{'type':'request',");
+        return json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+    }
+
+    private static String answer(String manager, byte[] request) {
+        ParsedRequest<? extends Command> parsed = switch (manager) {
+            case "domain" -> Requests.domain(request);
+            case "mission" -> Requests.mission(request);
+            case "replay" -> Requests.replay(request);
+            default -> Requests.alarm(request);
+        };
+        if (parsed instanceof ParsedRequest.Request<? extends Command> understood) {
+            byte[] refusal = Requests.refusal(
+                            new RejectedException(ErrorCode.OVERLOADED, "later"), understood.command())
+                    .toBytes();
+            return text(Requests.write(understood.requestId(), understood.command())) + text(refusal);
+        }
+        return text(((ParsedRequest.Refused<? extends Command>) parsed).answer().toBytes());
+    }
+
+    private static String text(byte[] json) {
+        return new String(json, StandardCharsets.UTF_8);
+    }
+}
