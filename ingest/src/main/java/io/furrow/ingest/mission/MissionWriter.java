@@ -31,8 +31,8 @@ import io.furrow.model.ngsi.UnreadableException;
 final class MissionWriter implements SinkWriter<MissionDocument> {
     private static final int MAX_DOCUMENTS = 1_000;
     private static final int MAX_BYTES = 8 * 1024 * 1024;
-    /** Gathered for so long before it is sent to a server that is waiting for it: each bulk has a disk of the server's synced. */
-    private static final long GATHERING_NANOS = Duration.ofMillis(100).toNanos();
+    /** Age of the oldest document at which a bulk is sent to an idle server, which syncs its disk for each bulk. */
+    private static final long GATHERING_NANOS = Duration.ofSeconds(1).toNanos();
 
     private final BulkSender<MissionDocument> sender;
     private final SinkWriter<TopicRecord> deadLetters;

@@ -12,10 +12,10 @@ public final class AlignmentOptions {
             paramLabel = "DURATION",
             defaultValue = "2min",
             description =
-                    "A partition that is ahead of the slowest one by more than this event time waits, as looked at"
-                            + " ten times a second. Shorter: a backlog that is read unevenly takes less memory. Longer: fewer"
-                            + " waits where partitions differ by nature. 0s: none waits, as always with --idle-advance and in a replay."
-                            + " Default: ${DEFAULT-VALUE}.")
+                    "A partition that is ahead of the slowest one by more than this event time waits; checked five times "
+                            + "a second. Shorter: a backlog that is read unevenly takes less memory. Longer: fewer waits if "
+                            + "partitions differ. 0s: no partition waits, as always with --idle-advance and in a replay. Default: "
+                            + "${DEFAULT-VALUE}.")
     private Duration maxDrift;
 
     /** Empty if no partition waits for another. */

@@ -31,7 +31,7 @@ import io.furrow.flink.time.ReplayWatermarks;
 public final class KafkaConnectors {
     static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
     /** A backlog is at the drift within as long, and waits for the next look. */
-    private static final Duration ALIGNMENT_INTERVAL = Duration.ofMillis(100);
+    private static final Duration ALIGNMENT_INTERVAL = Duration.ofMillis(200);
 
     private KafkaConnectors() {}
 

@@ -11,7 +11,7 @@ import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Future;
-import java.util.concurrent.LinkedBlockingQueue;
+import java.util.concurrent.SynchronousQueue;
 import java.util.concurrent.ThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 import java.util.function.LongConsumer;
@@ -96,6 +96,13 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
 
     private List<Refusal<D>> send(Map<String, List<D>> byCollection, UnknownErrorPolicy unknownErrorPolicy)
             throws IOException, InterruptedException {
+        if (byCollection.size() == 1) {
+            List<Refusal<D>> refused = new ArrayList<>();
+            for (Map.Entry<String, List<D>> only : byCollection.entrySet()) {
+                send(only.getKey(), only.getValue(), unknownErrorPolicy, refused);
+            }
+            return refused;
+        }
         List<Future<List<Refusal<D>>>> answers = new ArrayList<>();
         byCollection.forEach((collection, documents) -> answers.add(threads.submit(() -> {
             List<Refusal<D>> refused = new ArrayList<>();
@@ -193,7 +200,7 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
     private MongoFailure failure(Exception e, String collection, UnknownErrorPolicy unknownErrorPolicy, int documents)
             throws IOException {
         if (!(e instanceof MongoException known)) {
-            return MongoFailure.REFUSED; // the driver found that it is no document
+            return MongoFailure.REFUSED; // the driver found that it is not a document
         }
         MongoFailure failure = MongoFailure.of(known);
         if (failure == MongoFailure.SETTING) {
@@ -278,7 +285,7 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
         unknownErrorPolicy.failed(collection);
         if (doubted.add(code)) {
             LOG.warn(
-                    "MongoDB does not take documents, code {}: {}. They are tried again for {} s, then they are dead letters",
+                    "MongoDB does not accept documents, code {}: {}. They are retried for {} s, then become dead letters",
                     code,
                     message,
                     waits.unknown().toSeconds());
@@ -302,14 +309,18 @@ public final class BulkSender<D extends EventDocument> implements AutoCloseable 
     }
 
     private static ExecutorService threads() {
-        ThreadPoolExecutor threads = new ThreadPoolExecutor(
-                MAX_THREADS, MAX_THREADS, IDLE_SECONDS, TimeUnit.SECONDS, new LinkedBlockingQueue<>(), work -> {
+        return new ThreadPoolExecutor(
+                0,
+                MAX_THREADS,
+                IDLE_SECONDS,
+                TimeUnit.SECONDS,
+                new SynchronousQueue<>(),
+                work -> {
                     Thread thread = new Thread(work, "missions to MongoDB");
                     thread.setDaemon(true);
                     return thread;
-                });
-        threads.allowCoreThreadTimeOut(true);
-        return threads;
+                },
+                (work, allBusy) -> work.run());
     }
 
     @Override
