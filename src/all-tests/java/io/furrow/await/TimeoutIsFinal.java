@@ -16,7 +16,7 @@ import org.junit.jupiter.api.extension.TestExecutionExceptionHandler;
 
 /**
  * A test that JUnit has ended because it hung is not run again: each further run would hang as long. One that ignores the interrupt ends
- * its JVM, which Surefire's own limit does not do (SUREFIRE-1722).
+ * its JVM and the processes that it started, which Surefire's own limit does not do (SUREFIRE-1722).
  */
 public final class TimeoutIsFinal
         implements BeforeAllCallback,
@@ -54,6 +54,7 @@ public final class TimeoutIsFinal
         try {
             if (!returned.await(GRACE_SECONDS, TimeUnit.SECONDS)) {
                 System.err.println(test + " ignored the interrupt for " + GRACE_SECONDS + " s: ending this JVM");
+                ProcessHandle.current().descendants().forEach(ProcessHandle::destroyForcibly);
                 Runtime.getRuntime().halt(1);
             }
         } catch (InterruptedException e) {
