@@ -90,15 +90,7 @@ public final class ServiceTopics {
      */
     public static void prepare(ControlSettings settings) throws IOException {
         try (Admin admin = Admin.create(settings.client())) {
-            List<NewTopic> desired = new ArrayList<>();
-            REQUESTS.forEach(name -> desired.add(topic(name, settings, requestConfigs())));
-            COMPACTED.forEach(name -> desired.add(topic(name, settings, stateConfigs(name))));
-            desired.add(topic(Topics.AUDIT, settings, LONG_RETENTION));
-            desired.add(
-                    topic(Topics.FIELDS, settings, Map.of(POLICY, "compact"))); // as an import makes it, never altered
-            Stream.concat(DATA.stream(), DEAD.stream())
-                    .forEach(name -> desired.add(
-                            topic(name, settings, Map.of(MAX_BYTES, Integer.toString(Limits.DEAD_LETTER_BYTES)))));
+            List<NewTopic> desired = desired(settings);
             for (KafkaFuture<Void> made : admin.createTopics(desired).values().values()) {
                 await(made, true);
             }
@@ -116,6 +108,18 @@ public final class ServiceTopics {
             Thread.currentThread().interrupt();
             throw new IOException("interrupted while the topics service.* were prepared", e);
         }
+    }
+
+    static List<NewTopic> desired(ControlSettings settings) {
+        List<NewTopic> desired = new ArrayList<>();
+        REQUESTS.forEach(name -> desired.add(topic(name, settings, requestConfigs())));
+        COMPACTED.forEach(name -> desired.add(topic(name, settings, stateConfigs(name))));
+        desired.add(topic(Topics.AUDIT, settings, LONG_RETENTION));
+        desired.add(topic(Topics.FIELDS, settings, Map.of(POLICY, "compact"))); // as an import makes it, never altered
+        Stream.concat(DATA.stream(), DEAD.stream())
+                .forEach(name -> desired.add(
+                        topic(name, settings, Map.of(MAX_BYTES, Integer.toString(Limits.DEAD_LETTER_BYTES)))));
+        return desired;
     }
 
     /** A broker learns of a topic some time after it was made, and who reads before that finds none. */
