@@ -19,7 +19,7 @@ public final class AnalyticsJobs {
     @Option(
             names = {"-h", "--help"},
             usageHelp = true,
-            description = "Show this text.")
+            description = "Show this help.")
     private boolean help;
 
     public static void main(String[] args) {

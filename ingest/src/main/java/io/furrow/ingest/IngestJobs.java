@@ -11,13 +11,13 @@ import io.furrow.ingest.normalize.NormalizeOptions;
 /** The command line of the ingest jar: {@code flink run furrow-ingest-….jar ingest --help}. */
 @Command(
         name = "furrow-ingest",
-        description = "Flink jobs that bring events to everything that is made of them.",
+        description = "Flink jobs that route events and store missions, images and the latest state.",
         subcommands = {IngestOptions.class, NormalizeOptions.class})
 public final class IngestJobs {
     @Option(
             names = {"-h", "--help"},
             usageHelp = true,
-            description = "Show this text.")
+            description = "Show this help.")
     private boolean help;
 
     private IngestJobs() {}

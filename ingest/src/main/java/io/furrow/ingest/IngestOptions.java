@@ -22,9 +22,8 @@ import io.furrow.ingest.route.AssignMission;
 /** The options of the job {@code ingest}; those of a branch are a group of their own. */
 @Command(
         name = "ingest",
-        description =
-                "Brings each event once to data.<domain>.realtime and data.<domain>.realtime.<mission>, and the newest "
-                        + "of all to data.latest.")
+        description = "Writes each event once to data.<domain>.realtime and data.<domain>.realtime.<mission>, and the "
+                + "latest state of all entities to data.latest.")
 public final class IngestOptions extends JobOptions {
     @Mixin
     private final TopicOptions topics = new TopicOptions();
@@ -42,34 +41,36 @@ public final class IngestOptions extends JobOptions {
             hideParamSyntax = true,
             defaultValue = "routes,latest,catalog,missions,images",
             description =
-                    "What this instance does of routes, latest, catalog, missions and images; other instances, with the same"
-                            + " options otherwise, do the rest, and a store that is away stops its own part only. An instance of"
-                            + " some parts is called ingest-PART-… where --name does not say otherwise. Default:"
-                            + " ${DEFAULT-VALUE}; missions with --mongo and images with --images only.")
+                    "Which of routes, latest, catalog, missions and images this instance does; other instances with "
+                            + "otherwise equal options do the rest, so that an unavailable store stops only its own part. Without "
+                            + "--name an instance of some parts is named ingest-PART-…. Default: ${DEFAULT-VALUE}; missions with "
+                            + "--mongo and images with --images only.")
     private Set<IngestBranch> parts;
 
     @Option(
             names = "--default-domain",
             paramLabel = "NAME",
-            description = "Domain of entities for which neither they nor service.devices name one. Default: none, they "
-                    + "stay on the input topic and data.latest.")
+            description =
+                    "Domain of entities for which neither their attributes nor service.devices name one. Default: none; "
+                            + "they are only on the input topic and data.latest.")
     private String defaultDomain;
 
     @Option(
             names = "--default-mission",
             paramLabel = "NAME",
-            description = "Mission of entities for which neither they nor service.devices name one. Default: none.")
+            description =
+                    "Mission of entities for which neither their attributes nor service.devices name one. Default: none.")
     private String defaultMission;
 
     @Option(
             names = "--other-names",
             paramLabel = "N",
             defaultValue = "300",
-            description =
-                    "How many topics there may be of domains and missions that are not on service.domains and service.missions:"
-                            + " each has partitions and a collection that stay. As many names that get no topic, of an event without"
-                            + " a domain or with --no-routes, are taken per subtask from one start to the next. A further name is a"
-                            + " dead letter, unknown-mission, and its event goes on without it. Default: ${DEFAULT-VALUE}.")
+            description = "Maximum number of topics for domains and missions that are not on service.domains and "
+                    + "service.missions: each has partitions and a collection that stay. The same limit applies per "
+                    + "subtask and run to names that get no topic, of an event without a domain or with --no-routes. A "
+                    + "further name is a dead letter, unknown-mission; its event is processed without it. Default: "
+                    + "${DEFAULT-VALUE}.")
     private int otherNames;
 
     @Option(
@@ -77,8 +78,8 @@ public final class IngestOptions extends JobOptions {
             paramLabel = "DURATION",
             defaultValue = "2min",
             description =
-                    "An event id passes once within this event time. Longer: repeats after longer failures are dropped, "
-                            + "more state. Default: ${DEFAULT-VALUE}.")
+                    "How long, in event time, an event id is stored to drop duplicates. Longer: duplicates after longer "
+                            + "failures are dropped, more state. Default: ${DEFAULT-VALUE}.")
     private Duration repeatWindow;
 
     @Option(
@@ -86,16 +87,16 @@ public final class IngestOptions extends JobOptions {
             paramLabel = "DURATION",
             defaultValue = "30d",
             description =
-                    "How long it is known to whom a device belonged before. Longer: later events still find their "
-                            + "mission, more state. Default: ${DEFAULT-VALUE}.")
+                    "How long former assignments of a device are stored. Longer: later events still find their mission, "
+                            + "more state. Default: ${DEFAULT-VALUE}.")
     private Duration deviceHistory;
 
     @Option(
             names = "--devices",
             paramLabel = "TOPIC",
             defaultValue = "service.devices",
-            description = "Topic that says to which domain and mission devices belong; it need not be there. Default: "
-                    + "${DEFAULT-VALUE}.")
+            description =
+                    "Topic that assigns devices to domains and missions; it may be missing. Default: ${DEFAULT-VALUE}.")
     private String devices;
 
     @Option(names = "--no-routes", description = "Do not write to the topics of domains and missions.")
@@ -109,9 +110,9 @@ public final class IngestOptions extends JobOptions {
             paramLabel = "DURATION",
             defaultValue = "24h",
             description =
-                    "How long, in event time, it is remembered that an entity was deleted: an older event that comes within"
-                            + " it does not bring the entity back to data.latest. At least as long as a gateway without"
-                            + " connection keeps its events. Default: ${DEFAULT-VALUE}.")
+                    "How long, in event time, the deletion of an entity is stored, so that an older event does not "
+                            + "restore the entity on data.latest. At least as long as a disconnected gateway buffers events. "
+                            + "Default: ${DEFAULT-VALUE}.")
     private Duration deletionMemory;
 
     @Option(names = "--no-catalog", description = "Do not write to data.catalog.")
@@ -129,8 +130,8 @@ public final class IngestOptions extends JobOptions {
             names = "--catalog-retention",
             paramLabel = "DURATION",
             defaultValue = "90d",
-            description = "An entry of the catalog that has had no event for this event time is removed. Default: "
-                    + "${DEFAULT-VALUE}.")
+            description =
+                    "An entry of the catalog without an event for this event time is removed. Default: ${DEFAULT-VALUE}.")
     private Duration catalogRetention;
 
     @Option(
@@ -138,8 +139,8 @@ public final class IngestOptions extends JobOptions {
             paramLabel = "KEY",
             defaultValue = "id",
             description =
-                    "Key of the records on data.latest: id, that of the entity; identity, tenant, service path and id, "
-                            + "which must be where two tenants have entities of one id, or one would hide the other. Default: "
+                    "Key of the records on data.latest: id of the entity, or identity: tenant, service path and id. Use "
+                            + "identity if two tenants have entities with the same id; otherwise one hides the other. Default: "
                             + "${DEFAULT-VALUE}.")
     private LatestKey latestKey;
 

@@ -15,7 +15,7 @@ public final class ReplayJobs {
     @Option(
             names = {"-h", "--help"},
             usageHelp = true,
-            description = "Show this text.")
+            description = "Show this help.")
     private boolean help;
 
     private ReplayJobs() {}

@@ -67,8 +67,9 @@ public final class ReplayOptions extends JobOptions {
             names = "--mongo-timeout",
             paramLabel = "DURATION",
             defaultValue = "5s",
-            description = "How long a replay waits for MongoDB before its status says so; it is tried again for as long"
-                    + " as the replay is wanted. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "How long a replay waits for MongoDB before its status reports it; it retries as long as the replay "
+                            + "is desired. Default: ${DEFAULT-VALUE}.")
     private Duration timeout;
 
     @Option(
@@ -76,8 +77,8 @@ public final class ReplayOptions extends JobOptions {
             paramLabel = "N",
             defaultValue = "1000",
             description =
-                    "Events of a mission that are read at once at most; each replay holds two such pages. A replay that is not at"
-                            + " speed max reads as many as it plays in two seconds, 32 at least. Default: ${DEFAULT-VALUE}.")
+                    "Maximum number of events per read; each replay holds two such pages. A replay that is not at speed "
+                            + "max reads the events of two seconds, at least 32. Default: ${DEFAULT-VALUE}.")
     private int pageEvents;
 
     @Option(
@@ -85,27 +86,28 @@ public final class ReplayOptions extends JobOptions {
             paramLabel = "N",
             defaultValue = "4194304",
             description =
-                    "About how many bytes of events are read at once at most; fewer where the replays of a reader hold"
-                            + " some 64 MiB of heap together. Default: ${DEFAULT-VALUE}.")
+                    "Approximate maximum of bytes per read; less if the replays of a reader together hold about 64 MiB "
+                            + "of heap. Default: ${DEFAULT-VALUE}.")
     private int pageBytes;
 
     @Option(
             names = "--recordings",
             paramLabel = "URI",
             description =
-                    "Folder of exported missions, for instance s3://bucket/missions: replays may name a file of it as"
-                            + " their source. Default: none, and no file is played.")
+                    "Folder of exported missions, for instance s3://bucket/missions: replays may use its files as their "
+                            + "source. Default: none.")
     private String folder;
 
     @Option(
             names = "--replay-topic-bytes",
             paramLabel = "N",
             defaultValue = "1073741824",
-            description = "retention.bytes of the topics of replays, for each partition: beyond, the oldest records are"
-                    + " deleted. Their retention.ms is -1. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "retention.bytes per partition of the topics of replays; Kafka deletes the oldest records beyond it. "
+                            + "Their retention.ms is -1. Default: ${DEFAULT-VALUE}.")
     private long topicBytes;
 
-    @Option(names = "--once", description = "Play one mission and end, whatever service.replays says; needs --mission.")
+    @Option(names = "--once", description = "Play one mission and end, regardless of service.replays; needs --mission.")
     private boolean once;
 
     @Option(names = "--mission", paramLabel = "NAME", description = "With --once: the mission.")
@@ -209,7 +211,7 @@ public final class ReplayOptions extends JobOptions {
             return new JobRecordings(new MongoRecordings(mongo, database, timeout), folder, TopicHistories.of(kafka));
         } catch (IllegalArgumentException e) {
             throw refused(
-                    "--mongo is no address of MongoDB (%s); write for instance mongodb://127.0.0.1:27017"
+                    "--mongo is not an address of MongoDB (%s); write for instance mongodb://127.0.0.1:27017"
                             .formatted(MongoAccess.fault(mongo, e)),
                     e);
         }
@@ -224,14 +226,14 @@ public final class ReplayOptions extends JobOptions {
             throw refused("--once has no mission; add --mission NAME", null);
         }
         if (!TopicName.isLegal(mission)) {
-            throw refused("--mission %s is no name: it takes 1 to 64 of A-Z a-z 0-9 _ -".formatted(mission), null);
+            throw refused("--mission %s is not a name: it takes 1 to 64 of A-Z a-z 0-9 _ -".formatted(mission), null);
         }
         String id8 = UUID.randomUUID().toString().substring(0, ID_DIGITS);
         String onto = topic == null ? Topics.replay(mission, id8) : topic;
         String digits = onto.substring(Math.max(0, onto.length() - ID_DIGITS));
         if (!Topics.replay(mission, digits).equals(onto) || !Topics.isReplay(onto)) {
             throw refused(
-                    "--topic %s is no topic of a replay of this mission; write for instance %s"
+                    "--topic %s is not a topic of a replay of this mission; write for instance %s"
                             .formatted(onto, Topics.replay(mission, id8)),
                     null);
         }
@@ -263,7 +265,7 @@ public final class ReplayOptions extends JobOptions {
         }
         Optional<Instant> time = Instants.of(TextNode.valueOf(text));
         if (time.isEmpty()) {
-            throw refused(option + " " + text + " is no time; write for instance 2026-05-01T06:00:00Z", null);
+            throw refused(option + " " + text + " is not a time; write for instance 2026-05-01T06:00:00Z", null);
         }
         return time.map(Instant::toEpochMilli);
     }

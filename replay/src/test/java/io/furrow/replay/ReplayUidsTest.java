@@ -67,11 +67,11 @@ class ReplayUidsTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', nullValues = "-", textBlock = """
             --once                                   | --once has no mission
-            --once --mission m.n                     | --mission m.n is no name
+            --once --mission m.n                     | --mission m.n is not a name
             --once --mission m --speed 2000          | --speed 2000 is neither
-            --once --mission m --from yesterday      | --from yesterday is no time
-            --once --mission m --to tomorrow         | --to tomorrow is no time
-            --once --mission m --topic data.raw      | --topic data.raw is no topic of a replay
+            --once --mission m --from yesterday      | --from yesterday is not a time
+            --once --mission m --to tomorrow         | --to tomorrow is not a time
+            --once --mission m --topic data.raw      | --topic data.raw is not a topic of a replay
             --once --mission m --source-topic data.t --source-file f | are both given
             """)
     void refusesWhatCannotBePlayed(String args, String reason) {

@@ -19,7 +19,7 @@ public record ClockOffset(long millis, long since, long[] before, long[] least) 
     static final long SPAN = Duration.ofMinutes(2).toMillis();
     /** A smaller offset is what messages take, not a clock. */
     static final long MIN = Duration.ofSeconds(1).toMillis();
-    /** A greater one is no clock that drifts: a wrong time zone or date. */
+    /** A greater one is not a clock that drifts: a wrong time zone or date. */
     static final long GREATEST = Duration.ofMinutes(10).toMillis();
     /** The offset in force stays while a new one differs by less. */
     static final long STEP = 250;

@@ -15,10 +15,10 @@ public final class ClockSettings {
             paramLabel = "on|off",
             defaultValue = "off",
             description =
-                    "on: learn by how much the clock of each device is off, from when its messages were received (header"
-                            + " ts-source), and correct its times, from 1 s up to 10 min; --clock-output reports it. Without it"
-                            + " the positions of a device that is further behind than --out-of-orderness do not count."
-                            + " Replays are never corrected. Default: ${DEFAULT-VALUE}.")
+                    "on: estimate the clock offset of each device from the receipt of its messages (header ts-source) "
+                            + "and correct its times by 1 s to 10 min; --clock-output reports the offset. With off, positions of a "
+                            + "device that is further behind than --out-of-orderness are late. Replays are never corrected. "
+                            + "Default: ${DEFAULT-VALUE}.")
     private Correction correction;
 
     public boolean correct() {

@@ -36,7 +36,7 @@ public final class ClockStage {
     public DataStream<TopicRecord> watch(DataStream<LaggingPosition> lagging) {
         return lagging.keyBy(LaggingPosition::key)
                 .process(new DetectClockLag(maxBehind))
-                .uid("watch-clocks")
+                .uid("detect-clock-lag")
                 .name("Watch the clocks of devices")
                 .map(entities::of)
                 .uid("describe-clocks")

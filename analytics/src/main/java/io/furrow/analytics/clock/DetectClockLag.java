@@ -14,7 +14,7 @@ import io.furrow.model.topic.Topics;
 /**
  * Reports devices whose positions come too late, one after the other. Key: the device of a topic.
  *
- * <p><b>State</b>: the positions in a row, see {@link LagRun}.
+ * <p><b>State</b>: the positions in a row, see {@link LagStreak}.
  *
  * <p><b>Cleared</b>: when none has come for 10 min of event time.
  *
@@ -27,7 +27,7 @@ public final class DetectClockLag extends KeyedProcessFunction<String, LaggingPo
 
     private final long maxBehindMillis;
     private transient SingleTimer timer;
-    private transient ValueState<LagRun> run;
+    private transient ValueState<LagStreak> streak;
 
     /** @param maxBehind devices that are further behind are reported by {@link ReportDelayedDevices}, except those of replays */
     DetectClockLag(Duration maxBehind) {
@@ -37,7 +37,7 @@ public final class DetectClockLag extends KeyedProcessFunction<String, LaggingPo
     @Override
     public void open(OpenContext context) {
         timer = new SingleTimer(getRuntimeContext());
-        run = getRuntimeContext().getState(new ValueStateDescriptor<>("run", LagRun.class));
+        streak = getRuntimeContext().getState(new ValueStateDescriptor<>("streak", LagStreak.class));
     }
 
     @Override
@@ -45,21 +45,21 @@ public final class DetectClockLag extends KeyedProcessFunction<String, LaggingPo
         if (position.reached() - position.time() > maxBehindMillis && !Topics.isReplay(position.topic())) {
             return;
         }
-        LagRun now = LagRun.after(run.value(), position);
-        if (now.isToBeTold()) {
+        LagStreak now = LagStreak.after(streak.value(), position);
+        if (now.isDue()) {
             out.collect(ClockReport.behind(position, now.positions()));
             now = now.afterReport();
         }
-        run.update(now);
+        streak.update(now);
         timer.ask(now.end(), context.timerService());
     }
 
     @Override
     public void onTimer(long time, OnTimerContext context, Collector<ClockReport> out) throws Exception {
         timer.rang();
-        long end = run.value().end();
+        long end = streak.value().end();
         if (end <= context.timerService().currentWatermark()) {
-            run.clear();
+            streak.clear();
         } else {
             timer.ask(end, context.timerService());
         }

@@ -10,44 +10,44 @@ import java.time.Duration;
  * @param since how far event time had come with the first
  * @param reached how far with the newest
  * @param positions how many
- * @param told how far event time had come when this was last reported; {@link Long#MIN_VALUE} where it was not
+ * @param emitted how far event time had come when this was last reported; {@link Long#MIN_VALUE} where it was not
  */
-public record LagRun(long first, long since, long reached, int positions, long told) {
+public record LagStreak(long first, long since, long reached, int positions, long emitted) {
     static final int MIN = 10;
     static final long MIN_TIME = Duration.ofSeconds(30).toMillis();
-    /** Between two reports of a run. */
+    /** Between two reports of a streak. */
     static final long AGAIN = Duration.ofMinutes(1).toMillis();
-    /** A longer silence ends a run. */
+    /** A longer silence ends a streak. */
     static final long MAX_GAP = Duration.ofMinutes(10).toMillis();
 
     private static final long NEVER = Long.MIN_VALUE;
 
     /**
-     * The run with another position, which begins a new one where a position counted since the first.
+     * The streak with another position, which begins a new one where a position counted since the first.
      *
-     * @param run null for none
+     * @param streak null for none
      */
-    static LagRun after(LagRun run, LaggingPosition position) {
+    static LagStreak after(LagStreak streak, LaggingPosition position) {
         long reached = position.reached();
-        if (run == null || position.counted() > run.first || run.end() < reached) {
-            return new LagRun(position.time(), reached, reached, 1, NEVER);
+        if (streak == null || position.counted() > streak.first || streak.end() < reached) {
+            return new LagStreak(position.time(), reached, reached, 1, NEVER);
         }
-        return new LagRun(run.first, run.since, reached, run.positions + 1, run.told);
+        return new LagStreak(streak.first, streak.since, reached, streak.positions + 1, streak.emitted);
     }
 
-    boolean isToBeTold() {
-        return isToBeTold(MIN);
+    boolean isDue() {
+        return isDue(MIN);
     }
 
-    boolean isToBeTold(int min) {
-        return positions >= min && reached - since >= MIN_TIME && (told == NEVER || reached - told >= AGAIN);
+    boolean isDue(int min) {
+        return positions >= min && reached - since >= MIN_TIME && (emitted == NEVER || reached - emitted >= AGAIN);
     }
 
-    LagRun afterReport() {
-        return new LagRun(first, since, reached, positions, reached);
+    LagStreak afterReport() {
+        return new LagStreak(first, since, reached, positions, reached);
     }
 
-    /** The event time at which the run is over where nothing comes any more. */
+    /** The event time at which the streak is over where nothing comes any more. */
     long end() {
         return reached + MAX_GAP;
     }

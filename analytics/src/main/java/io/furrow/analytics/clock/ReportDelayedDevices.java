@@ -20,7 +20,7 @@ import io.furrow.model.topic.Topics;
 
 /**
  * Reports devices of any kind whose records are behind their {@link ReceiptTime}, one after the other, by more than a limit. It goes by
- * receipts, whatever has become of event time. A record that is on time ends a run; one that is not newer than the last is no report
+ * receipts, whatever has become of event time. A record that is on time ends a run; one that is not newer than the last is not a report
  * of the device. Of a device all records pass the same subtask.
  *
  * <p><b>State</b>: none that lasts; after a restart runs begin anew.
@@ -42,7 +42,7 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
     private final long maxBehindMillis;
     private transient Map<String, Run> runs;
 
-    private record Run(LagRun lag, long newest) {}
+    private record Run(LagStreak lag, long newest) {}
 
     ReportDelayedDevices(ReceiptTime receiptTime, Duration maxBehind) {
         this.receiptTime = receiptTime;
@@ -85,9 +85,9 @@ final class ReportDelayedDevices extends ProcessFunction<TopicRecord, ClockRepor
                 record.timestamp(),
                 received,
                 Long.MIN_VALUE);
-        LagRun lag = LagRun.after(before == null ? null : before.lag, position);
+        LagStreak lag = LagStreak.after(before == null ? null : before.lag, position);
         boolean catchesUp = record.timestamp() - lag.first() > CATCHES_UP * (received - lag.since());
-        if (!catchesUp && lag.isToBeTold(MIN_RECORDS)) {
+        if (!catchesUp && lag.isDue(MIN_RECORDS)) {
             Optional<Entity> entity = entityOf(record);
             String type = entity.map(Entity::type).orElse("");
             String mission = entity.flatMap(one -> one.text("Mission")).orElse("");

@@ -33,16 +33,16 @@ public final class CollisionOptions extends AnalyticsOptions {
             paramLabel = "TOPIC",
             defaultValue = Topics.DEVICES,
             description =
-                    "Topic that says which devices are carried by another and do not collide with it; it need not "
-                            + "be there. Default: ${DEFAULT-VALUE}.")
+                    "Topic that says which devices another device carries, so that they do not collide with it; it may "
+                            + "be missing. Default: ${DEFAULT-VALUE}.")
     private String devices;
 
     @Option(
             names = "--overflow-output",
             paramLabel = "TOPIC",
             defaultValue = Topics.COLLISION_OVERFLOW,
-            description =
-                    "Topic of cells with a crowd, and of how many pairs --crowd leaves out there. Default: ${DEFAULT-VALUE}.")
+            description = "Topic of crowded cells, with the number of pairs that --crowd skips there. Default: "
+                    + "${DEFAULT-VALUE}.")
     private String overflowOutput;
 
     public CollisionOptions() {

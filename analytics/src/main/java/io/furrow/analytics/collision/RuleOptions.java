@@ -21,7 +21,7 @@ final class RuleOptions {
             names = "--threshold",
             paramLabel = "METERS",
             defaultValue = "5",
-            description = "Up to this distance two devices are close, 0.1 to 100000 m. Default: ${DEFAULT-VALUE}.")
+            description = "Two devices are close up to this distance, 0.1 to 100000 m. Default: ${DEFAULT-VALUE}.")
     private double threshold;
 
     @Option(
@@ -29,40 +29,43 @@ final class RuleOptions {
             paramLabel = "TYPE[+TYPE]=METERS",
             hideParamSyntax = true,
             description =
-                    "Another threshold for devices of an entity type, or for pairs of two types; may be repeated. A "
-                            + "pair that is not named has the greater threshold of both types.")
+                    "Another threshold for devices of an entity type, or for pairs of two types; may be repeated. For "
+                            + "any other pair the greater threshold of both types counts.")
     private Map<String, Double> thresholdOf = new LinkedHashMap<>();
 
     @Option(
             names = "--time-to-live",
             paramLabel = "DURATION",
             defaultValue = "30s",
-            description = "How long a position counts when no newer one comes. At least twice the time between two "
-                    + "reports of a device, or encounters break up. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "How long a position counts when no newer one comes. At least twice the interval between two reports "
+                            + "of a device; otherwise encounters are split. Default: ${DEFAULT-VALUE}.")
     private Duration timeToLive;
 
     @Option(
             names = "--max-skew",
             paramLabel = "DURATION",
             defaultValue = "0s",
-            description = "Positions further apart in time are not compared. 0s compares all. Set it where devices "
-                    + "move far between two reports. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "Positions further apart in time are not compared; 0s compares all. Set it if devices move far "
+                            + "between two reports. Default: ${DEFAULT-VALUE}.")
     private Duration maxSkew;
 
     @Option(
             names = "--zones",
             paramLabel = "FILE",
             description =
-                    "GeoJSON FeatureCollection of yards and the like: a device inside, or on the border, takes no "
-                            + "part. Default: none.")
+                    "GeoJSON FeatureCollection of areas, such as yards, in which devices are not compared; the border "
+                            + "belongs to them. Default: none.")
     private Path zones;
 
     @Option(
             names = "--leave-factor",
             paramLabel = "FACTOR",
             defaultValue = "1",
-            description = "An encounter that has started lasts up to this many thresholds, 1 to 100. Above 1 where "
-                    + "devices work side by side at about the threshold. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "An encounter lasts until the distance exceeds this many thresholds, 1 to 100. Use more than 1 if "
+                            + "devices work side by side at about the threshold. Default: ${DEFAULT-VALUE}.")
     private double leaveFactor;
 
     @Option(
@@ -77,16 +80,17 @@ final class RuleOptions {
             names = "--ongoing-every",
             paramLabel = "DURATION",
             defaultValue = "1s",
-            description = "Least event time between two records of a lasting encounter; starts and ends are always "
+            description = "Minimum event time between two records of an ongoing encounter; starts and ends are always "
                     + "reported. 0s reports every observation. Default: ${DEFAULT-VALUE}.")
     private Duration ongoingEvery;
 
     @Option(
             names = "--cell",
             paramLabel = "METERS",
-            description = "Height of a grid cell, at least the greatest threshold times --leave-factor. Changes speed "
-                    + "only, and which pairs of a crowd beyond the nearest are followed: smaller where devices are "
-                    + "dense, larger where they are sparse. Default: 20 times that.")
+            description =
+                    "Height of a grid cell, at least the greatest threshold times --leave-factor. Affects only speed, "
+                            + "and which pairs of a crowd beyond the nearest are tracked: smaller if devices are dense, larger if "
+                            + "they are sparse. Default: 20 times the greatest threshold.")
     private Double cell;
 
     @Option(
@@ -94,9 +98,9 @@ final class RuleOptions {
             paramLabel = "N",
             defaultValue = "" + CellRules.CROWD,
             description =
-                    "A device with more than N others close to it is in a crowd: of so many others its nearest N * N / "
-                            + "others are followed, and --overflow-output reports it. 0 follows all: then the cost of "
-                            + "devices on one spot grows with their square. Default: ${DEFAULT-VALUE}.")
+                    "A device with more than N others close to it is in a crowd: only its nearest N * N / others are "
+                            + "tracked, and --overflow-output reports it. 0 tracks all; the cost of devices in one spot then grows "
+                            + "with the square of their number. Default: ${DEFAULT-VALUE}.")
     private int crowd;
 
     /**

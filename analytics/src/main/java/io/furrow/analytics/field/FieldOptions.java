@@ -31,8 +31,8 @@ public final class FieldOptions {
             paramLabel = "TOPIC",
             defaultValue = Topics.FIELDS,
             description =
-                    "Topic of the fields' versions; fields come, change and go while the job runs. It need not be "
-                            + "there. Default: ${DEFAULT-VALUE}.")
+                    "Topic of the fields' versions, from which the job takes changes while it runs. It may be missing. "
+                            + "Default: ${DEFAULT-VALUE}.")
     private String topic;
 
     /**

@@ -16,7 +16,7 @@ import io.furrow.model.ngsi.UnreadableException;
  */
 record FieldVersionChange(FieldVersion.Key key, boolean isTaken, Field field) {
     /**
-     * @throws UnreadableException if the record is no version of a field, its area is not valid, or its key is that of another:
+     * @throws UnreadableException if the record is not a version of a field, its area is not valid, or its key is that of another:
      *     compaction would then keep the wrong one
      */
     static FieldVersionChange read(TopicRecord record) throws UnreadableException {

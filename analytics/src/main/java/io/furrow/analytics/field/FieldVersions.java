@@ -52,7 +52,7 @@ public final class FieldVersions {
     }
 
     /**
-     * Takes a record of the broadcast stream in. What is no version of a field is skipped: {@link ParseFields} has made
+     * Takes a record of the broadcast stream in. What is not a version of a field is skipped: {@link ParseFields} has made
      * a dead letter of it.
      *
      * @return whether it changes anything that was known

@@ -50,7 +50,7 @@ final class GeoJsonFieldFile {
         } catch (IOException e) {
             throw refused("cannot be read; name a readable GeoJSON file", e);
         } catch (UnreadableException e) {
-            throw refused("is no JSON (" + e.getMessage() + "); give a GeoJSON FeatureCollection", e);
+            throw refused("is not JSON (" + e.getMessage() + "); give a GeoJSON FeatureCollection", e);
         }
     }
 

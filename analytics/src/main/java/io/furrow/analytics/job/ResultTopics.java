@@ -19,8 +19,9 @@ final class ResultTopics {
             names = "--clock-output",
             paramLabel = "TOPIC",
             defaultValue = Topics.CLOCKS,
-            description = "Topic of what is found out about clocks: devices whose reports come too late one after the"
-                    + " other, and offsets. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "Topic of clock reports: devices whose reports are late again and again, and clock offsets. Default: "
+                            + "${DEFAULT-VALUE}.")
     String clockOutput;
 
     ResultTopics(String output, String lateOutput) {

@@ -16,9 +16,9 @@ import io.furrow.model.topic.Topics;
         name = "presence",
         sortOptions = false,
         description =
-                "Which device entered and left which field, when, and how long it stayed; also where the field changed"
-                        + " or went, or the device fell silent. Exact in event time: the same at any parallelism, in any"
-                        + " order of arrival and in a second pass.")
+                "Which device entered and left which field, when, and how long it stayed; also when a field changed "
+                        + "or ended or the device became silent. Exact in event time: the same at any parallelism, in any "
+                        + "order of arrival and in a second pass.")
 public final class PresenceOptions extends AnalyticsOptions {
     @Mixin
     private final FieldOptions fields = new FieldOptions();
@@ -31,9 +31,9 @@ public final class PresenceOptions extends AnalyticsOptions {
             paramLabel = "DURATION",
             defaultValue = "0s",
             description =
-                    "How long a device must be in a field without a break before it has entered, and out before it has"
-                            + " left. Longer: no flicker at the border, records that much later; the times in them are"
-                            + " those of going in and out. Default: ${DEFAULT-VALUE}.")
+                    "How long a device must be in a field without a break to have entered it, and outside to have left "
+                            + "it. Longer: no flicker at the border, but later records; their times are those of going in and out. "
+                            + "Default: ${DEFAULT-VALUE}.")
     private Duration dwell;
 
     @Option(
@@ -41,8 +41,8 @@ public final class PresenceOptions extends AnalyticsOptions {
             paramLabel = "DURATION",
             defaultValue = "5min",
             description =
-                    "How long a position counts when no newer one comes; then the device has left, cause silent. At "
-                            + "least twice the time between two reports of a device. Default: ${DEFAULT-VALUE}.")
+                    "How long a position counts when no newer one comes; then the device has left with the cause silent. "
+                            + "At least twice the interval between two reports of a device. Default: ${DEFAULT-VALUE}.")
     private Duration timeToLive;
 
     public PresenceOptions() {

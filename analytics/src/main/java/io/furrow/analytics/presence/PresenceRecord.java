@@ -55,7 +55,7 @@ final class PresenceRecord {
             entity.freeText("Domain", stay.domain());
         }
         String output = Topics.resultOf(fix.topic(), topic);
-        return ResultRecord.of(output, fix.id(), entity, fix.scope(), passage.told(), SOURCE);
+        return ResultRecord.of(output, fix.id(), entity, fix.scope(), passage.emitted(), SOURCE);
     }
 
     /** The position as an entity of the device's id; key = id, timestamp = when the device was there. */

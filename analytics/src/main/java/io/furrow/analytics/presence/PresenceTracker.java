@@ -31,7 +31,7 @@ final class PresenceTracker implements Serializable {
     }
 
     /**
-     * The whereabouts after all positions of one device up to an instant.
+     * The presence after all positions of one device up to an instant.
      *
      * @param due in the order of {@link PositionFix#SEQUENCE}, none later than {@code until}
      * @param out takes the passages in the order of the times at which they are certain
@@ -85,12 +85,12 @@ final class PresenceTracker implements Serializable {
                 : fields.covering(known.position(), time).stream()
                         .collect(Collectors.toMap(Field::id, Function.identity()));
         List<Visit> stays = new ArrayList<>();
-        for (Visit stay : told(before.stays(), time, out)) {
+        for (Visit stay : emitted(before.stays(), time, out)) {
             if (covering.remove(stay.field()) != null) {
                 stays.add(stay.isInside() ? stay : stay.back());
             } else if (!stay.isInside()) {
                 stays.add(stay);
-            } else if (stay.told()) {
+            } else if (stay.emitted()) {
                 Cause cause = whyOut(fields.at(stay.field(), time).isEmpty(), silent, fix != null);
                 stays.add(stay.leaving(time, cause, known));
             }
@@ -101,7 +101,7 @@ final class PresenceTracker implements Serializable {
                 .map(field ->
                         new Visit(field.id(), field.name(), field.domain(), time, false, Visit.INSIDE, whyIn, known))
                 .forEach(stays::add);
-        return new PresenceState(silent ? null : known, time, told(stays, time, out));
+        return new PresenceState(silent ? null : known, time, emitted(stays, time, out));
     }
 
     private static Cause whyOut(boolean removed, boolean silent, boolean moved) {
@@ -115,7 +115,7 @@ final class PresenceTracker implements Serializable {
     }
 
     /** Returns what is certain at an instant; stays that are over fall away. */
-    private List<Visit> told(List<Visit> stays, long time, Consumer<PresenceTransition> out) {
+    private List<Visit> emitted(List<Visit> stays, long time, Consumer<PresenceTransition> out) {
         List<Visit> kept = new ArrayList<>();
         for (Visit stay : stays) {
             long deadline = stay.deadline(dwell);

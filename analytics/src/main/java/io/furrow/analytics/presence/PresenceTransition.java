@@ -5,9 +5,9 @@ package io.furrow.analytics.presence;
  *
  * @param phase which of both
  * @param stay with its {@code since}, and {@code left} where it is over
- * @param told when it was certain: the dwell after the device went in or out, epoch ms
+ * @param emitted when it was certain: the dwell after the device went in or out, epoch ms
  */
-public record PresenceTransition(Phase phase, Visit stay, long told) {
+public record PresenceTransition(Phase phase, Visit stay, long emitted) {
     /** In or out. */
     public enum Phase {
         ENTERED("entered"),

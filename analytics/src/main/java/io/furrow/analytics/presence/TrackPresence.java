@@ -25,7 +25,7 @@ import io.furrow.flink.time.LatenessAware;
 /**
  * Emits when devices enter and leave fields. Key: the device of a topic.
  *
- * <p><b>State</b>: positions that wait for the watermark, the whereabouts; how far event time has come, because a restored job
+ * <p><b>State</b>: positions that wait for the watermark, the presence; how far event time has come, because a restored job
  * starts without a watermark and must not go back behind what it has emitted. Fields: see {@link FieldVersions}.
  *
  * <p><b>Cleared</b>: when the position's time-to-live has ended, the last {@code left} is emitted and no position waits.
@@ -58,7 +58,7 @@ public final class TrackPresence
     private transient FieldVersions fields;
     private transient SingleTimer timer;
     private transient EventTimeBuffer<PositionFix> eventTimeBuffer;
-    private transient ValueState<PresenceState> whereabouts;
+    private transient ValueState<PresenceState> presence;
     private transient EventTimeProgress reached;
     private transient Counter accepted;
     private transient Counter late;
@@ -80,7 +80,7 @@ public final class TrackPresence
         fields = FieldVersions.read(atStart);
         timer = new SingleTimer(getRuntimeContext());
         eventTimeBuffer = new EventTimeBuffer<>(getRuntimeContext(), PositionFix.class, PositionFix.SEQUENCE, timer);
-        whereabouts = getRuntimeContext().getState(new ValueStateDescriptor<>("whereabouts", PresenceState.class));
+        presence = getRuntimeContext().getState(new ValueStateDescriptor<>("presence", PresenceState.class));
         accepted = getRuntimeContext().getMetricGroup().counter("accepted");
         late = getRuntimeContext().getMetricGroup().counter("late");
         crowdedOut = getRuntimeContext().getMetricGroup().counter("crowdedOut");
@@ -103,7 +103,7 @@ public final class TrackPresence
     }
 
     private void seeLagging(PositionFix fix, ReadOnlyContext context) throws Exception {
-        PresenceState known = whereabouts.value();
+        PresenceState known = presence.value();
         long last = known == null || known.last() == null
                 ? Long.MIN_VALUE
                 : known.last().time();
@@ -135,16 +135,16 @@ public final class TrackPresence
         TimerService timers = context.timerService();
         long until = timers.currentWatermark();
         List<PositionFix> due = eventTimeBuffer.takeDue(timers);
-        PresenceState before = whereabouts.value();
+        PresenceState before = presence.value();
         PresenceState now =
                 judge.advance(before == null ? PresenceState.NOWHERE : before, due, until, fields, out::collect);
         if (due.isEmpty()) {
             now = judge.again(now, until, fields, out::collect);
         }
         if (now.isNowhere()) {
-            whereabouts.clear();
+            presence.clear();
         } else {
-            whereabouts.update(now);
+            presence.update(now);
             timer.ask(judge.nextInstant(now, fields), timers);
             timer.ask(until + AGAIN, timers);
         }

@@ -9,13 +9,20 @@ import io.furrow.analytics.position.PositionFix;
  * @param name the field's name at the entry; empty if it has none
  * @param domain the field's domain at the entry; empty if it has none
  * @param since when the device came in, epoch ms
- * @param told whether the stay was as long as the dwell, and {@code entered} said
+ * @param emitted whether the stay was as long as the dwell, and {@code entered} said
  * @param left since when the device is out, epoch ms; {@link #INSIDE} while it is in
  * @param cause of the last going in or out
  * @param fix the position with which it went in or out
  */
 public record Visit(
-        String field, String name, String domain, long since, boolean told, long left, Cause cause, PositionFix fix) {
+        String field,
+        String name,
+        String domain,
+        long since,
+        boolean emitted,
+        long left,
+        Cause cause,
+        PositionFix fix) {
     static final long INSIDE = Long.MAX_VALUE;
 
     boolean isInside() {
@@ -27,15 +34,15 @@ public record Visit(
         if (!isInside()) {
             return left + dwell;
         }
-        return told ? Long.MAX_VALUE : since + dwell;
+        return emitted ? Long.MAX_VALUE : since + dwell;
     }
 
     Visit leaving(long time, Cause why, PositionFix where) {
-        return new Visit(field, name, domain, since, told, time, why, where);
+        return new Visit(field, name, domain, since, emitted, time, why, where);
     }
 
     Visit back() {
-        return new Visit(field, name, domain, since, told, INSIDE, cause, fix);
+        return new Visit(field, name, domain, since, emitted, INSIDE, cause, fix);
     }
 
     Visit entered() {

@@ -16,7 +16,7 @@ import io.furrow.flink.record.Epochs;
 
 /**
  * Windows of event time that begin at whole multiples of the slide since 1970 of the original time, in each epoch of a replay: a
- * span of an epoch is no whole number of most windows. In epoch 0 they are those of Flink's own assigners, and their state is too.
+ * span of an epoch is not a whole number of most windows. In epoch 0 they are those of Flink's own assigners, and their state is too.
  */
 final class EpochWindows extends WindowAssigner<Object, TimeWindow> {
     private static final long serialVersionUID = 1L;

@@ -27,7 +27,7 @@ import io.furrow.model.position.Position;
 import io.furrow.model.position.PositionReading;
 
 /**
- * Extracts the readings of one attribute. Entities without it are skipped; a value that is no finite number and a position that
+ * Extracts the readings of one attribute. Entities without it are skipped; a value that is not a finite number and a position that
  * cannot be right are counted as {@code faulty}, readings without a position as {@code unlocated}.
  */
 final class ReadReadings extends ReadEntities<Reading> {
@@ -80,7 +80,7 @@ final class ReadReadings extends ReadEntities<Reading> {
         return true;
     }
 
-    /** The same event in another epoch is no repetition. */
+    /** The same event in another epoch is not a repetition. */
     private static String idOf(String event, long epoch) {
         return epoch == 0 ? event : event + ":" + epoch;
     }

@@ -45,11 +45,11 @@ final class TagLateReading extends RichMapFunction<FieldReading, TopicRecord> {
         long time = reading.reading().time();
         long start = TimeWindow.getWindowStartWithOffset(time, 0, slideMillis);
         String window = Instant.ofEpochMilli(start) + "/" + Instant.ofEpochMilli(start + windowMillis);
-        TopicRecord told = record.to(Topics.resultOf(record.topic(), topic))
+        TopicRecord lateReading = record.to(Topics.resultOf(record.topic(), topic))
                 .at(time)
                 .with(Map.of(FIELD, reading.field(), WINDOW, window));
         return record.headers().containsKey(HeaderNames.REPLAY_OFFSET)
-                ? told.with(HeaderNames.REPLAY_OFFSET, "0")
-                : told;
+                ? lateReading.with(HeaderNames.REPLAY_OFFSET, "0")
+                : lateReading;
     }
 }

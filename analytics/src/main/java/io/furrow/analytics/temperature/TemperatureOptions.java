@@ -17,7 +17,7 @@ import io.furrow.model.topic.Topics;
         sortOptions = false,
         description =
                 "The average temperature of each field in event-time windows. Each device has one vote per window, "
-                        + "its median; devices that are far from the others are set aside and named as suspects.")
+                        + "its median; devices that differ much from the others are excluded and reported as suspects.")
 public final class TemperatureOptions extends AnalyticsOptions {
     private static final String TEMPERATURE = "Temperature";
     private static final double TEMPERATURE_FLOOR = 0.5;
@@ -34,9 +34,9 @@ public final class TemperatureOptions extends AnalyticsOptions {
             paramLabel = "NAME",
             defaultValue = TEMPERATURE,
             description =
-                    "Attribute that holds the reading, a number. It names the results: of soilMoisture the average is "
-                            + "averageSoilMoisture of an Analytics:FieldSoilMoisture, the job and its group temperature-soilMoisture. "
-                            + "Default: ${DEFAULT-VALUE}.")
+                    "Numeric attribute that is averaged. Results are named after it: of soilMoisture the average is "
+                            + "averageSoilMoisture of an Analytics:FieldSoilMoisture, the job and its group "
+                            + "temperature-soilMoisture. Default: ${DEFAULT-VALUE}.")
     private String attribute;
 
     @Option(
@@ -59,27 +59,27 @@ public final class TemperatureOptions extends AnalyticsOptions {
             names = "--allowed-lateness",
             paramLabel = "DURATION",
             defaultValue = "0s",
-            description = "How long after its end a window still takes late readings; each sends the result again, "
-                    + "corrected. What comes later goes to --late-output. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "How long a window accepts late readings after its end; each of them emits the corrected result "
+                            + "again. Later readings go to --late-output. Default: ${DEFAULT-VALUE}.")
     private Duration allowedLateness;
 
     @Option(
             names = "--suspect-floor",
             paramLabel = "NUMBER",
             description =
-                    "By how much two sound devices in one place differ (the standard deviation of the difference), in the"
-                            + " attribute's unit. A device within 2.4 times that of the others is never set aside. Raise it where"
-                            + " sound devices are named, for instance in wide fields. 0: devices are judged by how much the others"
-                            + " differ alone, and sound ones are named often. Default: " + TEMPERATURE_FLOOR
-                            + " (degrees Celsius)"
-                            + " for " + TEMPERATURE + "; must be given for any other attribute.")
+                    "Standard deviation of the difference between two sound devices in one place, in the attribute's "
+                            + "unit. A device within 2.4 times that of the others is never excluded. Raise it if sound devices "
+                            + "become suspects, for instance in wide fields. 0: only the spread of the other devices counts, and "
+                            + "sound devices often become suspects. Default: " + TEMPERATURE_FLOOR
+                            + " (degrees Celsius) for " + TEMPERATURE + "; must be given for any other attribute.")
     private Double suspectFloor;
 
     @Option(
             names = "--repeat-window",
             paramLabel = "DURATION",
-            description = "How long an event is remembered, so that a repetition counts once. Default: --window plus "
-                    + "--allowed-lateness: after that a repetition is late.")
+            description = "How long event ids are stored, so that a duplicate is dropped. Default: --window plus "
+                    + "--allowed-lateness: a later duplicate is late.")
     private Duration repeatWindow;
 
     public TemperatureOptions() {

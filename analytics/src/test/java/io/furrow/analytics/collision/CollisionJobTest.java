@@ -257,6 +257,7 @@ class CollisionJobTest {
                         "describe-encounters",
                         "describe-late-positions",
                         "describe-overflows",
+                        "detect-clock-lag",
                         "ensure-topics",
                         "match-pairs",
                         "read-devices",
@@ -266,7 +267,6 @@ class CollisionJobTest {
                         "report-delayed-devices",
                         "track-devices",
                         "track-encounters",
-                        "watch-clocks",
                         "write-topics");
     }
 }

@@ -57,7 +57,7 @@ class GeoJsonFieldFileTest {
 
         assertThatThrownBy(() -> GeoJsonFieldFile.read(file))
                 .isInstanceOf(InvalidFieldsException.class)
-                .hasMessageContaining("is no JSON");
+                .hasMessageContaining("is not JSON");
     }
 
     private Path file(String features) throws Exception {

@@ -56,8 +56,8 @@ class ParseFieldsTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
             f@SPRING | SQUARE  | g | not-an-event | the key names f@2026-03-01T00:00:00.000Z, the value is g@2026-03-01T00:00:00.000Z
-            f        | SQUARE  | f | not-an-event | the key 'f' is no <field id>@<time>
-            f@SPRING | CROSSED | f | not-an-event | field f@2026-03-01T00:00:00.000Z is no valid area: Self-intersection
+            f        | SQUARE  | f | not-an-event | the key 'f' is not a <field id>@<time>
+            f@SPRING | CROSSED | f | not-an-event | field f@2026-03-01T00:00:00.000Z is not a valid area: Self-intersection
             f@SPRING | [       | f | not-json     |
             """)
     void setsWhatIsNoFieldAside(String key, String geometry, String id, String reason, String why) throws Exception {

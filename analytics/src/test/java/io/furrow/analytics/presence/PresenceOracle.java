@@ -40,7 +40,7 @@ final class PresenceOracle {
 
     static String line(PresenceTransition passage) {
         Visit stay = passage.stay();
-        return line(stay.fix(), stay.field(), passage.phase().code(), passage.time(), passage.told()) + " "
+        return line(stay.fix(), stay.field(), passage.phase().code(), passage.time(), passage.emitted()) + " "
                 + stay.cause().code() + " since " + stay.since();
     }
 

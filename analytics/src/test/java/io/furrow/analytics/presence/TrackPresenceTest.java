@@ -84,7 +84,7 @@ class TrackPresenceTest {
         following.restart(new PresenceRules(Duration.ofSeconds(20), Duration.ofSeconds(3)));
 
         assertThat(following.advance(60_000))
-                .extracting(one -> one.phase().code() + " " + one.time() + " told " + one.told())
+                .extracting(one -> one.phase().code() + " " + one.time() + " told " + one.emitted())
                 .containsExactly("entered 1000 told 4000", "left 21000 told 24000");
         assertThat(following.stateEntries()).isZero();
         following.stop();

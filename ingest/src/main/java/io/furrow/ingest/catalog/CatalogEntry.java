@@ -169,7 +169,7 @@ public record CatalogEntry(
         return NgsiJson.write(json);
     }
 
-    /** First, last, and how many a second from the first to the last; no rate where that is no time. */
+    /** First, last, and how many a second from the first to the last; no rate where that is not a time. */
     static void writeTimes(ObjectNode json, long count, long first, long last) {
         json.put("first", Instant.ofEpochMilli(first).toString())
                 .put("last", Instant.ofEpochMilli(last).toString());

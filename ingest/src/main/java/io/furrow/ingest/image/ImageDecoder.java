@@ -110,7 +110,7 @@ final class ImageDecoder {
         int low = at + 2 < text.length ? Character.digit(text[at + 2], 16) : -1;
         if (high < 0 || low < 0) {
             throw new UnreadableException(
-                    Reason.NOT_AN_IMAGE, "the image is not base64: % at sign " + at + " is no escape");
+                    Reason.NOT_AN_IMAGE, "the image is not base64: % at sign " + at + " is not an escape");
         }
         return (byte) (high << 4 | low);
     }

@@ -46,7 +46,7 @@ public final class ImageOptions {
             paramLabel = "N",
             defaultValue = "8",
             description =
-                    "Images that a subtask writes at once, of different entities. More where a store is far away. "
+                    "Concurrent writes of images per subtask, for different entities. Use more for a remote store. "
                             + "Default: ${DEFAULT-VALUE}.")
     private int threads;
 
@@ -54,16 +54,17 @@ public final class ImageOptions {
             names = "--image-in-flight",
             paramLabel = "BYTES",
             defaultValue = "67108864",
-            description = "Events that wait for the store take at most this memory per subtask; then reading waits. "
-                    + "Default: ${DEFAULT-VALUE}.")
+            description =
+                    "Maximum memory per subtask of events that wait for the store; then the subtask stops reading. "
+                            + "Default: ${DEFAULT-VALUE}.")
     private long maxInFlight;
 
     @Option(
             names = "--image-retry-timeout",
             paramLabel = "DURATION",
             defaultValue = "1min",
-            description = "How long a store that does not take an image is tried again before the job fails and is "
-                    + "restarted. Default: ${DEFAULT-VALUE}.")
+            description = "How long the write of an image is retried before the job fails and restarts. Default: "
+                    + "${DEFAULT-VALUE}.")
     private Duration timeout;
 
     /** Whether images are written to files. */
@@ -96,11 +97,12 @@ public final class ImageOptions {
                     : Path.of(given).toAbsolutePath().normalize().toUri();
             check(
                     uri.getPath() != null && uri.getQuery() == null && uri.getFragment() == null,
-                    "--images " + given + " is no folder; write for instance file:///data/images");
+                    "--images " + given + " is not a folder; write for instance file:///data/images");
             return uri.toString().replaceAll("(?<=[^:/])/+$", "");
         } catch (URISyntaxException e) {
             throw refused(
-                    "--images " + given + " is no URI (" + e.getReason() + "); write for instance s3://bucket/images",
+                    "--images " + given + " is not a URI (" + e.getReason()
+                            + "); write for instance s3://bucket/images",
                     e);
         }
     }

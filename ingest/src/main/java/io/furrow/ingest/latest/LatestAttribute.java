@@ -6,4 +6,4 @@ package io.furrow.ingest.latest;
  * @param time event time, epoch ms
  * @param json type, value and metadata as they were reported
  */
-public record KnownAttribute(long time, String json) {}
+public record LatestAttribute(long time, String json) {}

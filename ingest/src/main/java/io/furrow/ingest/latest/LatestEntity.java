@@ -20,30 +20,30 @@ import io.furrow.model.ngsi.SlicedEntity;
  * @param type as the newest event had it
  * @param received when the last event was received, epoch ms; before {@code time} if the device's clock is ahead
  */
-public record KnownEntity(
-        long time, boolean deleted, String type, Map<String, KnownAttribute> attributes, long received) {
+public record LatestEntity(
+        long time, boolean deleted, String type, Map<String, LatestAttribute> attributes, long received) {
     /** A device that makes up names of attributes would otherwise fill the memory, and no topic would take the record. */
     private static final int MAX_ATTRIBUTES = 1000;
 
-    static final KnownEntity NEVER_SEEN = new KnownEntity(Long.MIN_VALUE, false, "", Map.of(), Long.MIN_VALUE);
+    static final LatestEntity NEVER_SEEN = new LatestEntity(Long.MIN_VALUE, false, "", Map.of(), Long.MIN_VALUE);
 
     /**
      * After a change: the same object where the event brings nothing that is not known newer. Else this one is of no more use, as
      * the other takes over its attributes. Of more attributes than are kept, and than the event brings, those that were reported
      * longest ago go.
      */
-    KnownEntity with(SlicedEntity reported, long eventTime, long eventReceived) {
+    LatestEntity with(SlicedEntity reported, long eventTime, long eventReceived) {
         if (deleted && eventTime <= time) {
             return this;
         }
-        Map<String, KnownAttribute> merged =
+        Map<String, LatestAttribute> merged =
                 deleted ? new TreeMap<>() : attributes instanceof TreeMap ? attributes : new TreeMap<>(attributes);
         boolean news = eventTime >= time;
         List<SlicedEntity.Slice> changes = reported.attributes();
         for (SlicedEntity.Slice attribute : changes) {
-            KnownAttribute known = merged.get(attribute.name());
+            LatestAttribute known = merged.get(attribute.name());
             if (known == null || known.time() <= eventTime) {
-                merged.put(attribute.name(), new KnownAttribute(eventTime, attribute.json()));
+                merged.put(attribute.name(), new LatestAttribute(eventTime, attribute.json()));
                 news = true;
             }
         }
@@ -57,7 +57,7 @@ public record KnownEntity(
             oldest.forEach(merged::remove);
         }
         return news
-                ? new KnownEntity(
+                ? new LatestEntity(
                         Math.max(time, eventTime),
                         false,
                         eventTime >= time ? reported.type() : type,
@@ -70,22 +70,22 @@ public record KnownEntity(
      * After its deletion: the same object where something newer is known. The time of a deletion is that of the context
      * broker or of its receipt: of a device whose clock is ahead the receipt of its events counts.
      */
-    KnownEntity withoutAnything(long eventTime) {
+    LatestEntity withoutAnything(long eventTime) {
         return eventTime >= Math.min(time, received)
-                ? new KnownEntity(Math.max(time, eventTime), true, type, Map.of(), eventTime)
+                ? new LatestEntity(Math.max(time, eventTime), true, type, Map.of(), eventTime)
                 : this;
     }
 
-    KnownEntity ofType(String other) {
-        return new KnownEntity(time, deleted, other, attributes, received);
+    LatestEntity ofType(String other) {
+        return new LatestEntity(time, deleted, other, attributes, received);
     }
 
     /** In normalized form, attributes by name; put together from what is JSON already. */
     byte[] toBytes(String id) {
         StringBuilder json = new StringBuilder("{\"id\":").append(quoted(id));
         json.append(",\"type\":").append(quoted(type));
-        Map<String, KnownAttribute> byName = attributes instanceof SortedMap ? attributes : new TreeMap<>(attributes);
-        for (Map.Entry<String, KnownAttribute> attribute : byName.entrySet()) {
+        Map<String, LatestAttribute> byName = attributes instanceof SortedMap ? attributes : new TreeMap<>(attributes);
+        for (Map.Entry<String, LatestAttribute> attribute : byName.entrySet()) {
             json.append(',').append(quoted(attribute.getKey())).append(':');
             json.append(attribute.getValue().json());
         }

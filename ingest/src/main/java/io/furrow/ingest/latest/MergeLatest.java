@@ -19,7 +19,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.SlicedEntity;
 import io.furrow.model.topic.Topics;
 
-import static io.furrow.ingest.latest.KnownEntity.NEVER_SEEN;
+import static io.furrow.ingest.latest.LatestEntity.NEVER_SEEN;
 
 /**
  * Merges what is reported of an entity into the newest that is known of it; keyed by identity, and in it by type.
@@ -30,14 +30,14 @@ import static io.furrow.ingest.latest.KnownEntity.NEVER_SEEN;
  * another type has its type behind that, and in a header, so that compaction keeps both.
  */
 public final class MergeLatest extends KeyedProcessFunction<String, ReportedEvent, TopicRecord> {
-    private static final ByType.Descriptor<KnownEntity> ENTITY =
-            new ByType.Descriptor<>("entity", KnownEntity.class, KnownEntity::type);
+    private static final ByType.Descriptor<LatestEntity> ENTITY =
+            new ByType.Descriptor<>("entity", LatestEntity.class, LatestEntity::type);
 
     private static final long serialVersionUID = 1L;
 
     private final long deletionKeptMillis;
     private final LatestKey key;
-    private transient ByType<KnownEntity> entities;
+    private transient ByType<LatestEntity> entities;
     private transient Counter outdated;
 
     /** @param deletionKept how long after a deletion, in event time, older events may still come */
@@ -62,23 +62,23 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
      * that all count as of the newest. What is from the future counts as of long ago, or nothing that is reported would count any more.
      *
      * @param newest the latest time that is believed, epoch ms
-     * @throws io.furrow.model.ngsi.UnreadableException if its value is no entity
+     * @throws io.furrow.model.ngsi.UnreadableException if its value is not an entity
      */
     void begin(TopicRecord latest, long newest, TimerService timers) throws Exception {
         long time = latest.timestamp() <= newest ? latest.timestamp() : 0;
         String other = LatestKey.otherTypeOf(latest);
-        KnownEntity before = other.isEmpty() ? entities.first() : entities.get(other);
+        LatestEntity before = other.isEmpty() ? entities.first() : entities.get(other);
         if (before != null && before.time() > time) {
             return; // brought to the topic once more
         }
-        KnownEntity known = latest.value() == null
+        LatestEntity known = latest.value() == null
                 ? NEVER_SEEN.withoutAnything(time).ofType(before == null ? other : before.type())
                 : NEVER_SEEN.with(SlicedEntity.parse(latest.value()), time, time);
         entities.put(other.isEmpty(), known);
         await(known, timers);
     }
 
-    private void await(KnownEntity known, TimerService timers) {
+    private void await(LatestEntity known, TimerService timers) {
         if (known.deleted()) {
             timers.registerEventTimeTimer(known.time() + deletionKeptMillis);
         }
@@ -87,21 +87,25 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
     @Override
     public void processElement(ReportedEvent event, Context context, Collector<TopicRecord> out) throws Exception {
         if (event.isDeletion()) {
-            List<KnownEntity> ended = entities.allOf(event.type());
-            for (KnownEntity known : ended.isEmpty() ? List.of(NEVER_SEEN.ofType(event.type())) : ended) {
+            List<LatestEntity> ended = entities.allOf(event.type());
+            for (LatestEntity known : ended.isEmpty() ? List.of(NEVER_SEEN.ofType(event.type())) : ended) {
                 take(event, known, known.withoutAnything(event.time()), context.timerService(), out);
             }
         } else {
-            KnownEntity known = entities.get(event.type());
-            KnownEntity before = known == null ? NEVER_SEEN : known;
+            LatestEntity known = entities.get(event.type());
+            LatestEntity before = known == null ? NEVER_SEEN : known;
             SlicedEntity reported = EventEntity.of(event.record());
-            KnownEntity merged = before.with(reported, event.time(), event.received());
+            LatestEntity merged = before.with(reported, event.time(), event.received());
             take(event, before, merged, context.timerService(), out);
         }
     }
 
     private void take(
-            ReportedEvent event, KnownEntity known, KnownEntity merged, TimerService timers, Collector<TopicRecord> out)
+            ReportedEvent event,
+            LatestEntity known,
+            LatestEntity merged,
+            TimerService timers,
+            Collector<TopicRecord> out)
             throws Exception {
         if (merged == known) {
             outdated.inc();
@@ -113,7 +117,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
     }
 
     /** Of an event that came late the record has the time of the newest, so that time never steps back. */
-    private TopicRecord latest(ReportedEvent event, KnownEntity merged, String otherType) {
+    private TopicRecord latest(ReportedEvent event, LatestEntity merged, String otherType) {
         TopicRecord latest = TopicRecord.of(
                 Topics.LATEST,
                 merged.time(),
@@ -130,7 +134,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
 
     @Override
     public void onTimer(long timestamp, OnTimerContext context, Collector<TopicRecord> out) throws Exception {
-        for (KnownEntity known : entities.allOf("")) {
+        for (LatestEntity known : entities.allOf("")) {
             long until = known.time() + deletionKeptMillis;
             if (known.deleted() && until <= timestamp) {
                 entities.remove(known);

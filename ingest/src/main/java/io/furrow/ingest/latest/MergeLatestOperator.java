@@ -84,11 +84,11 @@ public final class MergeLatestOperator extends KeyedProcessOperator<String, Repo
                     merge.begin(record, newest, timers);
                     begun.add(identity);
                 } catch (UnreadableException e) {
-                    LOG.warn("{} holds no entity and is passed over: {}", record.position(), e.getMessage());
+                    LOG.warn("{} is not an entity and is skipped: {}", record.position(), e.getMessage());
                 }
             }
         });
-        LOG.info("Began with {} entities of the topic of the newest", begun.size());
+        LOG.info("Started with {} entities of the topic data.latest", begun.size());
     }
 
     private boolean isMine(String identity) {

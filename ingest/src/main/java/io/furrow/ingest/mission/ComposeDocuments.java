@@ -47,7 +47,7 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
     }
 
     /**
-     * @throws UnreadableException for what is no event, or what no document can hold
+     * @throws UnreadableException for what is not an event, or what no document can hold
      */
     public static MissionDocument compose(MissionEvent event) throws UnreadableException {
         TopicRecord record = event.record();

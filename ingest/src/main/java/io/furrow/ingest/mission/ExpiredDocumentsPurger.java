@@ -57,7 +57,7 @@ final class ExpiredDocumentsPurger implements AutoCloseable {
                 LOG.debug("{} expired documents removed", removed);
             }
         } catch (MongoException e) {
-            LOG.warn("The retention of missions could not be applied; it will be tried again", e);
+            LOG.warn("The retention of missions could not be applied; retrying", e);
         }
     }
 

@@ -28,17 +28,17 @@ public final class MissionOptions {
             names = "--mongo",
             paramLabel = "URI",
             description =
-                    "Keep every event of a mission in this MongoDB, for instance mongodb://127.0.0.1:27017: database "
-                            + "persistence, collection mission_<mission>. "
-                            + "@FILE reads the URI, and so its password, from a file. Default: missions are not kept.")
+                    "Store every event of a mission in this MongoDB, for instance mongodb://127.0.0.1:27017: database "
+                            + "persistence, collection mission_<mission>. @FILE reads the URI, and so its password, from a file. "
+                            + "Default: missions are not stored.")
     private String mongo;
 
     @Option(
             names = "--mongo-retry-timeout",
             paramLabel = "DURATION",
             defaultValue = "60s",
-            description = "How long documents are tried again while MongoDB is away, before the job is restarted. "
-                    + "Default: ${DEFAULT-VALUE}.")
+            description = "How long writes are retried while MongoDB is unavailable, before the job restarts. Default: "
+                    + "${DEFAULT-VALUE}.")
     private Duration timeout;
 
     @Option(
@@ -46,16 +46,17 @@ public final class MissionOptions {
             paramLabel = "DURATION",
             defaultValue = "5min",
             description =
-                    "How long a document is tried again that MongoDB does not take for a reason that may or may not pass,"
-                            + " before it becomes a dead letter. Shorter than Flink's timeout of checkpoints, 10 min,"
-                            + " which wait for it. Default: ${DEFAULT-VALUE}.")
+                    "How long the write of a document is retried after an error of MongoDB that may be transient, before "
+                            + "it becomes a dead letter. Shorter than Flink's checkpoint timeout, 10 min, because checkpoints wait "
+                            + "for it. Default: ${DEFAULT-VALUE}.")
     private Duration refusalTimeout;
 
     @Option(
             names = "--mission-retention",
             paramLabel = "[MISSION=]DURATION",
-            description = "How long documents are kept after their event time; of one mission, or of all that are not "
-                    + "named. May be repeated. Default: for ever.")
+            description =
+                    "How long documents are stored after their event time; of one mission, or of all missions that are "
+                            + "not named. May be repeated. Default: for ever.")
     private List<String> retention = List.of();
 
     /** Whether missions are kept at all. */
@@ -67,7 +68,7 @@ public final class MissionOptions {
         try {
             new ConnectionString(mongo);
         } catch (IllegalArgumentException e) {
-            throw refused("--mongo is no address of MongoDB (%s); write for instance mongodb://127.0.0.1:27017"
+            throw refused("--mongo is not an address of MongoDB (%s); write for instance mongodb://127.0.0.1:27017"
                     .formatted(MongoAccess.fault(mongo, e)));
         }
         return new MongoAccess(mongo, new MongoAccess.Waits(timeout, refusalTimeout));

@@ -23,7 +23,7 @@ import io.furrow.model.topic.Topics;
 /** The options of the job {@code normalize}. */
 @Command(
         name = "normalize",
-        description = "Brings the context broker's native Kafka notifications, in any form, to data.raw.",
+        description = "Converts the context broker's native Kafka notifications, in any format, to events on data.raw.",
         defaultValueProvider = NormalizeOptions.OwnDefaults.class,
         modelTransformer = WithoutEventTime.class)
 public final class NormalizeOptions extends JobOptions {
@@ -46,8 +46,8 @@ public final class NormalizeOptions extends JobOptions {
             hideParamSyntax = true,
             defaultValue = "Analytics:.*,Domain,Mission",
             description =
-                    "An entity whose whole type matches one is dropped and counted. Name here what is written into the "
-                            + "context broker from Kafka, or it comes back as news. Default: ${DEFAULT-VALUE}.")
+                    "An entity whose whole type matches one is dropped and counted. Name the types that are written from "
+                            + "Kafka into the context broker; otherwise they return as new events. Default: ${DEFAULT-VALUE}.")
     private List<String> excludeTypes;
 
     @Option(
@@ -55,7 +55,7 @@ public final class NormalizeOptions extends JobOptions {
             paramLabel = "DURATION",
             defaultValue = "5min",
             description =
-                    "How far a device's clock may be ahead, less than an hour; beyond it the event gets the time of "
+                    "How far a device's clock may be ahead, less than an hour; beyond that the event gets the time of "
                             + "the notification. Default: ${DEFAULT-VALUE}.")
     private Duration maxClockSkew;
 
@@ -66,9 +66,9 @@ public final class NormalizeOptions extends JobOptions {
             hideParamSyntax = true,
             defaultValue = "device,attributes,entity",
             description =
-                    "Which time of an event is its event time: the first of these that it has. device: its attribute Time, "
-                            + "else TimeInstant, dateObserved, timestamp. attributes: the newest metadata dateModified of its "
-                            + "attributes. entity: its dateModified. An event that has none of them gets the time of the "
+                    "Source of the event time: the first of these that is present. device: the attribute Time, else "
+                            + "TimeInstant, dateObserved, timestamp. attributes: the newest metadata dateModified of the "
+                            + "attributes. entity: its dateModified. Without any of them the event gets the time of the "
                             + "notification. Default: ${DEFAULT-VALUE}.")
     private List<String> eventTime;
 
@@ -77,8 +77,8 @@ public final class NormalizeOptions extends JobOptions {
             paramLabel = "N",
             defaultValue = "8388608",
             description =
-                    "An entity that makes a larger record becomes a dead letter: a record that the broker refuses "
-                            + "would stop the job. Default: ${DEFAULT-VALUE}.")
+                    "An entity whose record would be larger becomes a dead letter, because a record that the broker "
+                            + "refuses stops the job. Default: ${DEFAULT-VALUE}.")
     private int maxRecordBytes;
 
     /** The one default of all jobs that is another for this one. */
@@ -107,7 +107,8 @@ public final class NormalizeOptions extends JobOptions {
         try {
             return excludeTypes.stream().map(Pattern::compile).toList();
         } catch (PatternSyntaxException e) {
-            throw refused("--exclude-types " + e.getPattern() + " is no regular expression: " + e.getDescription(), e);
+            throw refused(
+                    "--exclude-types " + e.getPattern() + " is not a regular expression: " + e.getDescription(), e);
         }
     }
 

@@ -40,8 +40,8 @@ public final class AssignMission
     public static final MapStateDescriptor<String, DeviceVersions> DEVICES =
             new MapStateDescriptor<>("devices", Types.STRING, TypeInformation.of(DeviceVersions.class));
 
-    private static final ByType.Descriptor<KnownRoute> ROUTE =
-            new ByType.Descriptor<>("route", KnownRoute.class, KnownRoute::type);
+    private static final ByType.Descriptor<CachedRoute> ROUTE =
+            new ByType.Descriptor<>("route", CachedRoute.class, CachedRoute::type);
 
     private static final long serialVersionUID = 1L;
     /** In dead letters: the event went on. */
@@ -58,7 +58,7 @@ public final class AssignMission
     private final DeviceLookup devices;
     private final Rule rule;
     private final NameBudget names;
-    private transient ByType<KnownRoute> routes;
+    private transient ByType<CachedRoute> routes;
     private transient DeadLetterCounters dead;
 
     public AssignMission(TopicSnapshot devicesAtStart, Rule rule, NameBudget names) {
@@ -89,12 +89,12 @@ public final class AssignMission
     private ReportedEvent assigned(ReportedEvent event, ReadOnlyContext context) throws Exception {
         ReportedEvent complete =
                 event.domain().isEmpty() || event.mission().isEmpty() ? completed(event, context) : event;
-        KnownRoute known = routes.get(event.type());
+        CachedRoute known = routes.get(event.type());
         ReportedEvent assigned = admitted(event, complete, known, context);
         if (known == null || known.time() <= event.time()) {
             routes.put(
                     event.type(),
-                    new KnownRoute(
+                    new CachedRoute(
                             event.type(), assigned.domain(), assigned.mission(), event.time(), event.received()));
         }
         return assigned;
@@ -102,7 +102,7 @@ public final class AssignMission
 
     /** Without the names that the event bears and that are not admitted. */
     private ReportedEvent admitted(
-            ReportedEvent event, ReportedEvent assigned, KnownRoute known, ReadOnlyContext context) throws Exception {
+            ReportedEvent event, ReportedEvent assigned, CachedRoute known, ReadOnlyContext context) throws Exception {
         String domain = assigned.domain();
         boolean inUse = known != null && known.domain().equals(domain);
         long now = context.currentProcessingTime();
@@ -133,11 +133,11 @@ public final class AssignMission
     }
 
     private void deleted(ReportedEvent event, ReadOnlyContext context, Collector<ReportedEvent> out) throws Exception {
-        List<KnownRoute> ended = routes.allOf(event.type());
+        List<CachedRoute> ended = routes.allOf(event.type());
         if (ended.isEmpty()) {
             out.collect(completed(event, context));
         }
-        for (KnownRoute known : ended) {
+        for (CachedRoute known : ended) {
             if (Math.min(known.time(), known.received()) <= event.time()) {
                 routes.remove(known);
             }

@@ -3,8 +3,8 @@ package io.furrow.ingest.route;
 /**
  * Where the newest event of an entity went.
  *
- * @param type of the entity; null in state that knew one entity of an id
+ * @param type of the entity
  * @param time of that event, epoch ms
  * @param received when it was received, epoch ms; before {@code time} if the device's clock is ahead
  */
-public record KnownRoute(String type, String domain, String mission, long time, long received) {}
+public record CachedRoute(String type, String domain, String mission, long time, long received) {}

@@ -36,7 +36,7 @@ final class RouteMeters {
         measure(sourceToIngest, event, HeaderNames.TS_SOURCE, HeaderNames.TS_INGEST);
     }
 
-    /** Another producer's record may lack a stamp, or have one that is no number. */
+    /** Another producer's record may lack a stamp, or have one that is not a number. */
     private static void measure(Histogram lag, ReportedEvent event, String from, String to) {
         String left = event.record().headers().get(from);
         String arrived = event.record().headers().get(to);

@@ -79,9 +79,9 @@ class ImageOptionsTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
-                    --images=s3://bucket/a b                  | is no URI
-                    --images=s3://bucket/a?x=1                | is no folder
-                    --images=mailto:a@b                       | is no folder
+                    --images=s3://bucket/a b                  | is not a URI
+                    --images=s3://bucket/a?x=1                | is not a folder
+                    --images=mailto:a@b                       | is not a folder
                     --images=/x --image-max-bytes=0           | --image-max-bytes 0 lets no image pass
                     --images=/x --image-threads=0             | --image-threads 0 writes nothing
                     --images=/x --image-in-flight=0           | --image-in-flight 0 lets nothing pass

@@ -211,7 +211,7 @@ class MissionArchiveTest {
 
         assertThatThrownBy(() -> missions.importFrom("m", new ByteArrayInputStream(lines), "file.ndjson", n -> {}))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("file.ndjson, line 2 is no event");
+                .hasMessageContaining("file.ndjson, line 2 is not an event");
     }
 
     private static MissionEvent at(String id, long after) {

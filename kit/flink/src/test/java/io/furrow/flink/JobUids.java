@@ -14,7 +14,7 @@ import org.apache.flink.core.memory.DataOutputSerializer;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.streaming.api.graph.StreamNode;
 
-import io.furrow.flink.format.FormatSnapshot;
+import io.furrow.flink.format.VersionedSerializerSnapshot;
 
 /**
  * The uids of a job's operators, sorted. State is found by them after a restart, so a job's list is checked in: a changed
@@ -51,7 +51,7 @@ public final class JobUids {
         Map<String, Integer> versions = new HashMap<>();
         for (StreamNode node : env.getStreamGraph(false).getStreamNodes()) {
             TypeSerializer<?> key = node.getStateKeySerializer();
-            if (key != null && key.snapshotConfiguration() instanceof FormatSnapshot<?> snapshot) {
+            if (key != null && key.snapshotConfiguration() instanceof VersionedSerializerSnapshot<?> snapshot) {
                 DataOutputSerializer out = new DataOutputSerializer(64);
                 snapshot.writeSnapshot(out);
                 DataInputDeserializer in = new DataInputDeserializer(out.getSharedBuffer());

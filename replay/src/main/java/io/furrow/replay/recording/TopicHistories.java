@@ -13,7 +13,7 @@ import io.furrow.model.control.DesiredReplay;
 /** Recordings that are topics with their own history. Serializable, so that a job can carry it. */
 @FunctionalInterface
 public interface TopicHistories extends Serializable {
-    /** Topics of this Kafka; what came after the replay was asked for is no part of it. */
+    /** Topics of this Kafka; what came after the replay was asked for is not a part of it. */
     static TopicHistories of(Properties kafka) {
         TreeMap<String, String> settings = new TreeMap<>();
         kafka.stringPropertyNames().forEach(name -> settings.put(name, kafka.getProperty(name)));

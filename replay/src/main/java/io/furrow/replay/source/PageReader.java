@@ -200,7 +200,7 @@ final class PageReader implements AutoCloseable {
         for (SkippedRecords skippedRecords : eventPage.skipped()) {
             if (leftOut.size() < MAX_LOGGED && leftOut.add(skippedRecords.what() + ": " + skippedRecords.reason())) {
                 LOG.info(
-                        "Replay {} leaves out {} ({}): {}",
+                        "Replay {} skips {} ({}): {}",
                         replay.replay(),
                         skippedRecords.what(),
                         skippedRecords.count(),

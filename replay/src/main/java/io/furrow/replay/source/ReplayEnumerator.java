@@ -83,7 +83,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
 
     private void found(Found found, Throwable failure) {
         if (failure instanceof IOException) {
-            LOG.warn("It cannot be read now which replays are wanted; it is tried again", failure);
+            LOG.warn("The desired replays cannot be read now; retrying", failure);
             return;
         }
         require(failure);
@@ -111,7 +111,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
         if (replayUpdate.replay() == null
                 || !ReplayCommand.REPLAY.matcher(replayUpdate.replay()).matches()) {
             LOG.warn(
-                    "A record of service.replays is passed over: its key {} is no replay's name",
+                    "A record of service.replays is skipped: its key {} is not the name of a replay",
                     replayUpdate.replay());
             rejected.inc();
             return;

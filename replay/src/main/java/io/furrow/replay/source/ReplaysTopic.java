@@ -70,7 +70,7 @@ public final class ReplaysTopic implements DesiredReplays {
             try {
                 told.add(new ReportedStatus(replay, ReplayStatus.read(record.value())));
             } catch (UnreadableException e) {
-                LOG.warn("The status {} is passed over", record.position(), e);
+                LOG.warn("The status {} is skipped", record.position(), e);
             }
         });
         return told;

@@ -90,7 +90,7 @@ public final class TopicWatch implements AutoCloseable {
         try {
             partitions = topics.prepare(topic);
         } catch (IOException e) {
-            LOG.warn("Topic {} was deleted while a replay was played on it, and cannot be made again", topic, e);
+            LOG.warn("Topic {} was deleted while a replay was writing to it, and cannot be created again", topic, e);
         }
         Watched player = watched.get(topic);
         if (player != null) {

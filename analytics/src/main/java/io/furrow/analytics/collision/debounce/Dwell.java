@@ -31,7 +31,7 @@ final class Dwell implements Serializable {
      * @param until everything of the pair up to this instant has been seen
      */
     SteadyState advance(SteadyState course, long until, Consumer<Encounter> out) {
-        if (course.told() || due(course.newest()) > until) {
+        if (course.emitted() || due(course.newest()) > until) {
             return course;
         }
         Encounter seen = course.newest();

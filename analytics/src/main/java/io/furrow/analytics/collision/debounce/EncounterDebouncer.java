@@ -23,7 +23,7 @@ public final class EncounterDebouncer implements Serializable {
 
     /** When {@link #advance} has something to emit if nothing is seen until then; null if it has not. */
     Long due(SteadyState course) {
-        return course == null || course.told() ? null : Long.valueOf(dwell.due(course.newest()));
+        return course == null || course.emitted() ? null : Long.valueOf(dwell.due(course.newest()));
     }
 
     /**
@@ -38,12 +38,12 @@ public final class EncounterDebouncer implements Serializable {
             return null;
         }
         if (now.phase() == Phase.ENDED) {
-            if (known.told()) {
+            if (known.emitted()) {
                 out.accept(now);
             }
             return null;
         }
-        if (known == null || !known.told()) {
+        if (known == null || !known.emitted()) {
             return dwell.advance(new SteadyState(now, false, 0), now.time(), out);
         }
         boolean report = now.time() - known.reported() >= ongoingEvery;

@@ -6,7 +6,7 @@ import io.furrow.analytics.collision.encounter.Encounter;
  * What is remembered of a pair behind the exact stages while it is close.
  *
  * @param newest the encounter as last seen, whether or not it was emitted
- * @param told whether its start was
+ * @param emitted whether its start was
  * @param reported event time of the newest record about it; without meaning until it was emitted
  */
-public record SteadyState(Encounter newest, boolean told, long reported) {}
+public record SteadyState(Encounter newest, boolean emitted, long reported) {}

@@ -27,20 +27,20 @@ public record Approach(
         long startTime,
         long time) {
 
-    static Approach predicted(Finding finding, long startTime) {
+    static Approach predicted(ApproachCandidate candidate, long startTime) {
         return new Approach(
                 Phase.PREDICTED,
-                finding.first(),
-                finding.second(),
-                finding.apart(),
-                finding.distance(),
-                (finding.closest() - Epochs.original(finding.time())) / 1000,
+                candidate.first(),
+                candidate.second(),
+                candidate.apart(),
+                candidate.distance(),
+                (candidate.closest() - Epochs.original(candidate.time())) / 1000,
                 startTime,
-                finding.time());
+                candidate.time());
     }
 
     static Approach crossed(Contact contact) {
-        Finding nearest = contact.nearest();
+        ApproachCandidate nearest = contact.nearest();
         return new Approach(
                 Phase.CROSSED,
                 nearest.first(),

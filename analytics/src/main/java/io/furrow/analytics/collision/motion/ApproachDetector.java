@@ -6,17 +6,21 @@ import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.record.Epochs;
 
 /**
- * Finds out whether two legs come within the threshold, for one cube.
+ * Finds out whether two segments come within the threshold, for one cube.
  *
  * @param cube only what is closest in it is emitted, so that everything is reported in one cube
- * @param predictions takes findings about legs ahead
- * @param contacts takes findings about legs behind
+ * @param predictions takes candidates about segments ahead
+ * @param contacts takes candidates about segments behind
  */
 record ApproachDetector(
-        MotionRules rules, Cubes cubes, long cube, Consumer<Finding> predictions, Consumer<Finding> contacts) {
+        MotionRules rules,
+        Cubes cubes,
+        long cube,
+        Consumer<ApproachCandidate> predictions,
+        Consumer<ApproachCandidate> contacts) {
 
-    /** Two legs from the newest positions on; {@code now} is the instant at which one of them was reported. */
-    void ahead(Leg one, Leg other, long now) {
+    /** Two segments from the newest positions on; {@code now} is the instant at which one of them was reported. */
+    void ahead(MotionSegment one, MotionSegment other, long now) {
         long oldest = Math.min(one.from(), other.from());
         CartesianPoint start = one.start();
         if (now - oldest < rules.timeToLive()
@@ -26,8 +30,8 @@ record ApproachDetector(
         }
     }
 
-    /** Two legs up to a position each. */
-    void behind(Leg one, Leg other) {
+    /** Two segments up to a position each. */
+    void behind(MotionSegment one, MotionSegment other) {
         long from = Math.max(one.from(), other.from());
         long until = Math.min(one.until(), other.until());
         if (from < until && mayMeet(one, other)) {
@@ -38,7 +42,7 @@ record ApproachDetector(
         }
     }
 
-    /** From when to when two legs are compared, and when that is known. */
+    /** From when to when two segments are compared, and when that is known. */
     private record Interval(long from, long until, long known) {
         /** What lies ahead begins now; what lies behind began before. */
         boolean isAhead() {
@@ -47,26 +51,31 @@ record ApproachDetector(
     }
 
     /** The newest position reported by then, which is what the encounters are found by. */
-    private static CartesianPoint held(Leg leg, long time) {
-        return leg.until() == time ? leg.at(Epochs.original(time)) : leg.start();
+    private static CartesianPoint held(MotionSegment segment, long time) {
+        return segment.until() == time ? segment.at(Epochs.original(time)) : segment.start();
     }
 
-    private double threshold(Leg one, Leg other) {
+    private double threshold(MotionSegment one, MotionSegment other) {
         return rules.common().thresholds().between(one.fix().type(), other.fix().type());
     }
 
-    private static boolean mayMeet(Leg one, Leg other) {
+    private static boolean mayMeet(MotionSegment one, MotionSegment other) {
         return one.fix().topic().equals(other.fix().topic()) && !one.fix().sharesAggregateWith(other.fix());
     }
 
-    private void tell(Leg one, Leg other, Interval interval, boolean reportedClose, Consumer<Finding> out) {
+    private void tell(
+            MotionSegment one,
+            MotionSegment other,
+            Interval interval,
+            boolean reportedClose,
+            Consumer<ApproachCandidate> out) {
         boolean inOrder = PositionFix.NAMING.compare(one.fix(), other.fix()) < 0;
-        Leg first = inOrder ? one : other;
-        Leg second = inOrder ? other : one;
+        MotionSegment first = inOrder ? one : other;
+        MotionSegment second = inOrder ? other : one;
         long epoch = Epochs.begin(interval.from);
         ClosestApproach.within(threshold(first, second), first, second, interval.from - epoch, interval.until - epoch)
                 .filter(approach -> cubes.cube(first.fix().topic(), first.at(approach.time())) == cube)
-                .ifPresent(approach -> out.accept(new Finding(
+                .ifPresent(approach -> out.accept(new ApproachCandidate(
                         interval.isAhead() ? first.fix() : first.fixAt(approach.time()),
                         interval.isAhead() ? second.fix() : second.fixAt(approach.time()),
                         interval.known,

@@ -15,7 +15,7 @@ record ClosestApproach(double time, double distance, double contactFrom, double 
     private static final double STANDSTILL = 1e-24;
 
     /** Empty if they do not come within the threshold, in meters, between {@code from} and {@code until}. */
-    static Optional<ClosestApproach> within(double threshold, Leg a, Leg b, long from, long until) {
+    static Optional<ClosestApproach> within(double threshold, MotionSegment a, MotionSegment b, long from, long until) {
         if (from > until) {
             return Optional.empty();
         }

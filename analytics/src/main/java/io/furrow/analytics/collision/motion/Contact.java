@@ -4,35 +4,35 @@ import java.util.List;
 import java.util.function.Consumer;
 
 /**
- * Legs of a pair that are within the threshold and may continue to be so.
+ * Segments of a pair that are within the threshold and may continue to be so.
  *
  * @param nearest what was found where they were closest
  * @param from when it began, epoch milliseconds
- * @param until up to when the legs are known
+ * @param until up to when the segments are known
  * @param reportedClose whether the reports saw the devices close as well: then it is an encounter, and not emitted here
  */
-public record Contact(Finding nearest, long from, long until, boolean reportedClose) {
+public record Contact(ApproachCandidate nearest, long from, long until, boolean reportedClose) {
 
-    private static Contact of(Finding finding) {
-        return new Contact(finding, finding.contactFrom(), finding.until(), finding.reportedClose());
+    private static Contact of(ApproachCandidate candidate) {
+        return new Contact(candidate, candidate.contactFrom(), candidate.until(), candidate.reportedClose());
     }
 
     /**
-     * What the legs of a pair come to; null if no contact is open at the end.
+     * What the segments of a pair come to; null if no contact is open at the end.
      *
      * @param before null if none was
-     * @param findings in the order of {@link Finding#SEQUENCE}
+     * @param candidates in the order of {@link ApproachCandidate#SEQUENCE}
      */
-    static Contact join(Contact before, List<Finding> findings, Consumer<Approach> out) {
+    static Contact join(Contact before, List<ApproachCandidate> candidates, Consumer<Approach> out) {
         Contact open = before;
-        for (Finding finding : findings) {
-            if (open != null && open.isContinuedBy(finding)) {
-                open = open.joinedBy(finding);
+        for (ApproachCandidate candidate : candidates) {
+            if (open != null && open.isContinuedBy(candidate)) {
+                open = open.joinedBy(candidate);
             } else {
                 close(open, out);
-                open = of(finding);
+                open = of(candidate);
             }
-            if (finding.contactUntil() < finding.until()) {
+            if (candidate.contactUntil() < candidate.until()) {
                 close(open, out);
                 open = null;
             }
@@ -47,12 +47,12 @@ public record Contact(Finding nearest, long from, long until, boolean reportedCl
         }
     }
 
-    private boolean isContinuedBy(Finding finding) {
-        return until == finding.from() && finding.contactFrom() <= finding.from();
+    private boolean isContinuedBy(ApproachCandidate candidate) {
+        return until == candidate.from() && candidate.contactFrom() <= candidate.from();
     }
 
-    private Contact joinedBy(Finding finding) {
-        Finding closer = finding.distance() < nearest.distance() ? finding : nearest;
-        return new Contact(closer, from, finding.until(), reportedClose || finding.reportedClose());
+    private Contact joinedBy(ApproachCandidate candidate) {
+        ApproachCandidate closer = candidate.distance() < nearest.distance() ? candidate : nearest;
+        return new Contact(closer, from, candidate.until(), reportedClose || candidate.reportedClose());
     }
 }

@@ -5,13 +5,13 @@ import java.util.List;
 import java.util.Map;
 
 /**
- * The devices whose legs touch a cube.
+ * The devices whose segments touch a cube.
  *
  * @param movers by {@link io.furrow.analytics.position.PositionFix#key}; changed in place
  */
-public record Neighbourhood(Map<String, MovingDevice> movers) {
-    static Neighbourhood empty() {
-        return new Neighbourhood(new HashMap<>());
+public record CubeIndex(Map<String, MovingDevice> movers) {
+    static CubeIndex empty() {
+        return new CubeIndex(new HashMap<>());
     }
 
     boolean isEmpty() {
@@ -19,11 +19,11 @@ public record Neighbourhood(Map<String, MovingDevice> movers) {
     }
 
     /**
-     * Applies updates instant by instant and emits what the new legs come close to.
+     * Applies updates instant by instant and emits what the new segments come close to.
      *
-     * @param updates in the order of {@link LegUpdate#SEQUENCE}
+     * @param updates in the order of {@link SegmentUpdate#SEQUENCE}
      */
-    void apply(List<LegUpdate> updates, ApproachDetector watch) {
+    void apply(List<SegmentUpdate> updates, ApproachDetector watch) {
         int from = 0;
         while (from < updates.size()) {
             int to = from + 1;
@@ -36,14 +36,14 @@ public record Neighbourhood(Map<String, MovingDevice> movers) {
         }
     }
 
-    private void applyAtOnce(List<LegUpdate> updates, ApproachDetector watch) {
-        for (LegUpdate update : updates) {
+    private void applyAtOnce(List<SegmentUpdate> updates, ApproachDetector watch) {
+        for (SegmentUpdate update : updates) {
             movers.compute(
-                    update.leg().fix().key(),
+                    update.segment().fix().key(),
                     (device, known) -> (known == null ? MovingDevice.UNKNOWN : known).with(update));
         }
-        for (LegUpdate update : updates) {
-            String device = update.leg().fix().key();
+        for (SegmentUpdate update : updates) {
+            String device = update.segment().fix().key();
             movers.forEach((other, mover) -> {
                 if (!other.equals(device)) {
                     compare(update, mover, device.compareTo(other) < 0, watch);
@@ -52,20 +52,20 @@ public record Neighbourhood(Map<String, MovingDevice> movers) {
         }
     }
 
-    /** Two legs that are new at the same instant are compared once, when it is the turn of the lesser device. */
-    private static void compare(LegUpdate update, MovingDevice other, boolean lesser, ApproachDetector watch) {
+    /** Two segments that are new at the same instant are compared once, when it is the turn of the lesser device. */
+    private static void compare(SegmentUpdate update, MovingDevice other, boolean lesser, ApproachDetector watch) {
         long now = update.time();
-        if (update.change() == LegUpdate.Change.LEG_AHEAD) {
+        if (update.change() == SegmentUpdate.Change.PREDICTED) {
             if (other.ahead() != null && (lesser || other.ahead().fix().time() < now)) {
-                watch.ahead(update.leg(), other.ahead(), now);
+                watch.ahead(update.segment(), other.ahead(), now);
             }
-        } else if (update.change() == LegUpdate.Change.LEG_BEHIND) {
-            List<Leg> behind = other.behind();
+        } else if (update.change() == SegmentUpdate.Change.OBSERVED) {
+            List<MotionSegment> behind = other.behind();
             for (int i = behind.size() - 1;
-                    i >= 0 && behind.get(i).until() > update.leg().from();
+                    i >= 0 && behind.get(i).until() > update.segment().from();
                     i--) {
                 if (lesser || behind.get(i).until() < now) {
-                    watch.behind(update.leg(), behind.get(i));
+                    watch.behind(update.segment(), behind.get(i));
                 }
             }
         }

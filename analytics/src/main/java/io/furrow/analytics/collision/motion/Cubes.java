@@ -6,7 +6,7 @@ import java.util.Arrays;
 import io.furrow.flink.record.Epochs;
 
 /**
- * Space cut into cubes. A leg belongs to every cube that the threshold's surroundings of it may touch; what two legs have to do
+ * Space cut into cubes. A segment belongs to every cube that the threshold's surroundings of it may touch; what two segments have to do
  * with each other is reported in one cube only, that of the place where the one is when they are closest. Both know that cube,
  * because the other is within the threshold then. Two cubes may share an id, which does no harm: they are one then.
  */
@@ -29,17 +29,17 @@ final class Cubes implements Serializable {
     }
 
     /** Ids, ascending, each once. */
-    long[] touched(Leg leg) {
-        double length = leg.velocity().length() * (leg.until() - leg.from());
+    long[] touched(MotionSegment segment) {
+        double length = segment.velocity().length() * (segment.until() - segment.from());
         int pieces = Math.max(1, (int) Math.ceil(length / edge));
-        long from = Epochs.original(leg.from());
+        long from = Epochs.original(segment.from());
         long[] found = new long[8];
         int count = 0;
         for (int piece = 0; piece < pieces; piece++) {
-            double step = (double) (leg.until() - leg.from()) / pieces;
-            CartesianPoint start = leg.at(from + piece * step);
-            CartesianPoint end = leg.at(from + (piece + 1) * step);
-            for (long id : around(leg.fix().topic().hashCode(), start, end)) {
+            double step = (double) (segment.until() - segment.from()) / pieces;
+            CartesianPoint start = segment.at(from + piece * step);
+            CartesianPoint end = segment.at(from + (piece + 1) * step);
+            for (long id : around(segment.fix().topic().hashCode(), start, end)) {
                 found = count == found.length ? Arrays.copyOf(found, 2 * count) : found;
                 found[count++] = id;
             }

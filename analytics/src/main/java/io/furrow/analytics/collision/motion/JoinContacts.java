@@ -12,23 +12,23 @@ import io.furrow.analytics.eventtime.EventTimeBuffer;
 import io.furrow.analytics.eventtime.SingleTimer;
 
 /**
- * Joins the contacts of legs that follow each other to one crossing. Key: the pair.
+ * Joins the contacts of segments that follow each other to one crossing. Key: the pair.
  *
- * <p><b>State</b>: findings that wait for the watermark; a contact that may continue.
+ * <p><b>State</b>: candidates that wait for the watermark; a contact that may continue.
  *
- * <p><b>Cleared</b>: when the contact ended, at the latest one time-to-live after its last leg, and no finding waits.
+ * <p><b>Cleared</b>: when the contact ended, at the latest one time-to-live after its last segment, and no candidate waits.
  *
  * <p><b>Late</b>: nothing can be, the stage before acts before it forwards a watermark.
  *
  * <p><b>Emits</b>: one record for each contact that no report shows.
  */
-final class JoinContacts extends KeyedProcessFunction<String, Finding, Approach> {
+final class JoinContacts extends KeyedProcessFunction<String, ApproachCandidate, Approach> {
     private static final long serialVersionUID = 1L;
 
     private final long timeToLive;
 
     private transient SingleTimer timer;
-    private transient EventTimeBuffer<Finding> eventTimeBuffer;
+    private transient EventTimeBuffer<ApproachCandidate> eventTimeBuffer;
     private transient ValueState<Contact> contact;
 
     JoinContacts(MotionRules rules) {
@@ -38,19 +38,20 @@ final class JoinContacts extends KeyedProcessFunction<String, Finding, Approach>
     @Override
     public void open(OpenContext context) {
         timer = new SingleTimer(getRuntimeContext());
-        eventTimeBuffer = new EventTimeBuffer<>(getRuntimeContext(), Finding.class, Finding.SEQUENCE, timer);
+        eventTimeBuffer =
+                new EventTimeBuffer<>(getRuntimeContext(), ApproachCandidate.class, ApproachCandidate.SEQUENCE, timer);
         contact = getRuntimeContext().getState(new ValueStateDescriptor<>("contact", Contact.class));
     }
 
     @Override
-    public void processElement(Finding finding, Context context, Collector<Approach> out) throws Exception {
-        eventTimeBuffer.add(finding, context.timerService());
+    public void processElement(ApproachCandidate candidate, Context context, Collector<Approach> out) throws Exception {
+        eventTimeBuffer.add(candidate, context.timerService());
     }
 
     @Override
     public void onTimer(long time, OnTimerContext context, Collector<Approach> out) throws Exception {
         timer.rang();
-        List<Finding> due = eventTimeBuffer.takeDue(context.timerService());
+        List<ApproachCandidate> due = eventTimeBuffer.takeDue(context.timerService());
         Contact open = Contact.join(contact.value(), due, out::collect);
         if (open != null && open.until() + timeToLive <= context.timerService().currentWatermark()) {
             Contact.close(open, out::collect);

@@ -13,19 +13,19 @@ import io.furrow.analytics.eventtime.EventTimeBuffer;
 import io.furrow.analytics.eventtime.SingleTimer;
 
 /**
- * Finds the legs of each cube that come close to each other. Key: the cube's id.
+ * Finds the segments of each cube that come close to each other. Key: the cube's id.
  *
- * <p><b>State</b>: updates that wait for the watermark; of each device whose legs touch the cube the leg ahead, and those
+ * <p><b>State</b>: updates that wait for the watermark; of each device whose segments touch the cube the segment ahead, and those
  * behind for one time-to-live, because another device may report as late as that what happened meanwhile.
  *
- * <p><b>Cleared</b>: when the last leg can meet nothing any more and no update waits.
+ * <p><b>Cleared</b>: when the last segment can meet nothing any more and no update waits.
  *
  * <p><b>Late</b>: nothing can be, the stage before acts before it forwards a watermark.
  *
- * <p><b>Emits</b>: findings about legs ahead; those about legs behind to {@link #CONTACTS}.
+ * <p><b>Emits</b>: candidates about segments ahead; those about segments behind to {@link #CONTACTS}.
  */
-final class MatchSegments extends KeyedProcessFunction<Long, LegUpdate, Finding> {
-    static final OutputTag<Finding> CONTACTS = new OutputTag<>("contacts") {
+final class MatchSegments extends KeyedProcessFunction<Long, SegmentUpdate, ApproachCandidate> {
+    static final OutputTag<ApproachCandidate> CONTACTS = new OutputTag<>("contacts") {
         private static final long serialVersionUID = 1L;
     };
 
@@ -36,8 +36,8 @@ final class MatchSegments extends KeyedProcessFunction<Long, LegUpdate, Finding>
     private final long timeToLive;
 
     private transient SingleTimer timer;
-    private transient EventTimeBuffer<LegUpdate> eventTimeBuffer;
-    private transient ValueState<Neighbourhood> neighbourhood;
+    private transient EventTimeBuffer<SegmentUpdate> eventTimeBuffer;
+    private transient ValueState<CubeIndex> index;
 
     MatchSegments(MotionRules rules) {
         this.rules = rules;
@@ -48,21 +48,23 @@ final class MatchSegments extends KeyedProcessFunction<Long, LegUpdate, Finding>
     @Override
     public void open(OpenContext context) {
         timer = new SingleTimer(getRuntimeContext());
-        eventTimeBuffer = new EventTimeBuffer<>(getRuntimeContext(), LegUpdate.class, LegUpdate.SEQUENCE, timer);
-        neighbourhood = getRuntimeContext().getState(new ValueStateDescriptor<>("neighbourhood", Neighbourhood.class));
+        eventTimeBuffer =
+                new EventTimeBuffer<>(getRuntimeContext(), SegmentUpdate.class, SegmentUpdate.SEQUENCE, timer);
+        index = getRuntimeContext().getState(new ValueStateDescriptor<>("index", CubeIndex.class));
     }
 
     @Override
-    public void processElement(LegUpdate update, Context context, Collector<Finding> out) throws Exception {
+    public void processElement(SegmentUpdate update, Context context, Collector<ApproachCandidate> out)
+            throws Exception {
         eventTimeBuffer.add(update, context.timerService());
     }
 
     @Override
-    public void onTimer(long time, OnTimerContext context, Collector<Finding> out) throws Exception {
+    public void onTimer(long time, OnTimerContext context, Collector<ApproachCandidate> out) throws Exception {
         timer.rang();
-        List<LegUpdate> due = eventTimeBuffer.takeDue(context.timerService());
-        Neighbourhood known = neighbourhood.value();
-        Neighbourhood now = known == null ? Neighbourhood.empty() : known;
+        List<SegmentUpdate> due = eventTimeBuffer.takeDue(context.timerService());
+        CubeIndex known = index.value();
+        CubeIndex now = known == null ? CubeIndex.empty() : known;
         now.apply(
                 due,
                 new ApproachDetector(
@@ -73,9 +75,9 @@ final class MatchSegments extends KeyedProcessFunction<Long, LegUpdate, Finding>
                         contact -> context.output(CONTACTS, contact)));
         now.forget(context.timerService().currentWatermark(), timeToLive);
         if (now.isEmpty()) {
-            neighbourhood.clear();
+            index.clear();
         } else {
-            neighbourhood.update(now);
+            index.update(now);
             timer.ask(now.nextEnd(timeToLive), context.timerService());
         }
     }

@@ -13,30 +13,30 @@ public final class MotionDetection {
 
     /** Detects in event time; {@code fixes} carry timestamps equal to {@link PositionFix#time} and watermarks. */
     public static DataStream<Approach> define(DataStream<PositionFix> fixes, MotionRules rules) {
-        SingleOutputStreamOperator<LegUpdate> legs = fixes.filter(fix -> rules.moves(fix.type()))
+        SingleOutputStreamOperator<SegmentUpdate> segments = fixes.filter(fix -> rules.moves(fix.type()))
                 .uid("select-moving-types")
                 .name("Select moving types")
                 .keyBy(PositionFix::key)
                 .transform(
                         "Track the motion of devices",
-                        TypeInformation.of(LegUpdate.class),
+                        TypeInformation.of(SegmentUpdate.class),
                         new KeyedLatenessOperator<>(new TrackMotion(rules)))
                 .uid("track-motion");
 
-        SingleOutputStreamOperator<Finding> predictions = legs.keyBy(LegUpdate::cube)
+        SingleOutputStreamOperator<ApproachCandidate> predictions = segments.keyBy(SegmentUpdate::cube)
                 .process(new MatchSegments(rules))
-                .uid("match-legs")
-                .name("Match legs in each cube");
+                .uid("match-segments")
+                .name("Match segments in each cube");
 
         DataStream<Approach> predicted = predictions
-                .keyBy(Finding::pair)
+                .keyBy(ApproachCandidate::pair)
                 .process(new TrackPredictions(rules))
                 .uid("track-predictions")
                 .name("Track predictions of each pair");
 
         DataStream<Approach> crossed = predictions
                 .getSideOutput(MatchSegments.CONTACTS)
-                .keyBy(Finding::pair)
+                .keyBy(ApproachCandidate::pair)
                 .process(new JoinContacts(rules))
                 .uid("join-contacts")
                 .name("Join contacts between reports");

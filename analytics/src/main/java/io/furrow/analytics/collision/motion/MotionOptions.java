@@ -15,17 +15,17 @@ public final class MotionOptions {
             paramLabel = "DURATION",
             defaultValue = "0s",
             description =
-                    "How far ahead of its newest position the course of a device is followed. A pair that will come "
-                            + "within the threshold by then is reported with the phase 'predicted', 'tcpa' and 'dcpa'. 0s predicts "
-                            + "nothing and costs nothing; 10s suits machines that report once a second. Default: ${DEFAULT-VALUE}.")
+                    "How far the course of a device is extrapolated from its newest position. A pair that will be within "
+                            + "the threshold by then is reported with the phase 'predicted', 'tcpa' and 'dcpa'. 0s predicts "
+                            + "nothing; 10s suits machines that report once a second. Default: ${DEFAULT-VALUE}.")
     private Duration horizon;
 
     @Option(
             names = "--crossed",
             description =
-                    "Compare the ways between two reports too: a pair that comes within the threshold there, though "
-                            + "no report shows it, is reported with the phase 'crossed'. Set it where devices move further between "
-                            + "two reports than the threshold.")
+                    "Also compare the paths between two reports: a pair that is within the threshold only there is "
+                            + "reported with the phase 'crossed'. Set it if devices move further than the threshold between two "
+                            + "reports.")
     private boolean crossed;
 
     @Option(
@@ -33,9 +33,8 @@ public final class MotionOptions {
             paramLabel = "M/S",
             defaultValue = "30",
             description =
-                    "No device moves faster, in meters per second. What seems faster is taken for a faulty position: "
-                            + "it has no part in predictions and crossings and is counted as 'positionsTooFast'. "
-                            + "Default: ${DEFAULT-VALUE}.")
+                    "Maximum speed of a device, in meters per second. A faster position counts as faulty: predictions "
+                            + "and crossings ignore it, and the metric 'positionsTooFast' counts it. Default: ${DEFAULT-VALUE}.")
     private double maxSpeed;
 
     @Option(
@@ -43,7 +42,8 @@ public final class MotionOptions {
             paramLabel = "TYPE",
             split = ",",
             description =
-                    "Entity types among which is predicted and crossed, for instance 'Robot,Tractor'. Default: all.")
+                    "Entity types for which predictions and crossings are computed, for instance 'Robot,Tractor'. "
+                            + "Default: all.")
     private List<String> movingTypes = List.of();
 
     /**

@@ -18,7 +18,7 @@ import io.furrow.analytics.collision.rules.CollisionRules;
 public record MotionRules(
         CollisionRules common, Duration horizon, boolean crossed, double maxSpeed, Set<String> movingTypes)
         implements Serializable {
-    /** Beyond it the Earth is too round for a straight line: the end of such a leg would be 8 m above the ground. */
+    /** Beyond it the Earth is too round for a straight line: the end of such a segment would be 8 m above the ground. */
     private static final double MAX_WAY_METERS = 10_000;
 
     /** Into how many cubes at most the fastest machine's way ahead leads, about. */

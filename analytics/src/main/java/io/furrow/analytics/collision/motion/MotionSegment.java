@@ -6,7 +6,7 @@ import io.furrow.flink.record.Epochs;
 /**
  * A straight, uniform motion of one device.
  *
- * @param fix the newer position of a leg behind, or the one from which a leg ahead begins
+ * @param fix the newer position of a segment behind, or the one from which a segment ahead begins
  * @param from when the device is at the beginning, epoch milliseconds
  * @param until when it is at the end
  * @param x where it begins, meters from the Earth's center towards 0° N 0° E
@@ -16,14 +16,15 @@ import io.furrow.flink.record.Epochs;
  * @param vy meters per millisecond
  * @param vz meters per millisecond
  */
-public record Leg(
+public record MotionSegment(
         PositionFix fix, long from, long until, double x, double y, double z, double vx, double vy, double vz) {
-    static Leg of(PositionFix fix, long from, long until, CartesianPoint start, CartesianPoint velocity) {
-        return new Leg(fix, from, until, start.x(), start.y(), start.z(), velocity.x(), velocity.y(), velocity.z());
+    static MotionSegment of(PositionFix fix, long from, long until, CartesianPoint start, CartesianPoint velocity) {
+        return new MotionSegment(
+                fix, from, until, start.x(), start.y(), start.z(), velocity.x(), velocity.y(), velocity.z());
     }
 
     /**
-     * Where the device is on its leg; the newest position itself where the leg ends with it.
+     * Where the device is on its segment; the newest position itself where the segment ends with it.
      *
      * @param time the original one, epoch milliseconds: a double cannot represent the milliseconds of a late epoch's event time
      */
@@ -40,7 +41,7 @@ public record Leg(
         return new CartesianPoint(vx, vy, vz);
     }
 
-    /** The same device at another original time and place on the leg. */
+    /** The same device at another original time and place on the segment. */
     PositionFix fixAt(double time) {
         CartesianPoint there = at(time);
         return new PositionFix(

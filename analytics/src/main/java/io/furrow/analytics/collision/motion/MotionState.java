@@ -6,6 +6,6 @@ import io.furrow.analytics.position.PositionFix;
  * What is known of one device's motion.
  *
  * @param last the newest position
- * @param ahead the leg that begins there; null if no course is known
+ * @param ahead the segment that begins there; null if no course is known
  */
-public record KnownMotion(PositionFix last, Leg ahead) {}
+public record MotionState(PositionFix last, MotionSegment ahead) {}

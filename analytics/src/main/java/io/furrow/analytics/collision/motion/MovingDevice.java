@@ -4,21 +4,21 @@ import java.util.ArrayList;
 import java.util.List;
 
 /**
- * A device whose legs touch a cube.
+ * A device whose segments touch a cube.
  *
- * @param ahead the leg from its newest position on; null if none is known or it does not touch the cube
- * @param behind the legs up to its newest position, the oldest first
+ * @param ahead the segment from its newest position on; null if none is known or it does not touch the cube
+ * @param behind the segments up to its newest position, the oldest first
  */
-public record MovingDevice(Leg ahead, List<Leg> behind) {
+public record MovingDevice(MotionSegment ahead, List<MotionSegment> behind) {
     static final MovingDevice UNKNOWN = new MovingDevice(null, List.of());
 
-    MovingDevice with(LegUpdate update) {
+    MovingDevice with(SegmentUpdate update) {
         return switch (update.change()) {
-            case LEG_AHEAD -> new MovingDevice(update.leg(), behind);
-            case NO_LEG_AHEAD -> new MovingDevice(null, behind);
-            case LEG_BEHIND -> {
-                List<Leg> all = new ArrayList<>(behind);
-                all.add(update.leg());
+            case PREDICTED -> new MovingDevice(update.segment(), behind);
+            case PREDICTION_ENDED -> new MovingDevice(null, behind);
+            case OBSERVED -> {
+                List<MotionSegment> all = new ArrayList<>(behind);
+                all.add(update.segment());
                 yield new MovingDevice(ahead, all);
             }
         };
@@ -26,9 +26,10 @@ public record MovingDevice(Leg ahead, List<Leg> behind) {
 
     /** Without what can meet nothing any more that is reported after the instant. */
     MovingDevice without(long until, long timeToLive) {
-        Leg counting = ahead != null && aheadEnd(timeToLive) > until ? ahead : null;
-        List<Leg> recent =
-                behind.stream().filter(leg -> leg.until() + timeToLive > until).toList();
+        MotionSegment counting = ahead != null && aheadEnd(timeToLive) > until ? ahead : null;
+        List<MotionSegment> recent = behind.stream()
+                .filter(segment -> segment.until() + timeToLive > until)
+                .toList();
         return counting == ahead && recent.size() == behind.size() ? this : new MovingDevice(counting, recent);
     }
 

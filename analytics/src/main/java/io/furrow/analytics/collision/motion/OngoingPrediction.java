@@ -21,19 +21,19 @@ public record OngoingPrediction(long startTime, long held, long reported) {
      * What a pair's predictions come to.
      *
      * @param before null if none lasts
-     * @param findings in the order of {@link Finding#SEQUENCE}
+     * @param candidates in the order of {@link ApproachCandidate#SEQUENCE}
      */
     static OngoingPrediction follow(
-            OngoingPrediction before, List<Finding> findings, MotionRules rules, Consumer<Approach> out) {
+            OngoingPrediction before, List<ApproachCandidate> candidates, MotionRules rules, Consumer<Approach> out) {
         OngoingPrediction known = before;
-        for (Finding finding : findings) {
-            long now = finding.time();
+        for (ApproachCandidate candidate : candidates) {
+            long now = candidate.time();
             boolean goesOn = known != null && now < known.lapse(rules);
             boolean report = !goesOn
                     || now - known.reported >= rules.common().ongoingEvery().toMillis();
             known = new OngoingPrediction(goesOn ? known.startTime : now, now, report ? now : known.reported);
             if (report) {
-                out.accept(Approach.predicted(finding, known.startTime));
+                out.accept(Approach.predicted(candidate, known.startTime));
             }
         }
         return known;

@@ -8,7 +8,7 @@ import java.util.function.Consumer;
 
 import io.furrow.analytics.position.PositionFix;
 
-/** Creates legs from the positions of one device and adds them to cubes. */
+/** Creates segments from the positions of one device and adds them to cubes. */
 final class SegmentBuilder implements Serializable {
     private static final long serialVersionUID = 1L;
     private static final long[] NO_CUBES = {};
@@ -22,7 +22,7 @@ final class SegmentBuilder implements Serializable {
     }
 
     /** What is known of the device in the end, null for nothing; {@code tooFast} counts what no machine could have made. */
-    record Advanced(KnownMotion known, int tooFast) {}
+    record Advanced(MotionState known, int tooFast) {}
 
     /**
      * Follows a device through its positions.
@@ -30,8 +30,8 @@ final class SegmentBuilder implements Serializable {
      * @param before null if nothing is known
      * @param due in the order of {@link PositionFix#SEQUENCE}
      */
-    Advanced advance(KnownMotion before, List<PositionFix> due, Consumer<LegUpdate> out) {
-        KnownMotion known = before;
+    Advanced advance(MotionState before, List<PositionFix> due, Consumer<SegmentUpdate> out) {
+        MotionState known = before;
         int tooFast = 0;
         for (int i = 0; i < due.size(); i++) {
             PositionFix fix = due.get(i);
@@ -44,10 +44,10 @@ final class SegmentBuilder implements Serializable {
                 known = null;
                 continue;
             }
-            Leg behind = known != null && fix.time() < expiry(known) ? behind(known.last(), fix) : null;
-            Leg ahead = rules.predicts() ? ahead(behind, fix) : null;
+            MotionSegment behind = known != null && fix.time() < expiry(known) ? behind(known.last(), fix) : null;
+            MotionSegment ahead = rules.predicts() ? ahead(behind, fix) : null;
             tooFast += isTooFast(behind) || isTooFast(ahead) ? 1 : 0;
-            KnownMotion now = new KnownMotion(fix, usable(ahead));
+            MotionState now = new MotionState(fix, usable(ahead));
             emitAhead(known, now.ahead(), fix.time(), out);
             emitBehind(usable(behind), out);
             known = now;
@@ -56,61 +56,61 @@ final class SegmentBuilder implements Serializable {
     }
 
     /** The first instant at which nothing that is known counts any more. */
-    long expiry(KnownMotion known) {
+    long expiry(MotionState known) {
         return known.last().time() + rules.timeToLive();
     }
 
-    private void emitAhead(KnownMotion before, Leg ahead, long time, Consumer<LegUpdate> out) {
-        Leg former = before == null ? null : before.ahead();
+    private void emitAhead(MotionState before, MotionSegment ahead, long time, Consumer<SegmentUpdate> out) {
+        MotionSegment former = before == null ? null : before.ahead();
         long[] left = former == null ? NO_CUBES : cubes.touched(former);
         long[] entered = ahead == null ? NO_CUBES : cubes.touched(ahead);
         for (long cube : left) {
             if (Arrays.binarySearch(entered, cube) < 0) {
-                out.accept(new LegUpdate(cube, time, LegUpdate.Change.NO_LEG_AHEAD, former));
+                out.accept(new SegmentUpdate(cube, time, SegmentUpdate.Change.PREDICTION_ENDED, former));
             }
         }
         for (long cube : entered) {
-            out.accept(new LegUpdate(cube, time, LegUpdate.Change.LEG_AHEAD, ahead));
+            out.accept(new SegmentUpdate(cube, time, SegmentUpdate.Change.PREDICTED, ahead));
         }
     }
 
-    private void emitBehind(Leg behind, Consumer<LegUpdate> out) {
+    private void emitBehind(MotionSegment behind, Consumer<SegmentUpdate> out) {
         if (behind != null && rules.crossed()) {
             for (long cube : cubes.touched(behind)) {
-                out.accept(new LegUpdate(cube, behind.until(), LegUpdate.Change.LEG_BEHIND, behind));
+                out.accept(new SegmentUpdate(cube, behind.until(), SegmentUpdate.Change.OBSERVED, behind));
             }
         }
     }
 
-    private static Leg behind(PositionFix before, PositionFix fix) {
+    private static MotionSegment behind(PositionFix before, PositionFix fix) {
         CartesianPoint start = CartesianPoint.of(before);
         CartesianPoint velocity = CartesianPoint.of(fix).minus(start).times(1.0 / (fix.time() - before.time()));
-        return Leg.of(fix, before.time(), fix.time(), start, velocity);
+        return MotionSegment.of(fix, before.time(), fix.time(), start, velocity);
     }
 
-    private Leg ahead(Leg behind, PositionFix fix) {
+    private MotionSegment ahead(MotionSegment behind, PositionFix fix) {
         CartesianPoint start = CartesianPoint.of(fix);
         long until = fix.time() + rules.horizon().toMillis();
         return velocity(behind, fix, start)
-                .map(velocity -> Leg.of(fix, fix.time(), until, start, velocity))
+                .map(velocity -> MotionSegment.of(fix, fix.time(), until, start, velocity))
                 .orElse(null);
     }
 
     /** Meters per millisecond: as reported, else as from the position before. */
-    private static Optional<CartesianPoint> velocity(Leg behind, PositionFix fix, CartesianPoint start) {
-        boolean told = fix.speed() == 0 || !Double.isNaN(fix.speed()) && !Double.isNaN(fix.heading());
-        if (told) {
+    private static Optional<CartesianPoint> velocity(MotionSegment behind, PositionFix fix, CartesianPoint start) {
+        boolean hasCourse = fix.speed() == 0 || !Double.isNaN(fix.speed()) && !Double.isNaN(fix.heading());
+        if (hasCourse) {
             double heading = Double.isNaN(fix.heading()) ? 0 : fix.heading();
             return Optional.of(CartesianPoint.heading(fix, heading).times(fix.speed() / 1000));
         }
-        return Optional.ofNullable(behind).map(leg -> leg.velocity().alongTheGroundAt(start));
+        return Optional.ofNullable(behind).map(segment -> segment.velocity().alongTheGroundAt(start));
     }
 
-    private Leg usable(Leg leg) {
-        return isTooFast(leg) ? null : leg;
+    private MotionSegment usable(MotionSegment segment) {
+        return isTooFast(segment) ? null : segment;
     }
 
-    private boolean isTooFast(Leg leg) {
-        return leg != null && 1000 * leg.velocity().length() > rules.maxSpeed();
+    private boolean isTooFast(MotionSegment segment) {
+        return segment != null && 1000 * segment.velocity().length() > rules.maxSpeed();
     }
 }

@@ -5,21 +5,21 @@ import java.util.Comparator;
 import io.furrow.analytics.eventtime.HasEventTime;
 
 /**
- * What becomes of a device's legs in one cube.
+ * What becomes of a device's segments in one cube.
  *
  * @param cube id of the cube
  * @param time when this is known, epoch milliseconds: that of the device's newest position
- * @param leg the leg; of {@link Change#NO_LEG_AHEAD} the one that holds no more
+ * @param segment the segment; of {@link Change#PREDICTION_ENDED} the one that holds no more
  */
-public record LegUpdate(long cube, long time, Change change, Leg leg) implements HasEventTime {
+public record SegmentUpdate(long cube, long time, Change change, MotionSegment segment) implements HasEventTime {
     /** What is new. */
     public enum Change {
-        LEG_BEHIND,
-        LEG_AHEAD,
-        NO_LEG_AHEAD
+        OBSERVED,
+        PREDICTED,
+        PREDICTION_ENDED
     }
 
-    static final Comparator<LegUpdate> SEQUENCE = Comparator.comparingLong(LegUpdate::time)
-            .thenComparing(update -> update.leg().fix().key())
-            .thenComparing(LegUpdate::change);
+    static final Comparator<SegmentUpdate> SEQUENCE = Comparator.comparingLong(SegmentUpdate::time)
+            .thenComparing(update -> update.segment().fix().key())
+            .thenComparing(SegmentUpdate::change);
 }

@@ -16,9 +16,9 @@ import io.furrow.flink.time.EventTimeProgress;
 import io.furrow.flink.time.LatenessAware;
 
 /**
- * Creates legs from the positions of each device and adds them to the cubes that they touch. Key: the device.
+ * Creates segments from the positions of each device and adds them to the cubes that they touch. Key: the device.
  *
- * <p><b>State</b>: positions that wait for the watermark, the newest with the leg that begins there; how far event time has
+ * <p><b>State</b>: positions that wait for the watermark, the newest with the segment that begins there; how far event time has
  * come, because a restored job starts without a watermark.
  *
  * <p><b>Cleared</b>: when the position's time-to-live ends and none waits.
@@ -30,7 +30,7 @@ import io.furrow.flink.time.LatenessAware;
  * {@code positionsTooFast} counts positions that are further from the one before, or report a greater speed, than the
  * greatest speed allows.
  */
-final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpdate> implements LatenessAware {
+final class TrackMotion extends KeyedProcessFunction<String, PositionFix, SegmentUpdate> implements LatenessAware {
     private static final long serialVersionUID = 1L;
     /** Positions of a device; the stage that finds the encounters sets aside what is beyond. */
     private static final int MAX_WAITING = 100_000;
@@ -39,7 +39,7 @@ final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpd
 
     private transient SingleTimer timer;
     private transient EventTimeBuffer<PositionFix> eventTimeBuffer;
-    private transient ValueState<KnownMotion> motion;
+    private transient ValueState<MotionState> motion;
     private transient EventTimeProgress reached;
     private transient Counter late;
     private transient Counter tooFast;
@@ -57,13 +57,13 @@ final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpd
     public void open(OpenContext context) {
         timer = new SingleTimer(getRuntimeContext());
         eventTimeBuffer = new EventTimeBuffer<>(getRuntimeContext(), PositionFix.class, PositionFix.SEQUENCE, timer);
-        motion = getRuntimeContext().getState(new ValueStateDescriptor<>("motion", KnownMotion.class));
+        motion = getRuntimeContext().getState(new ValueStateDescriptor<>("motion", MotionState.class));
         late = getRuntimeContext().getMetricGroup().counter("late");
         tooFast = getRuntimeContext().getMetricGroup().counter("positionsTooFast");
     }
 
     @Override
-    public void processElement(PositionFix fix, Context context, Collector<LegUpdate> out) throws Exception {
+    public void processElement(PositionFix fix, Context context, Collector<SegmentUpdate> out) throws Exception {
         if (reached.hasPassed(fix.time(), context.getCurrentKey())
                 || !eventTimeBuffer.offer(fix, MAX_WAITING, context.timerService())) {
             late.inc();
@@ -71,13 +71,13 @@ final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpd
     }
 
     @Override
-    public void onTimer(long time, OnTimerContext context, Collector<LegUpdate> out) throws Exception {
+    public void onTimer(long time, OnTimerContext context, Collector<SegmentUpdate> out) throws Exception {
         timer.rang();
         long until = context.timerService().currentWatermark();
         List<PositionFix> due = eventTimeBuffer.takeDue(context.timerService());
         SegmentBuilder.Advanced advanced = navigator.advance(motion.value(), due, out::collect);
         tooFast.inc(advanced.tooFast());
-        KnownMotion now = advanced.known();
+        MotionState now = advanced.known();
         if (now == null || navigator.expiry(now) <= until) {
             motion.clear();
         } else {

@@ -1,19 +1,19 @@
 /**
  * What lies ahead of devices and between their reports; never alters the start or the end of an encounter.
  *
- * <p>A <em>leg</em> is a straight, uniform motion of one device. A leg <em>behind</em> runs from one accepted position to the
- * next, if that comes before the first one's time-to-live ends. A leg <em>ahead</em> begins at a position and lasts as long
+ * <p>A <em>segment</em> is a straight, uniform motion of one device. A segment <em>behind</em> runs from one accepted position to the
+ * next, if that comes before the first one's time-to-live ends. A segment <em>ahead</em> begins at a position and lasts as long
  * as the horizon; its speed and course are those of the report ({@code speed}, {@code heading}), else those from the
- * position before. Where neither gives a course, or the speed is above the greatest, there is no such leg.
+ * position before. Where neither gives a course, or the speed is above the greatest, there is no such segment.
  *
  * <p><b>Predicted</b>: at each instant t at which either device of a pair reported, both newest positions counting and
- * further apart than the threshold, their legs ahead come within the threshold between t and the end of the shorter of both.
+ * further apart than the threshold, their segments ahead come within the threshold between t and the end of the shorter of both.
  * A prediction lasts until it has not held for as long as the horizon.
  *
- * <p><b>Crossed</b>: an unbroken time during which two legs behind, and those that follow them, are within the threshold, while
+ * <p><b>Crossed</b>: an unbroken time during which two segments behind, and those that follow them, are within the threshold, while
  * at none of the reports at its edges and within it the newest positions of both were.
  *
- * <p>Legs are lines in space, not arcs: so nothing is special about poles or the antimeridian. A leg ahead of length s leaves
+ * <p>Segments are lines in space, not arcs: so nothing is special about poles or the antimeridian. A segment ahead of length s leaves
  * the sphere by s²/2R (3 cm after 600 m), one behind of length s dips below it by s²/8R; distances between two devices
  * are wrong by no more than the greater of these.
  */

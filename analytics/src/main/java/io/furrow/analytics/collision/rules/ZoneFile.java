@@ -41,7 +41,7 @@ public final class ZoneFile {
         } catch (IOException e) {
             throw refused(file, "cannot be read; name a readable GeoJSON file", e);
         } catch (UnreadableException e) {
-            throw refused(file, "is no JSON (" + e.getMessage() + "); give a GeoJSON FeatureCollection", e);
+            throw refused(file, "is not JSON (" + e.getMessage() + "); give a GeoJSON FeatureCollection", e);
         }
     }
 

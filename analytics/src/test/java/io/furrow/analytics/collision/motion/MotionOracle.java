@@ -160,7 +160,7 @@ public final class MotionOracle {
         return entry == null || now >= entry.getKey() + rules.timeToLive() ? null : entry.getValue();
     }
 
-    /** Whether a leg behind, not too long and not too fast, covers the time. */
+    /** Whether a segment behind, not too long and not too fast, covers the time. */
     private boolean covers(TreeMap<Long, PositionFix> fixes, long from, long until) {
         var start = fixes.floorEntry(from);
         var end = fixes.ceilingEntry(until);

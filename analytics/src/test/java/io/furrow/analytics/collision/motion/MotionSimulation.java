@@ -17,8 +17,8 @@ final class MotionSimulation {
     private final Cubes cubes;
     private final SegmentBuilder navigator;
     private final Random random;
-    private final Map<String, KnownMotion> motions = new HashMap<>();
-    private final Map<Long, Neighbourhood> neighbourhoods = new HashMap<>();
+    private final Map<String, MotionState> motions = new HashMap<>();
+    private final Map<Long, CubeIndex> indexes = new HashMap<>();
     private final Map<String, OngoingPrediction> foretold = new HashMap<>();
     private final Map<String, Contact> contacts = new HashMap<>();
     private final List<Approach> approaches = new ArrayList<>();
@@ -44,28 +44,28 @@ final class MotionSimulation {
     }
 
     private void advance(List<PositionFix> due, long until) {
-        List<LegUpdate> updates = new ArrayList<>();
+        List<SegmentUpdate> updates = new ArrayList<>();
         grouped(due, PositionFix::key).forEach((device, fixes) -> {
             fixes.sort(PositionFix.SEQUENCE);
             motions.put(
                     device,
                     navigator.advance(motions.get(device), fixes, updates::add).known());
         });
-        List<Finding> predictions = new ArrayList<>();
-        List<Finding> found = new ArrayList<>();
-        grouped(updates, LegUpdate::cube).forEach((cube, all) -> {
-            all.sort(LegUpdate.SEQUENCE);
-            Neighbourhood here = neighbourhoods.computeIfAbsent(cube, id -> Neighbourhood.empty());
+        List<ApproachCandidate> predictions = new ArrayList<>();
+        List<ApproachCandidate> found = new ArrayList<>();
+        grouped(updates, SegmentUpdate::cube).forEach((cube, all) -> {
+            all.sort(SegmentUpdate.SEQUENCE);
+            CubeIndex here = indexes.computeIfAbsent(cube, id -> CubeIndex.empty());
             here.apply(all, new ApproachDetector(rules, cubes, cube, predictions::add, found::add));
             here.forget(until, rules.timeToLive());
         });
-        grouped(predictions, Finding::pair).forEach((pair, findings) -> {
-            findings.sort(Finding.SEQUENCE);
-            foretold.put(pair, OngoingPrediction.follow(foretold.get(pair), findings, rules, approaches::add));
+        grouped(predictions, ApproachCandidate::pair).forEach((pair, candidates) -> {
+            candidates.sort(ApproachCandidate.SEQUENCE);
+            foretold.put(pair, OngoingPrediction.follow(foretold.get(pair), candidates, rules, approaches::add));
         });
-        grouped(found, Finding::pair).forEach((pair, findings) -> {
-            findings.sort(Finding.SEQUENCE);
-            contacts.put(pair, Contact.join(contacts.get(pair), findings, approaches::add));
+        grouped(found, ApproachCandidate::pair).forEach((pair, candidates) -> {
+            candidates.sort(ApproachCandidate.SEQUENCE);
+            contacts.put(pair, Contact.join(contacts.get(pair), candidates, approaches::add));
         });
     }
 

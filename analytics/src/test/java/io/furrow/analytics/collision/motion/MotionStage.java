@@ -36,24 +36,24 @@ final class MotionStage<K, I extends HasEventTime, O> {
         harness.open();
     }
 
-    static MotionStage<String, PositionFix, LegUpdate> track(MotionRules rules) throws Exception {
+    static MotionStage<String, PositionFix, SegmentUpdate> track(MotionRules rules) throws Exception {
         return new MotionStage<>(
                 () -> new KeyedLatenessOperator<>(new TrackMotion(rules)), PositionFix::key, Types.STRING);
     }
 
-    static MotionStage<Long, LegUpdate, Finding> match(MotionRules rules) throws Exception {
+    static MotionStage<Long, SegmentUpdate, ApproachCandidate> match(MotionRules rules) throws Exception {
         return new MotionStage<>(
-                () -> new KeyedProcessOperator<>(new MatchSegments(rules)), LegUpdate::cube, Types.LONG);
+                () -> new KeyedProcessOperator<>(new MatchSegments(rules)), SegmentUpdate::cube, Types.LONG);
     }
 
-    static MotionStage<String, Finding, Approach> predict(MotionRules rules) throws Exception {
+    static MotionStage<String, ApproachCandidate, Approach> predict(MotionRules rules) throws Exception {
         return new MotionStage<>(
-                () -> new KeyedProcessOperator<>(new TrackPredictions(rules)), Finding::pair, Types.STRING);
+                () -> new KeyedProcessOperator<>(new TrackPredictions(rules)), ApproachCandidate::pair, Types.STRING);
     }
 
-    static MotionStage<String, Finding, Approach> join(MotionRules rules) throws Exception {
+    static MotionStage<String, ApproachCandidate, Approach> join(MotionRules rules) throws Exception {
         return new MotionStage<>(
-                () -> new KeyedProcessOperator<>(new JoinContacts(rules)), Finding::pair, Types.STRING);
+                () -> new KeyedProcessOperator<>(new JoinContacts(rules)), ApproachCandidate::pair, Types.STRING);
     }
 
     void receive(List<I> inputs) throws Exception {

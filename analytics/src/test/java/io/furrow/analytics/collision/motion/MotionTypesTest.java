@@ -21,18 +21,19 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class MotionTypesTest {
     private static final PositionFix FIX = Courses.fix("a", new double[] {40.5, -3.25}, 1000);
-    private static final Leg LEG = new Leg(FIX, 0, 1000, 1, 2, 3, 0.1, 0.2, 0.3);
-    private static final Finding FINDING = new Finding(FIX, FIX, 1000, 9, 3, 500.5, 0, 1000, 400, 600, true);
+    private static final MotionSegment LEG = new MotionSegment(FIX, 0, 1000, 1, 2, 3, 0.1, 0.2, 0.3);
+    private static final ApproachCandidate FINDING =
+            new ApproachCandidate(FIX, FIX, 1000, 9, 3, 500.5, 0, 1000, 400, 600, true);
 
     static Object[] records() {
         return new Object[] {
             LEG,
-            new LegUpdate(-7, 1000, LegUpdate.Change.NO_LEG_AHEAD, LEG),
-            new KnownMotion(FIX, LEG),
-            new KnownMotion(FIX, null),
+            new SegmentUpdate(-7, 1000, SegmentUpdate.Change.PREDICTION_ENDED, LEG),
+            new MotionState(FIX, LEG),
+            new MotionState(FIX, null),
             new MovingDevice(LEG, List.of(LEG, LEG)),
             new MovingDevice(null, List.of()),
-            new Neighbourhood(Map.of(FIX.key(), new MovingDevice(null, List.of(LEG)))),
+            new CubeIndex(Map.of(FIX.key(), new MovingDevice(null, List.of(LEG)))),
             FINDING,
             new OngoingPrediction(1, 2, 3),
             new Contact(FINDING, 1, 2, true),

@@ -47,7 +47,7 @@ class RestartedMotionTest {
 
         assertThat(track.advance(Courses.START + 20))
                 .isNotEmpty()
-                .extracting(update -> update.leg().fix().id())
+                .extracting(update -> update.segment().fix().id())
                 .containsOnly("c");
         track.stop();
     }
@@ -71,13 +71,13 @@ class RestartedMotionTest {
             }
             if (end || random.nextInt(4) == 0) {
                 long watermark = end ? Long.MAX_VALUE : newest - BOUND - 1;
-                List<LegUpdate> updates = track.advance(watermark);
+                List<SegmentUpdate> updates = track.advance(watermark);
                 Collections.shuffle(updates, random);
                 match.receive(updates);
-                List<Finding> findings = match.advance(watermark);
-                Collections.shuffle(findings, random);
-                predict.receive(findings);
-                List<Finding> contacts = match.aside(MatchSegments.CONTACTS);
+                List<ApproachCandidate> candidates = match.advance(watermark);
+                Collections.shuffle(candidates, random);
+                predict.receive(candidates);
+                List<ApproachCandidate> contacts = match.aside(MatchSegments.CONTACTS);
                 Collections.shuffle(contacts, random);
                 join.receive(contacts);
                 approaches.addAll(predict.advance(watermark));

@@ -64,13 +64,13 @@ class ExclusionZonesTest {
         assertThatThrownBy(() -> ZoneFile.read(folder.resolve("none")))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContaining("cannot be read; name a readable GeoJSON file");
-        assertRefused("{", "is no JSON");
+        assertRefused("{", "is not JSON");
         assertRefused("{}", "holds no feature");
-        assertRefused(feature("{'type': 'Point', 'coordinates': [1, 2]}"), "feature 1 is no area");
+        assertRefused(feature("{'type': 'Point', 'coordinates': [1, 2]}"), "feature 1 is not an area");
         assertRefused(feature("{'type': 'Polygon', 'coordinates': [[[1, 2]]]}"), "feature 1 has broken coordinates");
         assertRefused(
                 feature("{'type': 'Polygon', 'coordinates': [[[0, 0], [2, 2], [2, 0], [0, 2], [0, 0]]]}"),
-                "feature 1 is no valid area: Self-intersection");
+                "feature 1 is not a valid area: Self-intersection");
         assertRefused(
                 feature("{'type': 'Polygon', 'coordinates': [[[0, 0], [2, 0], [2, 91], [0, 0]]]}"),
                 "lies outside of longitude ±180, latitude ±90");

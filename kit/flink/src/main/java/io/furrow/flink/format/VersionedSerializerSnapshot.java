@@ -10,7 +10,7 @@ import org.apache.flink.core.memory.DataOutputView;
 import org.apache.flink.util.InstantiationUtil;
 
 /** What a savepoint says of a {@link VersionedTypeSerializer}: which format wrote the state, and in which of its versions. */
-public final class FormatSnapshot<T> implements TypeSerializerSnapshot<T> {
+public final class VersionedSerializerSnapshot<T> implements TypeSerializerSnapshot<T> {
     /** Class name of the format, its version. */
     private static final int VERSION = 1;
 
@@ -18,9 +18,9 @@ public final class FormatSnapshot<T> implements TypeSerializerSnapshot<T> {
     private int written;
 
     /** For Flink, which calls {@link #readSnapshot} next. */
-    public FormatSnapshot() {}
+    public VersionedSerializerSnapshot() {}
 
-    FormatSnapshot(VersionedSerializer<T> versionedSerializer) {
+    VersionedSerializerSnapshot(VersionedSerializer<T> versionedSerializer) {
         this.format = versionedSerializer;
         this.written = versionedSerializer.version();
     }
@@ -58,7 +58,7 @@ public final class FormatSnapshot<T> implements TypeSerializerSnapshot<T> {
 
     @Override
     public TypeSerializerSchemaCompatibility<T> resolveSchemaCompatibility(TypeSerializerSnapshot<T> old) {
-        if (!(old instanceof FormatSnapshot<T> before) || before.format.getClass() != format.getClass()) {
+        if (!(old instanceof VersionedSerializerSnapshot<T> before) || before.format.getClass() != format.getClass()) {
             return TypeSerializerSchemaCompatibility.incompatible();
         }
         return before.written == written

@@ -88,6 +88,6 @@ final class VersionedTypeSerializer<T> extends TypeSerializer<T> {
 
     @Override
     public TypeSerializerSnapshot<T> snapshotConfiguration() {
-        return new FormatSnapshot<>(versionedSerializer);
+        return new VersionedSerializerSnapshot<>(versionedSerializer);
     }
 }

@@ -11,9 +11,9 @@ public final class ClockOptions {
             paramLabel = "DURATION",
             defaultValue = "10s",
             description =
-                    "How far the clock of the part that stamps the receipt of records (header ts-source) may be ahead of"
-                            + " this one. A later stamp counts as now and this much; so event time is ahead of the clock by no"
-                            + " more. Of replays there is no receipt. Default: ${DEFAULT-VALUE}.")
+                    "How far the clock that stamps the receipt of records (header ts-source) may be ahead of this "
+                            + "machine's. A later stamp counts as now plus this much, which limits how far event time is ahead. "
+                            + "Replays have no receipt. Default: ${DEFAULT-VALUE}.")
     private Duration clockSkew;
 
     @Option(
@@ -21,8 +21,8 @@ public final class ClockOptions {
             paramLabel = "DURATION",
             defaultValue = "1h",
             description =
-                    "How far the event time of a record may be after its receipt. A record further ahead becomes a"
-                            + " dead letter, from-the-future. Give all jobs the same. Default: ${DEFAULT-VALUE}, as brokers have it.")
+                    "How far the event time of a record may be after its receipt. A record further ahead becomes a dead "
+                            + "letter, from-the-future. Use the same value for all jobs. Default: ${DEFAULT-VALUE}, as in brokers.")
     private Duration maxAhead;
 
     @Option(
@@ -30,10 +30,10 @@ public final class ClockOptions {
             paramLabel = "DURATION",
             defaultValue = "1min",
             description =
-                    "How much further the newest records of a partition may be behind their receipt than those of another"
-                            + " partition and still hold up event time. Those further behind, of a device whose clock is slow or"
-                            + " that sends what it stored, are late. Longer: partitions that differ so much wait for each other, and so do"
-                            + " all results. Default: ${DEFAULT-VALUE}.")
+                    "How much more the newest records of a partition may lag behind their receipt than those of another "
+                            + "partition and still hold back event time. Records that lag more, of a device with a slow clock or "
+                            + "one that sends stored measures, are late. Longer: such partitions hold back each other and all "
+                            + "results. Default: ${DEFAULT-VALUE}.")
     private Duration maxBehind;
 
     public Duration clockSkew() {

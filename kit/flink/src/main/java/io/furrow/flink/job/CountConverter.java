@@ -19,6 +19,6 @@ public final class CountConverter implements ITypeConverter<Integer> {
     }
 
     private static TypeConversionException refused(String text) {
-        return new TypeConversionException("'" + text + "' is no whole number from 1 to " + Short.MAX_VALUE);
+        return new TypeConversionException("'" + text + "' is not a whole number from 1 to " + Short.MAX_VALUE);
     }
 }

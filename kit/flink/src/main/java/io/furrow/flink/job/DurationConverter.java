@@ -23,7 +23,7 @@ public final class DurationConverter implements ITypeConverter<Duration> {
         Matcher form = FORM.matcher(text.trim());
         if (!form.matches()) {
             throw new TypeConversionException(
-                    "'" + text + "' is no duration; write for instance 500ms, 10s, 5min or 1h");
+                    "'" + text + "' is not a duration; write for instance 500ms, 10s, 5min or 1h");
         }
         return UNITS.get(form.group(2)).multipliedBy(Long.parseLong(form.group(1)));
     }

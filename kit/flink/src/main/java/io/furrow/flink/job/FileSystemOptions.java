@@ -20,8 +20,8 @@ public final class FileSystemOptions {
             paramLabel = "KEY=VALUE",
             scope = ScopeType.INHERIT,
             description =
-                    "A setting of Flink's for file systems, for instance s3.endpoint=http://127.0.0.1:9000; goes before "
-                            + "the file in FLINK_CONF_DIR. May be repeated. S3 needs FLINK_PLUGINS_DIR, HDFS "
+                    "A file system setting of Flink, for instance s3.endpoint=http://127.0.0.1:9000; takes precedence "
+                            + "over the file in FLINK_CONF_DIR. May be repeated. S3 needs FLINK_PLUGINS_DIR, HDFS "
                             + "HADOOP_CLASSPATH, as for Flink itself.")
     private Map<String, String> settings = new LinkedHashMap<>();
 

@@ -93,7 +93,8 @@ public final class JobCommandLine {
             case "at-least-once" -> Delivery.AT_LEAST_ONCE;
             case "exactly-once" -> Delivery.EXACTLY_ONCE;
             default ->
-                throw new TypeConversionException("'" + text + "' is no delivery; write at-least-once or exactly-once");
+                throw new TypeConversionException(
+                        "'" + text + "' is not a delivery; write at-least-once or exactly-once");
         };
     }
 
@@ -104,7 +105,7 @@ public final class JobCommandLine {
             case "none" -> RecoveryOptions.Restart.NONE;
             default ->
                 throw new TypeConversionException(
-                        "'" + text + "' is no way to restart; write exponential-delay, fixed-delay or none");
+                        "'" + text + "' is not a way to restart; write exponential-delay, fixed-delay or none");
         };
     }
 

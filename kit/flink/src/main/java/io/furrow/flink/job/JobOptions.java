@@ -39,9 +39,9 @@ public abstract class JobOptions {
             names = "--name",
             paramLabel = "NAME",
             description =
-                    "Name of this instance in the web UI, in its consumer group furrow-NAME and in its transactional"
-                            + " ids. Instances beside each other need different ones, and topics of their own to write to where"
-                            + " their results differ. Default: the name of the job.")
+                    "Name of this instance in the web UI, in its consumer group furrow-NAME and in its transactional "
+                            + "ids. Concurrent instances need different names, and different output topics if their results "
+                            + "differ. Default: the name of the job.")
     private String name;
 
     @Option(
@@ -63,11 +63,11 @@ public abstract class JobOptions {
             split = ",",
             hideParamSyntax = true,
             defaultValue = "data.raw",
-            description =
-                    "Topics to read, or regular expressions for whole names, for instance"
-                            + " 'data[.]north[.]realtime[.].*': then also topics that come later, but none of dead letters or of what analytics find. A"
-                            + " replay's topic stands alone and is named in full: each replay has an instance of its own, called"
-                            + " <job>-<replay> without --name, whose results go to <topic>.<result>. Default: ${DEFAULT-VALUE}.")
+            description = "Topics to read, or regular expressions for whole names, for instance "
+                    + "'data[.]north[.]realtime[.].*': then also topics that are created later, but no topics of dead "
+                    + "letters or of analytics results. The topic of a replay is named in full and without others: each "
+                    + "replay has its own instance, named <job>-<replay> without --name, whose results go to "
+                    + "<topic>.<result>. Default: ${DEFAULT-VALUE}.")
     private List<String> input;
 
     @Option(
@@ -75,25 +75,27 @@ public abstract class JobOptions {
             paramLabel = "POSITION",
             defaultValue = "committed",
             description =
-                    "Where to read from without a savepoint or checkpoint: committed, where the consumer group left"
-                            + " off, else the beginning; earliest; latest; or a time as in 2026-05-01T06:00:00Z. Default:"
-                            + " ${DEFAULT-VALUE}.")
+                    "Start position without a savepoint or checkpoint: committed, the offsets of the consumer group, "
+                            + "else the beginning; earliest; latest; or a time as in 2026-05-01T06:00:00Z. Default: "
+                            + "${DEFAULT-VALUE}.")
     private StartPosition from;
 
     @Option(
             names = "--delivery",
             paramLabel = "MODE",
             defaultValue = "at-least-once",
-            description = "at-least-once: visible at once, repeats after a failure carry the same event id; "
-                    + "exactly-once: visible after each checkpoint. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "at-least-once: visible at once; duplicates after a failure have the same event id. exactly-once: "
+                            + "visible after each checkpoint. Default: ${DEFAULT-VALUE}.")
     private Delivery delivery;
 
     @Option(
             names = "--out-of-orderness",
             paramLabel = "DURATION",
             defaultValue = "2s",
-            description = "How much later than a newer event an older one may come and still count. Longer: fewer late "
-                    + "events, later results. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "How much later than a newer event an older one may arrive without being late. Longer: fewer late "
+                            + "events, later results. Default: ${DEFAULT-VALUE}.")
     private Duration outOfOrderness;
 
     @Option(
@@ -101,22 +103,19 @@ public abstract class JobOptions {
             paramLabel = "DURATION",
             defaultValue = "10s",
             description =
-                    "After this time without a record a partition no longer holds up event time. Depends on the wall "
-                            + "clock. Default: ${DEFAULT-VALUE}.")
+                    "After this time without a record a partition does not hold back event time any more. Depends on the "
+                            + "wall clock. Default: ${DEFAULT-VALUE}.")
     private Duration idleTimeout;
 
     @Option(
             names = "--idle-advance",
             description =
-                    "Let event time go on with the wall clock where no record has come for --idle-timeout, so that"
-                            + " what is open ends without further traffic, also after a restart. What comes after that"
-                            + " can be late: the one switch with which the same input does not always give the same result.")
+                    "Advance event time with the wall clock if no record has arrived for --idle-timeout, so that open "
+                            + "windows and encounters end without further records, also after a restart. Records that arrive "
+                            + "afterwards can be late: with this option alone the same input does not always give the same result.")
     private boolean idleAdvance;
 
-    @Option(
-            names = "--parallelism",
-            paramLabel = "N",
-            description = "Subtasks per operator. Default: as the cluster says.")
+    @Option(names = "--parallelism", paramLabel = "N", description = "Subtasks per operator. Default: the cluster's.")
     private Integer parallelism;
 
     @Mixin
@@ -128,7 +127,7 @@ public abstract class JobOptions {
     @Option(
             names = {"-h", "--help"},
             usageHelp = true,
-            description = "Show this text.")
+            description = "Show this help.")
     private boolean help;
 
     /**

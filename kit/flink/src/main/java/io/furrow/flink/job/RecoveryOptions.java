@@ -17,40 +17,41 @@ final class RecoveryOptions {
     @Option(
             names = "--checkpoint-interval",
             paramLabel = "DURATION",
-            description = "Time between checkpoints. Shorter: less to repeat after a failure, sooner visible with "
-                    + "exactly-once. Default: as the cluster says, else 10s.")
+            description =
+                    "Time between checkpoints. Shorter: less to process again after a failure, sooner visible with "
+                            + "exactly-once. Default: the cluster's, else 10s.")
     private Duration checkpointInterval;
 
     @Option(
             names = "--checkpoint-dir",
             paramLabel = "URI",
-            description = "Where checkpoints are kept, on any Flink file system. Default: as the cluster says.")
+            description = "Where checkpoints are stored, on any Flink file system. Default: the cluster's.")
     private String checkpointDir;
 
     @Option(
             names = "--unaligned-checkpoints",
-            description = "Let checkpoints overtake records that wait between operators: they stay short under "
-                    + "back-pressure, and grow by what waits.")
+            description =
+                    "Use unaligned checkpoints, which overtake the records between operators: they stay short under "
+                            + "backpressure and contain these records.")
     private boolean unalignedCheckpoints;
 
     @Option(
             names = "--state-backend",
             paramLabel = "NAME",
             description =
-                    "hashmap: state in memory, fastest; rocksdb: on the task manager's disk, for state that memory "
-                            + "does not hold, checkpoints take only what changed. With both, collision holds in memory what its"
-                            + " devices, cells and pairs are at and what waits for event time; rocksdb has only the copy that"
-                            + " checkpoints are made of. Both are in Flink's distribution. Default: as the cluster says.")
+                    "hashmap: state in memory, fastest. rocksdb: state on the task manager's disk, for more than fits in "
+                            + "memory; checkpoints are incremental. With both, collision has its devices, cells, pairs and waiting "
+                            + "records in memory; rocksdb then has only the copy for checkpoints. Both are in Flink's "
+                            + "distribution. Default: the cluster's.")
     private String stateBackend;
 
     @Option(
             names = "--restart-strategy",
             paramLabel = "NAME",
             description =
-                    "After a failure: exponential-delay, again and again, at first after --restart-delay, then after "
-                            + "ever longer up to --restart-delay-max; fixed-delay, --restart-attempts times; none. Default: "
-                            + "as the cluster says, else exponential-delay; exponential-delay where another --restart "
-                            + "option is given.")
+                    "Restart strategy: exponential-delay, without limit, first after --restart-delay, then with a "
+                            + "growing delay up to --restart-delay-max; fixed-delay, --restart-attempts times; none. Default: the "
+                            + "cluster's, else exponential-delay; exponential-delay if another --restart option is given.")
     private Restart restart;
 
     @Option(
@@ -63,14 +64,14 @@ final class RecoveryOptions {
             names = "--restart-delay-max",
             paramLabel = "DURATION",
             description =
-                    "The longest time to a restart. Shorter: sooner back after a long outage, more attempts during "
-                            + "it. Default: 1min.")
+                    "Maximum delay of a restart. Shorter: sooner back after a long outage, more attempts during it. "
+                            + "Default: 1min.")
     private Duration restartDelayMax;
 
     @Option(
             names = "--restart-attempts",
             paramLabel = "N",
-            description = "After so many failures in a row the job fails for good. Default: never.")
+            description = "Number of failures in a row after which the job fails finally. Default: never.")
     private Integer restartAttempts;
 
     /** Empty if the cluster decides. */

@@ -42,7 +42,7 @@ public record StartPosition(Kind kind, Optional<Instant> time) {
             return time;
         } catch (DateTimeException e) {
             throw new TypeConversionException("'" + text
-                    + "' is no position; write committed, earliest, latest or a time as in 2026-05-01T06:00:00Z");
+                    + "' is not a position; write committed, earliest, latest or a time as in 2026-05-01T06:00:00Z");
         }
     }
 }

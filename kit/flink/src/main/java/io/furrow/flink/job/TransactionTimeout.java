@@ -19,7 +19,8 @@ public final class TransactionTimeout {
             return given == null ? DEFAULT : Duration.ofMillis(Long.parseLong(given.trim()));
         } catch (NumberFormatException e) {
             throw options.refused(
-                    "--kafka-properties: " + PROPERTY + " '" + given + "' is no whole number; write milliseconds", e);
+                    "--kafka-properties: " + PROPERTY + " '" + given + "' is not a whole number; write milliseconds",
+                    e);
         }
     }
 

@@ -171,7 +171,7 @@ final class OutputTopics implements AutoCloseable {
     private void ensure(String topic) throws IOException, InterruptedException {
         try {
             admin().createTopics(List.of(settings.topic(topic))).all().get();
-            LOG.info("Made topic {}", topic);
+            LOG.info("Created topic {}", topic);
         } catch (ExecutionException e) {
             if (!(e.getCause() instanceof TopicExistsException) && !isAllowedOnlyToWrite(topic, e.getCause())) {
                 throw new IOException(
@@ -191,7 +191,7 @@ final class OutputTopics implements AutoCloseable {
             admin().describeTopics(List.of(topic)).allTopicNames().get();
             return true;
         } catch (ExecutionException e) {
-            LOG.warn("Topic {} is not there, or may not be seen", topic, e.getCause());
+            LOG.warn("Topic {} does not exist, or this user may not describe it", topic, e.getCause());
             return false;
         }
     }

@@ -20,22 +20,21 @@ public final class TopicOptions {
             names = "--topic-partitions",
             paramLabel = "N",
             converter = CountConverter.class,
-            description = "Partitions of topics that the job makes. Default: the broker's num.partitions.")
+            description = "Partitions of topics that the job creates. Default: the broker's num.partitions.")
     private Integer partitions;
 
     @Option(
             names = "--topic-replication",
             paramLabel = "N",
             converter = CountConverter.class,
-            description = "Replicas of topics that the job makes. Default: the broker's default.replication.factor.")
+            description = "Replicas of topics that the job creates. Default: the broker's default.replication.factor.")
     private Integer replication;
 
     @Option(
             names = "--topic-retention",
             paramLabel = "DURATION",
-            description =
-                    "How long topics that the job makes keep their records, compacted ones excepted. Default: the "
-                            + "broker's log.retention.")
+            description = "Retention of topics that the job creates, except compacted ones. Default: the broker's "
+                    + "log.retention.")
     private Duration retention;
 
     /** What is asked of the broker, without picocli, because it travels with the job. */

@@ -3,7 +3,6 @@ package io.furrow.flink.record;
 import java.io.Serializable;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Objects;
 import java.util.function.Function;
 
 import org.apache.flink.api.common.functions.RuntimeContext;
@@ -36,7 +35,7 @@ public final class ByType<T> {
         }
     }
 
-    /** The entity type of what is known; null or empty where state does not name it. */
+    /** The entity type of what is known; empty where a deletion did not name it. */
     public interface TypeOf<T> extends Function<T, String>, Serializable {}
 
     private ByType(ValueState<T> first, MapState<String, T> others, Function<T, String> typeOf) {
@@ -101,6 +100,6 @@ public final class ByType<T> {
 
     private boolean is(T known, String type) {
         String its = typeOf.apply(known);
-        return its == null || its.isEmpty() || Objects.equals(its, type);
+        return its.isEmpty() || its.equals(type);
     }
 }

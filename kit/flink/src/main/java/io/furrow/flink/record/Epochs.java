@@ -93,7 +93,7 @@ public final class Epochs {
                 return number;
             }
         } catch (NumberFormatException e) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, header + " is no number", e);
+            throw new UnreadableException(Reason.NOT_AN_EVENT, header + " is not a number", e);
         }
         throw new UnreadableException(Reason.NOT_AN_EVENT, "%s is not between 0 and %d".formatted(header, greatest));
     }

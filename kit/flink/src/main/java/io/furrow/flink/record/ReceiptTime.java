@@ -48,7 +48,7 @@ public record ReceiptTime(Duration skew) implements Serializable {
     }
 
     /**
-     * What the source stamped, where it did and can be right, and the record is no replay's.
+     * What the source stamped, where it did and can be right, and the record is not a replay's.
      *
      * @param now the wall clock, epoch ms
      */

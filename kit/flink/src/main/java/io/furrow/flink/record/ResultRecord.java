@@ -28,7 +28,7 @@ public final class ResultRecord {
         long original = Epochs.original(timestamp);
         Instant time = Instant.ofEpochMilli(original);
         Map<String, String> headers = new LinkedHashMap<>();
-        // By event time: what is found in two epochs alike is no repetition.
+        // By event time: what is found in two epochs alike is not a repetition.
         headers.put(HeaderNames.CE_ID, EventId.of(scope, entity, Instant.ofEpochMilli(timestamp)));
         headers.put(HeaderNames.CE_SOURCE, source);
         headers.put(HeaderNames.CE_TIME, time.toString());

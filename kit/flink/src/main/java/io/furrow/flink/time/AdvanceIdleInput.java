@@ -26,7 +26,7 @@ import io.furrow.flink.record.TopicRecord;
  * meanwhile may still have to be read. A subtask that is quiet is active for its watermarks alone, so that it holds up
  * none that is further.
  *
- * <p>State: the union list {@code quiet-input} with the event time of each subtask, epoch milliseconds, and whether records came to it: where any did, those count. Late: nothing is judged
+ * <p>State: the union list {@code idle-input} with the event time of each subtask, epoch milliseconds, and whether records came to it: where any did, those count. Late: nothing is judged
  * here. Emits: records as they come; watermarks that are higher than those before.
  */
 public final class AdvanceIdleInput<T> extends AbstractStreamOperator<T>
@@ -49,8 +49,8 @@ public final class AdvanceIdleInput<T> extends AbstractStreamOperator<T>
     /** The input of a job, with event time that continues where the options say so. */
     public static DataStream<TopicRecord> of(DataStream<TopicRecord> input, JobOptions options) {
         return options.idleAdvance()
-                ? input.transform("Advance quiet input", input.getType(), new AdvanceIdleInput<>())
-                        .uid("advance-quiet-input")
+                ? input.transform("Advance idle input", input.getType(), new AdvanceIdleInput<>())
+                        .uid("advance-idle-input")
                 : input;
     }
 
@@ -58,7 +58,7 @@ public final class AdvanceIdleInput<T> extends AbstractStreamOperator<T>
     public void initializeState(StateInitializationContext context) throws Exception {
         super.initializeState(context);
         saved = context.getOperatorStateStore()
-                .getUnionListState(new ListStateDescriptor<>("quiet-input", Types.TUPLE(Types.LONG, Types.BOOLEAN)));
+                .getUnionListState(new ListStateDescriptor<>("idle-input", Types.TUPLE(Types.LONG, Types.BOOLEAN)));
         long slowest = Long.MAX_VALUE;
         long furthest = NOTHING_YET;
         for (Tuple2<Long, Boolean> each : saved.get()) {

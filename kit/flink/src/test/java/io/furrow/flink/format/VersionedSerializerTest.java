@@ -98,7 +98,7 @@ class VersionedSerializerTest {
         DataOutputSerializer out = new DataOutputSerializer(64);
         out.writeUTF(NoteFormat.class.getName());
         out.writeInt(version);
-        FormatSnapshot<Note> snapshot = new FormatSnapshot<>();
+        VersionedSerializerSnapshot<Note> snapshot = new VersionedSerializerSnapshot<>();
         snapshot.readSnapshot(1, input(out), VersionedSerializerTest.class.getClassLoader());
         return snapshot;
     }

@@ -33,6 +33,6 @@ class DurationConverterTest {
     void saysHowToWriteADurationWhereItCannotReadOne(String text) {
         assertThatThrownBy(() -> converter.convert(text))
                 .isInstanceOf(TypeConversionException.class)
-                .hasMessage("'" + text + "' is no duration; write for instance 500ms, 10s, 5min or 1h");
+                .hasMessage("'" + text + "' is not a duration; write for instance 500ms, 10s, 5min or 1h");
     }
 }

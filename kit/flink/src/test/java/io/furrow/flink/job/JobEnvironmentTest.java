@@ -128,7 +128,7 @@ class JobEnvironmentTest {
             --checkpoint-interval 15min | 10s   | 960000  | -
             --checkpoint-interval 10s   | 10s   | 60000   | transactions after 60 s
             --parallelism 1             | 15min | -       | checkpoints are 900 s apart
-            --parallelism 1             | 15min | 10m     | transaction.timeout.ms '10m' is no whole number; write milliseconds
+            --parallelism 1             | 15min | 10m     | transaction.timeout.ms '10m' is not a whole number; write milliseconds
             """)
     void refusesTransactionsThatEndBeforeTheirCheckpoint(String option, String ofCluster, String timeout, String why)
             throws Exception {
@@ -148,7 +148,7 @@ class JobEnvironmentTest {
     void refusesAStrategyThatFlinkDoesNotHave() {
         assertThat(TestJob.run(options -> {}, "copy", "--restart-strategy", "sometimes")
                         .err())
-                .contains("'sometimes' is no way to restart; write exponential-delay, fixed-delay or none");
+                .contains("'sometimes' is not a way to restart; write exponential-delay, fixed-delay or none");
     }
 
     private static ReadableConfig settings(String... arguments) {

@@ -154,11 +154,11 @@ class JobOptionsTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
-            --delivery twice             | 'twice' is no delivery; write at-least-once or exactly-once
-            --idle-timeout 10            | '10' is no duration; write for instance
+            --delivery twice             | 'twice' is not a delivery; write at-least-once or exactly-once
+            --idle-timeout 10            | '10' is not a duration; write for instance
             --checkpoint-interval 9ms    | --checkpoint-interval is below 10ms; write for instance 1s
             --name a/b                   | --name 'a/b' is not 1 to 100 of A-Z a-z 0-9 . _ -
-            --from yesterday             | 'yesterday' is no position; write committed, earliest, latest or a time as in
+            --from yesterday             | 'yesterday' is not a position; write committed, earliest, latest or a time as in
             --from 1969-01-01T00:00:00Z  | '1969-01-01T00:00:00Z' is before 1970, where no record can be
             --parallelism 0              | --parallelism 0 is not between 1 and 720
             --parallelism 721            | --parallelism 721 is not between 1 and 720
@@ -183,7 +183,7 @@ class JobOptionsTest {
             for (String option : List.of("--topic-partitions", "--topic-replication")) {
                 assertThatThrownBy(() -> JobCommandLine.of(new TopicOptions()).parseArgs(option, count))
                         .isInstanceOf(ParameterException.class)
-                        .hasMessageContainingAll(option, "'" + count + "' is no whole number from 1 to 32767");
+                        .hasMessageContainingAll(option, "'" + count + "' is not a whole number from 1 to 32767");
             }
         }
     }

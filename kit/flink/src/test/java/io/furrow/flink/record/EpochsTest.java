@@ -52,7 +52,7 @@ class EpochsTest {
 
     @ParameterizedTest
     @CsvSource({
-        "replay-epoch, one, replay-epoch is no number",
+        "replay-epoch, one, replay-epoch is not a number",
         "replay-epoch, -1, replay-epoch is not between 0 and 262143",
         "replay-epoch, 262144, replay-epoch is not between 0 and 262143",
         "replay-offset, 1700000000124, the timestamp 1700000000123 less replay-offset is not between 0 and 17592186044416",

@@ -31,7 +31,7 @@ class ClockBoundedWatermarksTest {
     @Test
     void followTheNewestTimestampBehindByTheOutOfOrderness() {
         assertThat(after(record(500_000, "499_000")))
-                .as("no number is no stamp")
+                .as("no number is not a stamp")
                 .isEqualTo(500_000 - BOUND - 1);
         assertThat(after(record(400_000, null))).isEqualTo(500_000 - BOUND - 1);
         assertThat(ahead.getCount()).isZero();
