@@ -13,7 +13,7 @@ java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 if (($# > 0)); then
     cat <<USAGE
 Usage: ./furrow soak deployed
-Unpacks distribution/target/furrow-*.tar.gz, which ./mvnw package -Prelease -DskipTests makes, and runs what its docker/compose.yaml
+Unpacks suite/distribution/target/furrow-*.tar.gz, which ./mvnw package -Prelease -DskipTests makes, and runs what its docker/compose.yaml
 says without containers: Kafka, two Connect workers, Mosquitto, a Flink cluster, the jobs by flink run, two control planes, simulated
 devices, the dashboard. Of a load, while both workers, a task manager and a control plane are killed, and two jobs are stopped with a savepoint and submitted again, nothing may be lost, and nothing be there twice
 but where the task manager was killed. Commands, options, connectors and settings are those of the file, with other hosts, ports and folders.

@@ -65,7 +65,7 @@ done
     fail "--delivery must be at-least-once or exactly-once, not '$deliveries'."
 [[ $plant =~ ^(none|lost|doubled)$ ]] || fail "--plant must be lost or doubled, not '$plant'."
 [[ $seed =~ ^[0-9]+$ ]] || fail "--seed must be a whole number, not '$seed'."
-[[ $plant != doubled || $deliveries == exactly-once ]] || fail "--plant doubled is no fault unless --delivery is exactly-once."
+[[ $plant != doubled || $deliveries == exactly-once ]] || fail "--plant doubled is not a fault unless --delivery is exactly-once."
 command -v curl >/dev/null || fail "No curl found, which asks Flink whether it is ready. Install curl."
 
 base=$(mktemp -d "${TMPDIR:-/tmp}/furrow-replay-kill.XXXXXX")

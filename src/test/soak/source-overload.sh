@@ -41,7 +41,7 @@ while (($# > 0)); do
     shift 2
 done
 for number in "$seconds" "$senders" "$bytes" "$heap"; do
-    [[ $number =~ ^[0-9]+$ && $number -ge 1 ]] || fail "'$number' is no whole number from 1."
+    [[ $number =~ ^[0-9]+$ && $number -ge 1 ]] || fail "'$number' is not a whole number from 1."
 done
 ((seconds >= 40)) || fail "--seconds must be at least 40."
 

@@ -156,7 +156,7 @@ export const texts = {
     endText: 'From then on there are no averages and no stays of it. What was found before stays, and a replay of an earlier time has the field as it was.',
     deleteFieldText: 'All its versions go, as if it had never been; this cannot be undone. What was found of it stays where it is stored. To keep its past, end it instead.',
     field: 'field', zone: 'zone without alarms', always: 'always', importFields: 'Import fields', import: 'Import', file: 'File', fileHint: 'GeoJSON with polygons, or a GeoPackage with one layer; at most 16 MiB. Shapefiles: ./furrow fields import.', asFeaturesSay: 'as each feature says', close: 'Close',
-    previewFields: 'Areas in the file: {count}', previewSome: 'Areas in the file: {areas}. Other features, which will be refused: {others}', previewGeoPackage: 'A GeoPackage is read by the server.', tooLarge: 'The file has {size} MiB; at most 16 are taken.', imported: 'Imported: {imported}. Unchanged: {unchanged}', feature: 'Feature {number} {id}', noGeoJson: 'The file is no GeoJSON.', refusedFields: '{count} refused', mendedFields: '{count} repaired',
+    previewFields: 'Areas in the file: {count}', previewSome: 'Areas in the file: {areas}. Other features, which will be refused: {others}', previewGeoPackage: 'A GeoPackage is read by the server.', tooLarge: 'The file has {size} MiB; at most 16 are taken.', imported: 'Imported: {imported}. Unchanged: {unchanged}', feature: 'Feature {number} {id}', noGeoJson: 'The file is not a GeoJSON.', refusedFields: '{count} refused', mendedFields: '{count} repaired',
   },
 
   // ------------------------------------------------------------------------------------------------------------------

@@ -24,7 +24,7 @@ export function finite(value) {
   return typeof number === 'number' && Number.isFinite(number) ? number : null;
 }
 
-/** As Java has it: without what is no sign, up to the space, at both ends. */
+/** As Java has it: without what is not a sign, up to the space, at both ends. */
 function trimmed(text) {
   let [from, to] = [0, text.length];
   while (from < to && text.charCodeAt(from) <= SPACE) {
@@ -46,7 +46,7 @@ export function unitOf(attribute) {
 /**
  * @param {{value: *, metadata: Object=}|undefined} attribute
  * @param {'SPEED'|'HEADING'|'TEMPERATURE'|'SHARE'} quantity m/s, degrees, °C, 0 to 1
- * @returns {number|null} null for what is no number, or in another unit
+ * @returns {number|null} null for what is not a number, or in another unit
  */
 export function quantityOf(attribute, quantity) {
   const number = finite(attribute?.value);

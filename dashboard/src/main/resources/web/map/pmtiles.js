@@ -87,7 +87,7 @@ function readHeader(buffer, url) {
   const view = new DataView(buffer);
   const magic = buffer.byteLength >= HEADER_BYTES ? new TextDecoder().decode(buffer.slice(0, 7)) : '';
   if (magic !== 'PMTiles' || view.getUint8(7) !== 3) {
-    throw new Error(`${url} is no PMTiles file of version 3`);
+    throw new Error(`${url} is not a PMTiles file of version 3`);
   }
   const number = (at) => Number(view.getBigUint64(at, true));
   return {

@@ -135,7 +135,7 @@ class RealClientsIT {
     private static String[] mosquitto(String program, String password, String topic, String... more) {
         URI broker = running.suite().devices().mqtt();
         List<String> arguments =
-                new ArrayList<>(List.of("stdbuf", "-oL", program)); // a line at once, though it is no terminal
+                new ArrayList<>(List.of("stdbuf", "-oL", program)); // a line at once, though it is not a terminal
         arguments.addAll(List.of("-h", broker.getHost(), "-p", Integer.toString(broker.getPort())));
         arguments.addAll(List.of("-u", Suite.MQTT_USER, "-P", password, "-q", "1", "-t", topic));
         arguments.addAll(List.of(more));

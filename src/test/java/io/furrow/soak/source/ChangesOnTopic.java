@@ -50,7 +50,7 @@ final class ChangesOnTopic implements AutoCloseable {
         try {
             return NumberedChange.read(record.value());
         } catch (IOException e) {
-            throw new UncheckedIOException("a record that is no entity: " + record, e);
+            throw new UncheckedIOException("a record that is not an entity: " + record, e);
         }
     }
 

@@ -138,7 +138,7 @@ class MissionsIT {
         Locator action = dialog.locator("button[type=submit]");
 
         dialog.getByLabel("File").setInputFiles(file("notes.geojson", "no JSON"));
-        assertThat(dialog).containsText("The file is no GeoJSON.");
+        assertThat(dialog).containsText("The file is not a GeoJSON.");
         assertThat(action).isDisabled();
 
         JsonNode fields = suite.rest("/api/fields");

@@ -73,7 +73,7 @@ final class PageSuite implements AutoCloseable {
         }
     }
 
-    /** Deletes an entity that no context broker has: its record alone is no report that it was deleted there. */
+    /** Deletes an entity that no context broker has: its record alone is not a report that it was deleted there. */
     void forget(String entity) throws Exception {
         produce("data.raw", entity, null);
         produce("data.latest", entity, null);

@@ -25,10 +25,10 @@ import io.furrow.bench.frame.OutputOption;
         name = "analytics",
         sortOptions = false,
         description = {
-            "What collision, temperature and presence take on a Kafka and a Flink of this JVM, for several numbers of"
-                    + " devices and cores; beside each figure a bare loop without Flink.",
-            "Exit code 0 means that in every second that was compared as many encounters start as in the bare loop, and that"
-                    + " the rate was held, as far as these parts were measured."
+            "Measures collision, temperature and presence on a Kafka and a Flink in this JVM for several numbers "
+                    + "of devices and cores, each beside a bare loop without Flink.",
+            "Exit code 0 means that in every second that was compared as many encounters start as in the bare "
+                    + "loop, and that the rate was held, as far as these parts were measured."
         })
 public final class AnalyticsBench extends Benchmark {
     private static final Duration CELL_MEASURED = Duration.ofSeconds(3);
@@ -52,7 +52,7 @@ public final class AnalyticsBench extends Benchmark {
             description = {
                 "MEMORY: collision updates per second, from memory.",
                 "KAFKA: the same from NGSI entities in a topic to a topic of results.",
-                "HELD: whether the consumer's lag grows while devices report once a second.",
+                "HELD: whether the consumer lag grows while devices report once a second.",
                 "CROWD: devices on one spot: the cell that they share, then the job, for five minutes each.",
                 "BACKLOG: what a job that was away for an hour holds in memory while it catches up.",
                 "FIELDS: points per second and core of the joins with fields.",
@@ -78,10 +78,10 @@ public final class AnalyticsBench extends Benchmark {
             description = "Subtasks per stage of each run; HELD takes the most. " + DEFAULT)
     private List<Integer> cores;
 
-    @Option(names = "--warmup", paramLabel = "S", description = "Seconds of each run that do not count. " + DEFAULT)
+    @Option(names = "--warmup", paramLabel = "S", description = "Warm-up seconds of each run. " + DEFAULT)
     private int warmUp = 20;
 
-    @Option(names = "--seconds", paramLabel = "S", description = "Seconds of each run that count. " + DEFAULT)
+    @Option(names = "--seconds", paramLabel = "S", description = "Measured seconds of each run. " + DEFAULT)
     private int seconds = 20;
 
     @Mixin

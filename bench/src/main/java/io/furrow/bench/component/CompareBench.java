@@ -16,7 +16,8 @@ import io.furrow.cli.option.CommandException;
 @Command(
         name = "compare",
         description =
-                "Says which components became faster or slower between two files of './furrow bench components', and which differences are noise.")
+                "Compares two files of './furrow bench components': which components became faster or slower, and "
+                        + "which differences are noise.")
 public final class CompareBench extends Benchmark {
     @Parameters(index = "0", paramLabel = "BEFORE", description = "A file of './furrow bench components'.")
     private Path before;

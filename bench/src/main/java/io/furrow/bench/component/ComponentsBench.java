@@ -20,8 +20,8 @@ import io.furrow.model.ngsi.NgsiJson;
 @Command(
         name = "components",
         description =
-                "Runs the benches of all components, each beside its peers, in short forms and in turns, and prints one table. One that was"
-                        + " interrupted goes on where it was. './furrow bench compare' compares two of its files.")
+                "Runs the benches of all components, each beside its peers, in short forms and in turns, and prints "
+                        + "one table. An interrupted run continues. './furrow bench compare' compares two of its files.")
 public final class ComponentsBench extends Benchmark {
     @Option(
             names = "--components",
@@ -37,8 +37,7 @@ public final class ComponentsBench extends Benchmark {
     @Option(
             names = "--results",
             paramLabel = "FILE",
-            description =
-                    "Grows with each figure; what it already holds of this commit is not measured again. " + DEFAULT)
+            description = "Results; what it already contains of this commit is not measured again. " + DEFAULT)
     private Path results = Path.of("target/components.jsonl");
 
     @Override

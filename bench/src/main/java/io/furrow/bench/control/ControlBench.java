@@ -29,9 +29,9 @@ import io.furrow.model.topic.Topics;
 @Command(
         name = "control",
         description = {
-            "Asks the managers of domains and missions, over Kafka and over REST, and counts the answers.",
-            "Each way is measured as fast as requests are answered, then at a rate; delays count from when a request was due."
-                    + " Kafka, the managers and the clients run in this one process.",
+            "Sends requests to the managers of domains and missions over Kafka and REST and counts the answers.",
+            "Each way is measured as fast as requests are answered, then at a rate; delays count from when a "
+                    + "request was due. Kafka, the managers and the clients run in this one process.",
             "Exit code 0 means that each request was answered once, as it should be."
         })
 public final class ControlBench extends Benchmark {

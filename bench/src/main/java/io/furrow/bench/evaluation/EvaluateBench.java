@@ -17,9 +17,9 @@ import io.furrow.bench.whole.Checkout;
 @Command(
         name = "evaluate",
         description =
-                "Repeats the evaluation of the WeLASER platform: sends four sweeps of load at the devices' end of a suite, then twice and twice"
-                        + " again as much until it does not hold, and reports what arrived at a reader, how late, twice or out of order, in a"
-                        + " page with plots. One that was interrupted goes on where it was.")
+                "Repeats the evaluation of the WeLASER platform: sends four sweeps of load at the devices' end of a "
+                        + "suite, then twice and twice again as much until it does not hold, and reports what arrived at a "
+                        + "reader, how late, twice or out of order, in a page with plots. An interrupted run continues.")
 public final class EvaluateBench extends Benchmark {
     private static final long SHORT_SECONDS = 3;
     private static final List<String> EMBEDDED = List.of(

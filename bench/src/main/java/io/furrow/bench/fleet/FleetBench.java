@@ -16,9 +16,8 @@ import io.furrow.model.device.FarmSecret;
 /** {@code ./furrow bench fleet}. */
 @Command(
         name = "fleet",
-        description =
-                "Runs wanted devices in a fleet that is a JVM of its own, counts what they report over MQTT, and prints"
-                        + " its memory and processor time. Exit code 1 where a device is silent or measures are missing.")
+        description = "Runs desired devices in a fleet in a separate JVM, counts their MQTT measures, and prints the "
+                + "memory and CPU time of the fleet. Exit code 1 where a device is silent or measures are missing.")
 public final class FleetBench extends Benchmark {
     @Option(names = "--devices", paramLabel = "N", description = "Thermometers. " + DEFAULT)
     int devices = 10_000;

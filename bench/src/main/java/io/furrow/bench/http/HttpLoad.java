@@ -151,7 +151,7 @@ public final class HttpLoad {
         }
     }
 
-    /** Also where an idle connection is closed by the server: that is no broken request. */
+    /** Also where an idle connection is closed by the server: that is not a broken request. */
     private void fail(Exchange exchange) {
         exchange.close();
         if (idle.contains(exchange)) {

@@ -16,8 +16,8 @@ import io.furrow.flink.job.Delivery;
 @Command(
         name = "ingest",
         description = {
-            "Lets the job ingest and jobs that only copy bytes read the same topic by turns, on a Kafka and a Flink of their"
-                    + " own, and prints records per second and ratios.",
+            "Runs the job ingest and jobs that only copy bytes on the same topic in turns, on their own Kafka "
+                    + "and Flink, and prints records per second and ratios.",
             "Exit code 0 means that every record was on the topics of its domain and mission once."
         })
 public final class IngestBench extends Benchmark {
@@ -72,10 +72,7 @@ public final class IngestBench extends Benchmark {
             description = "COPY_ONCE, COPY_TWICE, ROUTES, INGEST. Default: all.")
     private List<ComparedJob> jobs;
 
-    @Option(
-            names = "--mongo",
-            description =
-                    "The job ingest also keeps the missions, in a server of the suite that speaks MongoDB's protocol.")
+    @Option(names = "--mongo", description = "The job ingest also stores the missions in the embedded MongoDB.")
     private boolean mongo;
 
     @Mixin

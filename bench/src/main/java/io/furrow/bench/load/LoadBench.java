@@ -14,8 +14,9 @@ import io.furrow.simulators.load.LoadPlan;
 /** {@code ./furrow bench load}. */
 @Command(
         name = "load",
-        description = "Sends the load of many devices over MQTT through the embedded suite and prints what arrived, and"
-                + " how long each hop took.")
+        description =
+                "Sends the load of many devices over MQTT through the embedded suite and prints what arrived and the "
+                        + "delay of each hop.")
 public final class LoadBench extends Benchmark {
     private static final String DOMAIN = "bench";
     /** A cold JVM cannot take what a warm one takes: it gets a quarter of the load, a half, then all of it. */

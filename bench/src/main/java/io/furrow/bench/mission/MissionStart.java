@@ -101,7 +101,7 @@ public final class MissionStart implements AutoCloseable {
         try {
             return NgsiJson.read(value);
         } catch (UnreadableException e) {
-            throw new IllegalStateException("Furrow wrote what is no JSON", e);
+            throw new IllegalStateException("Furrow wrote what is not JSON", e);
         }
     }
 

@@ -28,12 +28,12 @@ import io.furrow.model.topic.Topics;
 @Command(
         name = "notifications",
         description = {
-            "Presses the NGSI source with notifications as Orion sends them and counts those that were acknowledged and are"
-                    + " in Kafka.",
-            "Kafka, the Connect worker, the senders and the reader that checks run in this one process. Beside each run the"
-                    + " same load goes to an HTTP server that only answers and to one that forwards to Kafka, and a producer"
-                    + " writes the same records, so that"
-                    + " figures of different machines can be compared by their shares.",
+            "Loads the NGSI source with notifications as Orion sends them and counts those that were "
+                    + "acknowledged and are in Kafka.",
+            "Kafka, the Connect worker, the senders and the reader that checks run in this one process. Beside "
+                    + "each run the same load goes to an HTTP server that only answers and to one that forwards to Kafka, "
+                    + "and a producer writes the same records, so that figures of different machines can be compared by "
+                    + "their shares.",
             "Exit code 0 means that no acknowledged notification is missing."
         })
 public final class NotificationBench extends Benchmark {
@@ -87,8 +87,8 @@ public final class NotificationBench extends Benchmark {
     @Option(
             names = "--whole",
             description = {
-                "Press a whole suite: entities of one mission, read at the mission's topic. Held is a rate of which all"
-                        + " arrives once, 99 of 100 within a second of their receipt.",
+                "Load a whole suite: entities of one mission, read at the mission's topic. A rate is held if all "
+                        + "events arrive once and 99 of 100 within a second of their receipt.",
                 "Without --rate from 1000 a second on a quarter more each time, until one is not held."
             })
     private boolean whole;

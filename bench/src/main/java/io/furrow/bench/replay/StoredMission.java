@@ -114,7 +114,7 @@ record StoredMission(String name, int events, int perSecond, long seed) {
         try {
             return (ObjectNode) NgsiJson.read(json.getBytes(StandardCharsets.UTF_8));
         } catch (UnreadableException e) {
-            throw new IllegalStateException("an event is no JSON", e);
+            throw new IllegalStateException("an event is not JSON", e);
         }
     }
 }

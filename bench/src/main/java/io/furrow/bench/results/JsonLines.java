@@ -35,7 +35,7 @@ public final class JsonLines<T> {
                     lines.all.add(JSON.readValue(line, type));
                 } catch (IOException e) {
                     throw new IOException(
-                            file + " is no file of './furrow bench " + bench
+                            file + " is not a file of './furrow bench " + bench
                                     + "'; name one that is, or a new one (--results)",
                             e);
                 }

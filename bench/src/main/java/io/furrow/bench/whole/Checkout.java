@@ -22,7 +22,7 @@ public record Checkout(String name, Path home) {
                 .start();
         String name = new String(git.getInputStream().readAllBytes(), StandardCharsets.UTF_8).strip();
         if (name.isEmpty()) {
-            throw new IOException(home + " is no git repository; a measurement beside an older commit needs one");
+            throw new IOException(home + " is not a git repository; a measurement beside an older commit needs one");
         }
         return new Checkout(name, home);
     }

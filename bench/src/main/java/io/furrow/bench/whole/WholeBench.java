@@ -16,10 +16,9 @@ import io.furrow.bench.frame.Figures;
 /** {@code ./furrow bench whole}. */
 @Command(
         name = "whole",
-        description =
-                "Measures what the whole suite costs beside an older commit of this repository, in turns: with nothing to do, the"
-                        + " demonstration farm, 125 and 625 messages of 1 kB a second. A turn takes some 12 minutes; one that was"
-                        + " interrupted goes on where it was.")
+        description = "Measures what the whole suite costs beside an older commit of this repository, in turns: with "
+                + "nothing to do, the demonstration farm, 125 and 625 messages of 1 kB a second. A turn takes some 12 "
+                + "minutes; an interrupted run continues.")
 public final class WholeBench extends Benchmark {
     @Option(
             names = "--against",

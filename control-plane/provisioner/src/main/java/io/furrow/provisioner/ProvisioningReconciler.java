@@ -125,8 +125,7 @@ final class ProvisioningReconciler {
         }
         FarmSecret now = secret.get();
         if (!now.equals(used)) {
-            LOG.info(
-                    "the MQTT brokers are to accept passwords of the keys {} of the farm's secret", now.acceptedKeys());
+            LOG.info("the MQTT brokers must accept passwords of the keys {} of the farm's secret", now.acceptedKeys());
         }
         used = now;
         start();

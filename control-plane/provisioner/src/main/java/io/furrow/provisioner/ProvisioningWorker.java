@@ -138,7 +138,7 @@ final class ProvisioningWorker implements AutoCloseable {
             try {
                 desired.take(record.key(), record.value() == null ? null : DesiredDevice.read(record.value()));
             } catch (UnreadableException e) {
-                LOG.warn("{}@{} is no wanted device and is passed over", record.topic(), record.offset(), e);
+                LOG.warn("{}@{} is not a desired device and is skipped", record.topic(), record.offset(), e);
             }
         }
         if (!records.isEmpty()) {
@@ -163,7 +163,7 @@ final class ProvisioningWorker implements AutoCloseable {
                         published.put(record.key(), DeviceConnection.read(record.value()));
                     }
                 } catch (UnreadableException e) { // a later version wrote it; the device is observed anew
-                    LOG.debug("{}@{} is no connection of a device", record.topic(), record.offset(), e);
+                    LOG.debug("{}@{} is not a connection of a device", record.topic(), record.offset(), e);
                 }
             });
         }
@@ -208,7 +208,7 @@ final class ProvisioningWorker implements AutoCloseable {
             if (outcome.refused().isEmpty() && outcome.stuck() == null) {
                 retrySchedule.rest();
             } else if (retrySchedule.failed() && outcome.stuck() != null) {
-                LOG.warn("what is no longer wanted stays at the IoT Agent; it is tried again: {}", outcome.stuck());
+                LOG.warn("devices that are no longer desired stay at the IoT Agent; retrying: {}", outcome.stuck());
             }
         } catch (IOException e) {
             failure = FailureText.of(e);

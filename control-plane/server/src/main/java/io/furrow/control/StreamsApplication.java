@@ -110,7 +110,7 @@ final class StreamsApplication implements AutoCloseable {
             }
             pause = backoff.next();
         }
-        LOG.warn("the {} is started again in {} s", name, pause.toSeconds());
+        LOG.warn("the {} restarts in {} s", name, pause.toSeconds());
         supervisor.schedule(this::startAgain, pause.toMillis(), TimeUnit.MILLISECONDS);
     }
 
@@ -128,18 +128,18 @@ final class StreamsApplication implements AutoCloseable {
     }
 
     /**
-     * Kafka being unavailable is no fault of ours, nor that a broker does not yet know of a topic that was made a moment ago; after anything
+     * Kafka being unavailable is not a fault of ours, nor that a broker does not yet know of a topic that was made a moment ago; after anything
      * else the state of this client is not trusted.
      */
     private StreamThreadExceptionResponse onFailure(Throwable cause) {
         failure = FailureText.of(cause);
         for (Throwable each = cause; each != null; each = each.getCause()) {
             if (each instanceof RetriableException || each instanceof MissingSourceTopicException) {
-                LOG.warn("the {} lost Kafka, or a topic of it, and goes on when that is back", name, cause);
+                LOG.warn("the {} lost Kafka or a topic and continues when it is back", name, cause);
                 return StreamThreadExceptionResponse.REPLACE_THREAD;
             }
         }
-        LOG.error("the {} failed and is started again; nothing is lost", name, cause);
+        LOG.error("the {} failed and restarts; nothing is lost", name, cause);
         return StreamThreadExceptionResponse.SHUTDOWN_CLIENT;
     }
 

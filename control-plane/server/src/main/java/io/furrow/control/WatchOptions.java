@@ -13,7 +13,7 @@ import io.furrow.control.health.HealthOptions;
  * @param predictionHolds how long a predicted encounter is taken for right when it is not reported again
  * @param collisionHolds how long a collision lasts after the end of its encounter, during which another one counts to it
  * @param webhook whom to report alarms; null for nobody
- * @param stop how to stop robots that are predicted to meet, which is no safety function; null to stop none
+ * @param stop how to stop robots that are predicted to meet, which is not a safety function; null to stop none
  */
 public record WatchOptions(
         HealthOptions health,

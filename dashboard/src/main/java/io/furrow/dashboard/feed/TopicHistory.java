@@ -49,7 +49,7 @@ public final class TopicHistory {
      *
      * @param from epoch ms
      * @param to epoch ms, exclusive
-     * @param newest an attribute, or a member that is no attribute: of records of a tenant, service path and type with the same value of it only the last comes; null for all records
+     * @param newest an attribute, or a member that is not an attribute: of records of a tenant, service path and type with the same value of it only the last comes; null for all records
      * @param limit how many records at most
      */
     public record Range(String topic, long from, long to, String newest, int limit) {}

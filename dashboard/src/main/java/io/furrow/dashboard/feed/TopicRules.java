@@ -20,7 +20,7 @@ public record TopicRules(List<String> readable, List<String> writable) {
             List.of("data.*", "service.*"),
             List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER, Topics.ALARM_MANAGER));
 
-    /** @throws IllegalArgumentException for a pattern that is no name of topics */
+    /** @throws IllegalArgumentException for a pattern that is not a name of topics */
     public TopicRules {
         readable = checked(readable);
         writable = checked(writable);

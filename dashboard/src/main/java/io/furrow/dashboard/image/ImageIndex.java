@@ -84,7 +84,7 @@ public final class ImageIndex implements AutoCloseable {
             } catch (WakeupException e) {
                 return; // closed
             } catch (KafkaException e) {
-                LOG.warn("{} cannot be read; tried again in {}", Topics.IMAGES, RETRY, e);
+                LOG.warn("{} cannot be read; next attempt in {}", Topics.IMAGES, RETRY, e);
                 pause();
             }
         }

@@ -95,7 +95,7 @@ public final class ImageServlet extends HttpServlet {
         return bytes;
     }
 
-    /** @throws Problem where it is no file below one of the folders */
+    /** @throws Problem where it is not a file below one of the folders */
     private Path locate(URI location) throws IOException {
         if (!"file".equals(location.getScheme())) {
             throw new Problem(
@@ -112,12 +112,12 @@ public final class ImageServlet extends HttpServlet {
                 }
             }
         } catch (IllegalArgumentException e) { // InvalidPathException among them
-            throw new Problem(404, "unknown-image", "the place of the image is no path: " + e.getMessage());
+            throw new Problem(404, "unknown-image", "the place of the image is not a path: " + e.getMessage());
         }
         throw new Problem(
                 404,
                 "unknown-image",
-                "the image is no file below the folders that --images names, or is deleted by now");
+                "the image is not a file below the folders that --images names, or is deleted by now");
     }
 
     private static MessageDigest sha256() {

@@ -80,7 +80,7 @@ public final class TileFile {
                 && header[VERSION_AT] == VERSION;
         if (!valid) {
             throw new IOException(
-                    "%s is no PMTiles file of version 3. 'pmtiles convert' makes one of MBTiles.".formatted(file));
+                    "%s is not a PMTiles file of version 3. 'pmtiles convert' makes one of MBTiles.".formatted(file));
         }
         if (header[TYPE_AT] == VECTOR) {
             throw new IOException(

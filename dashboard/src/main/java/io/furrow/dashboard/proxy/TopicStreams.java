@@ -156,7 +156,7 @@ public final class TopicStreams implements AutoCloseable {
         return socket;
     }
 
-    /** For a stream that is no socket. @throws Problem where there are too many */
+    /** For a stream that is not a socket. @throws Problem where there are too many */
     void take(String client) {
         quota.take(client);
     }

@@ -43,7 +43,7 @@ final class TopicWriter implements AutoCloseable {
 
     /**
      * @return where it stands, when Kafka has it
-     * @throws Problem for a topic that may not be written, a user whose role does not allow the command, and for a message that is no JSON object
+     * @throws Problem for a topic that may not be written, a user whose role does not allow the command, and for a message that is not a JSON object
      */
     CompletionStage<RecordMetadata> write(String topic, User user, String message) {
         if (!rules.mayWrite(topic)) {
@@ -91,9 +91,9 @@ final class TopicWriter implements AutoCloseable {
                 return object;
             }
         } catch (UnreadableException e) {
-            throw new Problem(400, "not-json", "the message is no JSON: " + e.getMessage());
+            throw new Problem(400, "not-json", "the message is not JSON: " + e.getMessage());
         }
-        throw new Problem(400, "not-json", "the message is no JSON object");
+        throw new Problem(400, "not-json", "the message is not a JSON object");
     }
 
     private static Problem notWritten(String topic, Exception failure) {

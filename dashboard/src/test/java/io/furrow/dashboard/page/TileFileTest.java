@@ -122,8 +122,8 @@ class TileFileTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
-            MBTiles | 3 | 2 | 2 | is no PMTiles file of version 3
-            PMTiles | 2 | 2 | 2 | is no PMTiles file of version 3
+            MBTiles | 3 | 2 | 2 | is not a PMTiles file of version 3
+            PMTiles | 2 | 2 | 2 | is not a PMTiles file of version 3
             PMTiles | 3 | 2 | 1 | has vector tiles
             PMTiles | 3 | 2 | 0 | does not say that its tiles are PNG
             PMTiles | 3 | 2 | 6 | does not say that its tiles are PNG
@@ -144,6 +144,6 @@ class TileFileTest {
         Path brief = Files.writeString(directory.resolve("brief"), "PMTiles");
         assertThatThrownBy(() -> TileFile.handler(brief))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("is no PMTiles file");
+                .hasMessageContaining("is not a PMTiles file");
     }
 }

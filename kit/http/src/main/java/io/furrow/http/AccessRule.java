@@ -54,7 +54,7 @@ public final class AccessRule {
     /**
      * Lets these in as well.
      *
-     * @param names for instance the address that is listened on; null and what is no host add nothing
+     * @param names for instance the address that is listened on; null and what is not a host add nothing
      */
     public AccessRule servedAs(String... names) {
         Set<String> more = new HashSet<>(hosts);
@@ -65,7 +65,7 @@ public final class AccessRule {
         return new AccessRule(Set.copyOf(more), origins, probes, options);
     }
 
-    /** Lets in the host of this URL as well, for instance the one that clients are given; what is no URL adds nothing. */
+    /** Lets in the host of this URL as well, for instance the one that clients are given; what is not a URL adds nothing. */
     public AccessRule servedAt(String url) {
         return HttpCall.authorityOf(url)
                 .flatMap(Authority::parse)

@@ -35,22 +35,22 @@ public record AllowedNames(List<String> hosts, List<String> origins) {
         }
     }
 
-    /** @throws IllegalArgumentException if it is no host, or one with a port */
+    /** @throws IllegalArgumentException if it is not a host, or one with a port */
     public static void requireHost(String host) {
         if (Authority.parse(bracketed(host))
                 .filter(authority -> authority.port() == Authority.NO_PORT && !host.endsWith(":"))
                 .isEmpty()) {
             throw new IllegalArgumentException(
-                    "'%s' is no host: expected a name or an address without scheme and port, such as farm.example.org"
+                    "'%s' is not a host: expected a name or an address without scheme and port, such as farm.example.org"
                             .formatted(host));
         }
     }
 
-    /** @throws IllegalArgumentException if it is no origin */
+    /** @throws IllegalArgumentException if it is not an origin */
     public static void requireOrigin(String origin) {
         if (Origin.parse(origin).isEmpty()) {
             throw new IllegalArgumentException(
-                    "'%s' is no origin: expected scheme://host or scheme://host:port without a path, such as https://map.example.org"
+                    "'%s' is not an origin: expected scheme://host or scheme://host:port without a path, such as https://map.example.org"
                             .formatted(origin));
         }
     }

@@ -22,7 +22,7 @@ record Authority(String host, int port) {
             Pattern.compile("(\\[[0-9A-Fa-f:.]{2,45}]|[A-Za-z0-9._-]{1,255})(?::([0-9]{0,5}))?");
     private static final Pattern OCTETS = Pattern.compile("(?:(?:0|[1-9][0-9]{0,2})(?:\\.|$)){4}");
 
-    /** Empty for what is no host, with or without a port; resolves no name. */
+    /** Empty for what is not a host, with or without a port; resolves no name. */
     static Optional<Authority> parse(String text) {
         Matcher form = FORM.matcher(text);
         if (!form.matches()) {

@@ -13,7 +13,7 @@ import java.util.regex.Pattern;
 record Origin(String scheme, String host, int port) {
     private static final Pattern FORM = Pattern.compile("([A-Za-z][A-Za-z0-9+.-]{0,30})://(.+)");
 
-    /** Empty for what is no origin, {@code null} among it. */
+    /** Empty for what is not an origin, {@code null} among it. */
     static Optional<Origin> parse(String text) {
         Matcher form = FORM.matcher(text);
         if (!form.matches()) {

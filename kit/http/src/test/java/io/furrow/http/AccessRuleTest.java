@@ -24,7 +24,7 @@ class AccessRuleTest {
                             List.of("Farm.example.org.", "2001:db8::7"),
                             List.of("https://map.example.org", "http://localhost:3000", "chrome-extension://abcdef")),
                     NAMES)
-            .servedAs("192.168.7.5", "source.example.org", null, "0.0.0.0/0 is no host")
+            .servedAs("192.168.7.5", "source.example.org", null, "0.0.0.0/0 is not a host")
             .withProbes("/health", "/ready");
 
     /** Addressed at 10.1.2.3, as where a server listens on every address. */
@@ -148,8 +148,9 @@ class AccessRuleTest {
     void refusesAnAllowedHostThatIsNone(String host) {
         assertThatThrownBy(() -> new AllowedNames(List.of(host), List.of()))
                 .isInstanceOf(IllegalArgumentException.class)
-                .hasMessage("'" + host + "' is no host: expected a name or an address without scheme and port, such as"
-                        + " farm.example.org");
+                .hasMessage(
+                        "'" + host + "' is not a host: expected a name or an address without scheme and port, such as"
+                                + " farm.example.org");
     }
 
     @ParameterizedTest
@@ -157,6 +158,6 @@ class AccessRuleTest {
     void refusesAnAllowedOriginThatIsNone(String origin) {
         assertThatThrownBy(() -> new AllowedNames(List.of(), List.of(origin)))
                 .isInstanceOf(IllegalArgumentException.class)
-                .hasMessageStartingWith("'" + origin + "' is no origin: expected scheme://host");
+                .hasMessageStartingWith("'" + origin + "' is not an origin: expected scheme://host");
     }
 }

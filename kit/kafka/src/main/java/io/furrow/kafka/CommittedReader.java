@@ -24,7 +24,7 @@ import static java.util.stream.Collectors.toMap;
 
 /**
  * Reads the committed records of topics from their beginning, with a consumer of no group: each reader sees all partitions.
- * Progress is measured by positions, because a transaction marker has an offset but is no record. For one thread.
+ * Progress is measured by positions, because a transaction marker has an offset but is not a record. For one thread.
  *
  * @param <K> type of keys; values are bytes
  */

@@ -111,7 +111,7 @@ public final class SupervisedWorker implements AutoCloseable {
         } catch (InterruptException e) { // Kafka's, which is a RuntimeException
             throw new InterruptedException(e.getMessage());
         } catch (RuntimeException e) { // no exception may end a thread that nothing restarts
-            LOG.error("{} failed and begins anew", name, e);
+            LOG.error("{} failed and restarts", name, e);
             failed(FailureText.of(e));
             return false;
         }

@@ -22,7 +22,7 @@ public sealed interface Outcome {
         /**
          * The body as JSON, a missing node where it is empty.
          *
-         * @throws UnreadableException if it is no JSON
+         * @throws UnreadableException if it is not JSON
          */
         public JsonNode json() throws UnreadableException {
             return body.length == 0 ? MissingNode.getInstance() : NgsiJson.read(body);
@@ -36,7 +36,7 @@ public sealed interface Outcome {
         public JsonNode list() throws UnreadableException {
             JsonNode list = json();
             if (!list.isArray()) {
-                throw new UnreadableException(Reason.NOT_JSON, "the body of the answer is no list");
+                throw new UnreadableException(Reason.NOT_JSON, "the body of the answer is not a list");
             }
             return list;
         }

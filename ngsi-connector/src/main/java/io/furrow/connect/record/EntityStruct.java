@@ -104,7 +104,7 @@ public final class EntityStruct {
     /**
      * The entity as normalized JSON; what was null or is not there any more is left out.
      *
-     * @throws UnreadableException if a value is no JSON
+     * @throws UnreadableException if a value is not JSON
      */
     public static ObjectNode json(Struct struct) throws UnreadableException {
         ObjectNode entity = JsonNodeFactory.instance.objectNode();

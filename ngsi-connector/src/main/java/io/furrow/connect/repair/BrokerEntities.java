@@ -207,7 +207,7 @@ public final class BrokerEntities {
         }
     }
 
-    /** An id that is no text as the beginning of its JSON, so that the entity can be found. */
+    /** An id that is not text as the beginning of its JSON, so that the entity can be found. */
     private static String idOf(JsonNode id) {
         String text = id.isContainerNode() ? id.toString() : id.asText();
         return text.substring(0, Math.min(text.length(), MAX_QUOTED));

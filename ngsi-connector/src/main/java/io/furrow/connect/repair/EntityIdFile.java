@@ -98,7 +98,7 @@ final class EntityIdFile implements AutoCloseable {
         }
         if (damaged > 0) {
             LOG.info(
-                    "{} lines of {} are damaged and left out: the deletions of their entities are only found if they are"
+                    "{} lines of {} are damaged and skipped: the deletions of their entities are only found if they are"
                             + " notified",
                     damaged,
                     path);

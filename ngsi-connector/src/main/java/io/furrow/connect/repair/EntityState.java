@@ -10,7 +10,7 @@ import io.furrow.model.ngsi.UnreadableException;
 /**
  * An entity as stored in the context broker.
  *
- * @param entity only its id and type if it cannot be read; an id that is no text as JSON
+ * @param entity only its id and type if it cannot be read; an id that is not text as JSON
  * @param time of modification or creation by which it was requested, whole milliseconds
  * @param problem why it cannot be read; empty if it can
  */

@@ -163,7 +163,7 @@ public final class ReconcileLoop implements AutoCloseable {
                 schedule.reconciler.noteLate(from);
             } catch (IOException | RuntimeException e) {
                 LOG.warn(
-                        "cannot store from when entities of {} have to be read again; a restart would forget it",
+                        "cannot store since when entities of {} have to be read again; a restart would lose it",
                         schedule.reconciler.scope(),
                         e);
             }

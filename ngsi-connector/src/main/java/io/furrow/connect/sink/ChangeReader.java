@@ -82,7 +82,7 @@ record ChangeReader(FiwareScope defaultScope, String defaultType) {
         Object key = record.key();
         String id = key instanceof byte[] bytes ? new String(bytes, StandardCharsets.UTF_8) : String.valueOf(key);
         if (key == null || id.isBlank() || key instanceof Struct || key instanceof Map) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "the record's key is no id of an entity");
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "the record's key is not an id of an entity");
         }
         return id;
     }
@@ -106,6 +106,6 @@ record ChangeReader(FiwareScope defaultScope, String defaultType) {
         }
         throw new UnreadableException(
                 Reason.NOT_AN_EVENT,
-                "a value of " + value.getClass() + " is no entity; value.converter must give JSON or structs");
+                "a value of " + value.getClass() + " is not an entity; value.converter must give JSON or structs");
     }
 }

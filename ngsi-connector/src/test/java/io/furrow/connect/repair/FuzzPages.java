@@ -91,7 +91,7 @@ public final class FuzzPages {
             listing--;
         }
         JsonNode shown = shown(exchanges.get(listing))
-                .orElseThrow(() -> new IllegalStateException("a page of what is no list of entities"));
+                .orElseThrow(() -> new IllegalStateException("a page of what is not a list of entities"));
         require(page.states().size() + gone == shown.size(), "an entity of the page is lost");
     }
 

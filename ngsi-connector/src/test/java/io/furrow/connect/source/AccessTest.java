@@ -75,10 +75,10 @@ class AccessTest {
 
     @ParameterizedTest
     @CsvSource({
-        "allowed.hosts, http://furrow, is no host",
-        "allowed.hosts, furrow:8090, is no host",
-        "allowed.origins, map.example.org, is no origin",
-        "allowed.origins, *, is no origin"
+        "allowed.hosts, http://furrow, is not a host",
+        "allowed.hosts, furrow:8090, is not a host",
+        "allowed.origins, map.example.org, is not an origin",
+        "allowed.origins, *, is not an origin"
     })
     void refusesNamesThatAreNone(String option, String value, String why) {
         assertThatThrownBy(() -> new NgsiSourceConfig(Map.of("journal.dir", "/tmp/journal", option, value)))

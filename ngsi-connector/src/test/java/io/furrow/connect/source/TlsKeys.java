@@ -94,7 +94,7 @@ final class TlsKeys {
         assertThat(keytool.waitFor(60, TimeUnit.SECONDS)).isTrue();
         assertThat(keytool.exitValue()).isZero();
         if (name.equals("client") || name.equals("other")) {
-            // A key of one's own is no trusted certificate: the trust store has it as one.
+            // A key of one's own is not a trusted certificate: the trust store has it as one.
             KeyStore store = load(name);
             try (var file = Files.newOutputStream(directory.resolve(name + ".p12"))) {
                 store.store(file, PASSWORD.toCharArray());

@@ -25,7 +25,7 @@ public record Client(URI base, String service, String servicePath, List<String> 
             try {
                 return NgsiJson.read(body.getBytes(java.nio.charset.StandardCharsets.UTF_8));
             } catch (UnreadableException e) {
-                throw new AssertionError("an answer that is no JSON: " + body, e);
+                throw new AssertionError("an answer that is not JSON: " + body, e);
             }
         }
     }

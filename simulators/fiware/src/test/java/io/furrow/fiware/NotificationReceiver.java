@@ -31,7 +31,7 @@ public final class NotificationReceiver implements AutoCloseable {
             try {
                 return NgsiJson.read(body.getBytes(StandardCharsets.UTF_8));
             } catch (UnreadableException e) {
-                throw new AssertionError("a notification that is no JSON: " + body, e);
+                throw new AssertionError("a notification that is not JSON: " + body, e);
             }
         }
     }

@@ -170,7 +170,7 @@ class DeadLettersIT {
                         + "left where they are: 1 not-an-image of ingest-images, whose event went on, "
                         + "1 refused of missions, whose event went on");
         assertThat(redrive("--topic", "went.dead", "--reason", "not-an-image"))
-                .as("a reason is no stage")
+                .as("a reason is not a stage")
                 .startsWith("sent 0 ");
         assertThat(redrive("--topic", "went.dead", "--stage", "missions")).contains(": 1 refused\n");
         assertThat(recordsOf("went")).extracting(record -> record.value()[0]).containsExactly((byte) 3, (byte) 2);

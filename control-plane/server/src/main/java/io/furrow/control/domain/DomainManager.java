@@ -46,7 +46,7 @@ public final class DomainManager {
         return all;
     }
 
-    /** Null of what is no version of a field; the jobs report it. */
+    /** Null of what is not a version of a field; the jobs report it. */
     private static FieldVersion readable(byte[] value) {
         try {
             return FieldVersion.read(value);

@@ -18,7 +18,7 @@ import io.furrow.model.ngsi.Entity;
  * one when it has been silent for too long. Ten thousand devices yield some hundred heartbeats a second. Silence is
  * measured by the clock of the control plane, so that neither a device's clock nor a delayed read causes it.
  *
- * <p>What the context broker notifies about when a command is sent to the device is no report of it, see {@link ReportedState}.
+ * <p>What the context broker notifies about when a command is sent to the device is not a report of it, see {@link ReportedState}.
  */
 final class SilenceDetector {
     static final Duration HEARTBEAT_INTERVAL = Duration.ofSeconds(30);

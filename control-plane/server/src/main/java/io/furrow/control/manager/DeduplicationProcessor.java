@@ -67,7 +67,7 @@ final class DeduplicationProcessor extends ContextualProcessor<String, byte[], S
         Position existing = stored == null ? null : StateJson.read(stored, Position.class);
         if (existing != null && existing.covers(origin.offset(), record.timestamp())) {
             if (readAgain.add(partition)) {
-                LOG.warn("{} is read again; records up to {}@{} are passed over", origin, partition, existing.offset());
+                LOG.warn("{} is read again; records up to {}@{} are skipped", origin, partition, existing.offset());
             }
             return;
         }

@@ -74,7 +74,7 @@ final class EventProcessor extends ContextualProcessor<String, byte[], String, O
                 .orElseGet(() -> "a record of task " + context().taskId());
     }
 
-    /** What is no record of a topic, but was made of one, is in the log only. */
+    /** What is not a record of a topic, but was made of one, is in the log only. */
     private void setAside(Record<String, byte[]> record, Reason reason, String message) {
         RecordOrigin.of(record)
                 .ifPresent(origin -> context().forward(DeadLetterRecords.of(record, origin, reason, message)));

@@ -40,7 +40,7 @@ final class Punctuations {
     private void log(RuntimeException failure) {
         if (System.nanoTime() - nextLog >= 0) {
             nextLog = System.nanoTime() + LOG_INTERVAL;
-            LOG.error("a punctuation of task {} failed and changed nothing; it is tried again", task, failure);
+            LOG.error("a punctuation of task {} failed and changed nothing; retrying", task, failure);
         }
     }
 }

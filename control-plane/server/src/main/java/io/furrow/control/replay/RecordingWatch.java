@@ -54,7 +54,7 @@ public final class RecordingWatch implements AutoCloseable {
             MissionCatalog.open(settings.mongo(), settings.database()).close();
         } catch (IllegalArgumentException e) {
             throw new IOException(
-                    "--mongo is no connection string of MongoDB (%s). Name one such as mongodb://127.0.0.1:27017."
+                    "--mongo is not a connection string of MongoDB (%s). Name one such as mongodb://127.0.0.1:27017."
                             .formatted(MongoAccess.fault(settings.mongo(), e)),
                     e);
         }
@@ -80,7 +80,7 @@ public final class RecordingWatch implements AutoCloseable {
                     running.succeeded();
                 } catch (IOException e) {
                     if (!unavailable) {
-                        LOG.warn("{} stays as it is until MongoDB is back", Topics.RECORDINGS, e);
+                        LOG.warn("{} does not change until MongoDB is back", Topics.RECORDINGS, e);
                     }
                     unavailable = true;
                     running.failed(FailureText.of(e));

@@ -45,7 +45,7 @@ public final class ReplayManager {
                 stores);
     }
 
-    /** Null of what is no record of a mission. */
+    /** Null of what is not a record of a mission. */
     private static RecordedMission listed(byte[] value) {
         try {
             return RecordedMission.read(value);

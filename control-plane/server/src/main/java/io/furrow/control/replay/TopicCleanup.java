@@ -137,7 +137,7 @@ public final class TopicCleanup implements AutoCloseable {
             retries.put(topic, clock.millis() + RETRY.toMillis());
             worker.failed("topic %s cannot be deleted (%s)".formatted(topic, FailureText.of(e.getCause())));
             LOG.warn(
-                    "topic {} cannot be deleted, and is tried again in {} min; does its broker respond, and may this user delete it?",
+                    "topic {} cannot be deleted; next attempt in {} min. Does its broker respond, and may this user delete it?",
                     topic,
                     RETRY.toMinutes(),
                     e.getCause());
@@ -203,7 +203,7 @@ public final class TopicCleanup implements AutoCloseable {
         List<String> all = withDeadLetters(topic, there);
         if (!all.isEmpty()) {
             delete(all, admin);
-            LOG.info("what {} belonged to was deleted more than {} ago; deleted {}", topic, GRACE_OF_MISSIONS, all);
+            LOG.info("the owner of {} was deleted more than {} ago; deleted {}", topic, GRACE_OF_MISSIONS, all);
         }
     }
 

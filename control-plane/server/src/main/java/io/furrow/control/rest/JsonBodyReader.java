@@ -36,7 +36,7 @@ final class JsonBodyReader {
 
     private JsonBodyReader() {}
 
-    /** An empty body is an empty object. @throws ProblemException where it is no object, or too large */
+    /** An empty body is an empty object. @throws ProblemException where it is not an object, or too large */
     static ObjectNode read(InputStream body) throws IOException {
         byte[] bytes = bytes(body, Limits.REQUEST_BYTES);
         if (bytes.length == 0) {
@@ -50,7 +50,7 @@ final class JsonBodyReader {
         } catch (UnreadableException e) {
             throw new ProblemException(ErrorCode.NOT_JSON, "the body is not JSON: " + e.getMessage());
         }
-        throw new ProblemException(ErrorCode.NOT_A_REQUEST, "the body is no JSON object");
+        throw new ProblemException(ErrorCode.NOT_A_REQUEST, "the body is not a JSON object");
     }
 
     /** At most so many. What is too large is read too, or many a client would see no answer. */

@@ -31,7 +31,7 @@ final class JsonResponses {
         return Response.status(status).type(MediaType.APPLICATION_JSON_TYPE).entity(NgsiJson.write(json));
     }
 
-    /** What a manager answered. @param success the status in HTTP of what is no error */
+    /** What a manager answered. @param success the status in HTTP of what is not an error */
     static Response of(io.furrow.model.control.CommandResult answer, int success) {
         return answer.error()
                 .map(error -> ProblemException.response(error, answer.json()))

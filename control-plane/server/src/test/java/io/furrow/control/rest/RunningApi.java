@@ -69,7 +69,7 @@ public final class RunningApi implements AutoCloseable {
         return client.json(answer);
     }
 
-    /** Asks for what is refused; where nothing is known of the path, that is no described answer. */
+    /** Asks for what is refused; where nothing is known of the path, that is not a described answer. */
     public void refused(String method, String path, String body, int status, String error) throws Exception {
         boolean described = !error.equals("not-found");
         assertThat(client.error(client.send(method, path, body, described))).isEqualTo(status + " " + error);

@@ -58,7 +58,7 @@ public final class AccessExtension implements ConnectRestExtension {
     /** Made by the worker. */
     public AccessExtension() {}
 
-    /** @throws ConfigException if an entry of a list is no host or no origin */
+    /** @throws ConfigException if an entry of a list is not a host or no origin */
     @Override
     public void configure(Map<String, ?> settings) {
         AbstractConfig config = new AbstractConfig(OPTIONS, settings, false);

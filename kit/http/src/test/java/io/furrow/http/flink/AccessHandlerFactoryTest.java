@@ -12,8 +12,8 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class AccessHandlerFactoryTest {
     @ParameterizedTest
     @CsvSource({
-        "furrow.http.allowed-hosts, flink.farm;http://farm, '''http://farm'' is no host'",
-        "furrow.http.allowed-origins, *, '''*'' is no origin'"
+        "furrow.http.allowed-hosts, flink.farm;http://farm, '''http://farm'' is not a host'",
+        "furrow.http.allowed-origins, *, '''*'' is not an origin'"
     })
     void namesTheOptionThatIsWrong(String option, String value, String why) {
         Configuration configuration = new Configuration();

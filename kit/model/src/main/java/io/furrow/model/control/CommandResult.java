@@ -68,14 +68,14 @@ public record CommandResult(ObjectNode json) {
     /**
      * Reads a message; members of other names are kept.
      *
-     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no response
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is not a response
      */
     public static CommandResult read(byte[] value) throws UnreadableException {
         JsonNode json = NgsiJson.read(value);
         if (!(json instanceof ObjectNode object)
                 || !"response".equals(json.path("type").textValue())
                 || !json.path("status").isTextual()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "it is no object with type=response and a status");
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "it is not an object with type=response and a status");
         }
         return new CommandResult(object);
     }

@@ -227,7 +227,7 @@ public record DesiredReplay(
     /** Reads a record whose key is not known. @throws UnreadableException as {@link #read(String, byte[])} */
     public static DesiredReplay read(byte[] value) throws UnreadableException {
         if (!(NgsiJson.read(value) instanceof ObjectNode json)) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "it is no object");
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "it is not an object");
         }
         try {
             DesiredReplay replay = read(new JsonObjectReader(json));

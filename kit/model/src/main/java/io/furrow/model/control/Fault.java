@@ -14,7 +14,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param text what happened, to what, and what to do
  */
 public record Fault(String text) {
-    /** @throws UnreadableException if the value is no object with a {@code text} */
+    /** @throws UnreadableException if the value is not an object with a {@code text} */
     public static Fault read(byte[] value) throws UnreadableException {
         JsonNode text = NgsiJson.read(value).path("text");
         if (!text.isTextual()) {

@@ -44,7 +44,8 @@ public final class JsonObjectReader {
         if (!TopicName.isLegal(name)) {
             throw new RejectedException(
                     ErrorCode.ILLEGAL_NAME,
-                    "'%s' is no name for '%s': it takes 1 to 64 of A-Z a-z 0-9 _ -".formatted(quotable(name), member));
+                    "'%s' is not a name for '%s': it takes 1 to 64 of A-Z a-z 0-9 _ -"
+                            .formatted(quotable(name), member));
         }
         return name;
     }

@@ -40,7 +40,7 @@ public record MissionTemplate(
         try {
             JsonNode json = NgsiJson.read(value);
             if (!(json instanceof ObjectNode object)) {
-                throw new RejectedException(ErrorCode.NOT_JSON, "the template is no object");
+                throw new RejectedException(ErrorCode.NOT_JSON, "the template is not an object");
             }
             JsonObjectReader.checkReadable(json);
             return read(new JsonObjectReader(object));

@@ -10,7 +10,7 @@ public sealed interface ParsedRequest<C> {
     record Request<C>(String requestId, C command) implements ParsedRequest<C> {}
 
     /**
-     * A request that cannot be understood, or what is no message at all.
+     * A request that cannot be understood, or what is not a message at all.
      *
      * @param requestId null if none can be read
      * @param answer without the request's id

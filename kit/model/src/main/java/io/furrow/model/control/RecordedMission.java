@@ -21,7 +21,7 @@ public record RecordedMission(String mission, long first, long last) {
      */
     public static RecordedMission read(byte[] value) throws UnreadableException {
         if (!(NgsiJson.read(value) instanceof ObjectNode json)) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "it is no object");
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "it is not an object");
         }
         JsonObjectReader members = new JsonObjectReader(json);
         try {

@@ -132,7 +132,7 @@ public sealed interface ReplayCommand extends Command {
             if (!GROUP.matcher(group).matches()) {
                 throw new RejectedException(
                         ErrorCode.ILLEGAL_NAME,
-                        "'%s' is no group; one is called by eight hexadecimal digits"
+                        "'%s' is not a group; one is called by eight hexadecimal digits"
                                 .formatted(JsonObjectReader.quotable(group)));
             }
             return new Target(null, group);
@@ -142,7 +142,7 @@ public sealed interface ReplayCommand extends Command {
             if (!REPLAY.matcher(replay).matches()) {
                 throw new RejectedException(
                         ErrorCode.ILLEGAL_NAME,
-                        "'%s' is no replay; one is called <mission>.<eight hexadecimal digits>"
+                        "'%s' is not a replay; one is called <mission>.<eight hexadecimal digits>"
                                 .formatted(JsonObjectReader.quotable(replay)));
             }
             return replay;

@@ -110,7 +110,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
         JsonNode json = NgsiJson.read(value);
         JsonNode sequence = json.path(SEQUENCE);
         if (!sequence.isIntegralNumber() || !sequence.canConvertToLong()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is no whole number");
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is not a whole number");
         }
         for (State state : State.values()) {
             if (state.code().equals(json.path(STATE).textValue())) {

@@ -29,7 +29,7 @@ public final class RequestFingerprint {
 
     private RequestFingerprint() {}
 
-    /** Of the value of a record; empty if that is no JSON object. */
+    /** Of the value of a record; empty if that is not a JSON object. */
     public static String of(byte[] request) {
         try {
             return NgsiJson.read(request) instanceof ObjectNode object ? of(object) : "";

@@ -14,7 +14,7 @@ import io.furrow.model.ngsi.NgsiJson;
  * The members of a request that say whose it is and what it is about, read without the rest: for requests that are too large, or that
  * could not be carried out.
  *
- * @param json texts of at most {@value #MAX_LENGTH} characters; empty if the value is no JSON object
+ * @param json texts of at most {@value #MAX_LENGTH} characters; empty if the value is not a JSON object
  */
 public record RequestSummary(ObjectNode json) {
     private static final int MAX_LENGTH = 200;

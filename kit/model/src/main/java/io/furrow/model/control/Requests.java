@@ -78,7 +78,7 @@ public final class Requests {
         }
         if (!(json instanceof ObjectNode object)
                 || !"request".equals(json.path("type").textValue())) {
-            return refused(ErrorCode.NOT_A_REQUEST, "it is no object with type=request");
+            return refused(ErrorCode.NOT_A_REQUEST, "it is not an object with type=request");
         }
         return read(object, reader);
     }

@@ -84,7 +84,7 @@ public record DesiredDevice(
     /**
      * Reads the value of a record; one that says no more than to whom the device belongs is of a device that is not provisioned.
      *
-     * @throws UnreadableException as {@link DeviceVersion#read}, and where {@code period} is no duration or {@code generation} no
+     * @throws UnreadableException as {@link DeviceVersion#read}, and where {@code period} is not a duration or {@code generation} no
      *     whole number from 0 on
      */
     public static DesiredDevice read(byte[] value) throws UnreadableException {
@@ -108,7 +108,7 @@ public record DesiredDevice(
         }
         if (!number.isIntegralNumber() || !number.canConvertToInt() || number.intValue() < 0) {
             throw new UnreadableException(
-                    Reason.NOT_AN_EVENT, "'generation' of the device is no whole number from 0 on");
+                    Reason.NOT_AN_EVENT, "'generation' of the device is not a whole number from 0 on");
         }
         return number.intValue();
     }
@@ -117,7 +117,7 @@ public record DesiredDevice(
         try {
             return iso == null ? null : Duration.parse(iso);
         } catch (DateTimeException e) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "'period' of the device is no duration", e);
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "'period' of the device is not a duration", e);
         }
     }
 

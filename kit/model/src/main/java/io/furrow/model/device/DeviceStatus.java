@@ -46,7 +46,7 @@ public record DeviceStatus(long sequence, State state, String reason) {
         JsonNode json = NgsiJson.read(value);
         JsonNode sequence = json.path("sequence");
         if (!sequence.isIntegralNumber() || !sequence.canConvertToLong()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is no whole number");
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is not a whole number");
         }
         for (State state : State.values()) {
             if (state.code().equals(json.path("state").textValue())) {

@@ -119,7 +119,7 @@ public record DeviceVersion(
             return "";
         }
         if (!value.isTextual()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "'" + member + "' of the device is no text");
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "'" + member + "' of the device is not text");
         }
         return value.textValue();
     }
@@ -128,7 +128,7 @@ public record DeviceVersion(
         JsonNode value = json.path(member);
         if (!value.isIntegralNumber() || !value.canConvertToLong() || value.longValue() < 0) {
             throw new UnreadableException(
-                    Reason.NOT_AN_EVENT, "'" + member + "' of the device is no whole number from 0 on");
+                    Reason.NOT_AN_EVENT, "'" + member + "' of the device is not a whole number from 0 on");
         }
         return value.longValue();
     }

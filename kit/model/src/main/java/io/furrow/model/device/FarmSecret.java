@@ -80,7 +80,7 @@ public final class FarmSecret {
     /**
      * Reads a file, see {@link FarmSecretCodec}.
      *
-     * @throws IOException if it cannot be read or is no secret; the message says which file, why and what to do
+     * @throws IOException if it cannot be read or is not a secret; the message says which file, why and what to do
      */
     public static FarmSecret read(Path file) throws IOException {
         return FarmSecretCodec.read(file);

@@ -44,7 +44,7 @@ public final class FarmSecretCodec {
                             .formatted(file),
                     e);
         } catch (CharacterCodingException e) {
-            throw new IOException(file + " is no text in UTF-8; is it the farm's secret?", e);
+            throw new IOException(file + " is not text in UTF-8; is it the farm's secret?", e);
         } catch (IllegalArgumentException e) {
             throw new IOException(file + ": " + e.getMessage(), e);
         }
@@ -87,7 +87,7 @@ public final class FarmSecretCodec {
             return new FarmKey(Integer.parseInt(parts.group(1)), decoded(parts.group(2)), until);
         } catch (DateTimeException e) {
             throw new IllegalArgumentException(
-                    "line %d: '%s' is no time such as 2026-03-01T08:00:00Z".formatted(line, parts.group(4)), e);
+                    "line %d: '%s' is not a time such as 2026-03-01T08:00:00Z".formatted(line, parts.group(4)), e);
         } catch (IllegalArgumentException e) {
             throw new IllegalArgumentException("line %d: %s".formatted(line, e.getMessage()), e);
         }

@@ -41,7 +41,7 @@ public record MissionDeviceList(String mission, int part, long sequence, ArrayNo
                 || !json.path("sequence").canConvertToLong()
                 || !(json.path("devices") instanceof ArrayNode devices)) {
             throw new UnreadableException(
-                    Reason.NOT_AN_EVENT, "it is no object with 'mission', 'part', 'sequence' and 'devices'");
+                    Reason.NOT_AN_EVENT, "it is not an object with 'mission', 'part', 'sequence' and 'devices'");
         }
         return new MissionDeviceList(
                 json.path("mission").textValue(),

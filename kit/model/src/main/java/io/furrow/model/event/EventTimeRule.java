@@ -80,7 +80,7 @@ public record EventTimeRule(List<Source> order, Duration maxSkew) implements Ser
                     .filter(source -> source.code().equals(word))
                     .findFirst()
                     .orElseThrow(() -> new IllegalArgumentException(
-                            "'%s' is no event time; give some of device, attributes, entity in the order of their weight"
+                            "'%s' is not an event time; give some of device, attributes, entity in the order of their weight"
                                     .formatted(word)));
         }
     }

@@ -31,7 +31,7 @@ public final class FieldArea {
      */
     public static Geometry read(JsonNode geometry, String field) throws UnreadableException {
         if (!AREAS.contains(geometry.path("type").asText())) {
-            throw refused(field + " is no area; give it a geometry of type Polygon or MultiPolygon", null);
+            throw refused(field + " is not an area; give it a geometry of type Polygon or MultiPolygon", null);
         }
         int depth = geometry.path("type").asText().equals("Polygon") ? 2 : 3;
         Geometry area;
@@ -56,7 +56,7 @@ public final class FieldArea {
         TopologyValidationError error = new IsValidOp(area).getValidationError();
         if (error != null) {
             throw refused(
-                    field + " is no valid area: " + error.getMessage() + " at longitude " + error.getCoordinate().x
+                    field + " is not a valid area: " + error.getMessage() + " at longitude " + error.getCoordinate().x
                             + ", latitude " + error.getCoordinate().y + "; redraw its border there",
                     null);
         }

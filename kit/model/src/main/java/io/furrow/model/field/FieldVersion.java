@@ -45,7 +45,7 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
         public static Key parse(String key) throws UnreadableException {
             int at = key.lastIndexOf('@');
             if (at < 1) {
-                throw refused("the key '" + key + "' is no <field id>@<time>");
+                throw refused("the key '" + key + "' is not a <field id>@<time>");
             }
             return new Key(key.substring(0, at), time(key.substring(at + 1)));
         }
@@ -76,14 +76,14 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
     public static FieldVersion read(byte[] value) throws UnreadableException {
         JsonNode feature = NgsiJson.read(value);
         if (!feature.path("type").asText().equals("Feature")) {
-            throw refused("the field is no GeoJSON Feature");
+            throw refused("the field is not a GeoJSON Feature");
         }
         JsonNode id = feature.path("id");
         if (!(id.isTextual() || id.isIntegralNumber()) || !isId(id.asText())) {
             throw refused("the field has no member 'id' of 1 to 200 characters that are allowed in an entity id");
         }
         if (!(feature.path("properties") instanceof ObjectNode said)) {
-            throw refused("'properties' of the field is no object");
+            throw refused("'properties' of the field is not an object");
         }
         ObjectNode properties = said.deepCopy();
         JsonNode validFrom = properties.remove(VALID_FROM);
@@ -112,7 +112,7 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
             return Instant.parse(iso).toEpochMilli();
         } catch (DateTimeException | ArithmeticException e) {
             throw new UnreadableException(
-                    Reason.NOT_AN_EVENT, "'" + iso + "' is no time; write for instance 2026-03-01T00:00:00.000Z", e);
+                    Reason.NOT_AN_EVENT, "'" + iso + "' is not a time; write for instance 2026-03-01T00:00:00.000Z", e);
         }
     }
 

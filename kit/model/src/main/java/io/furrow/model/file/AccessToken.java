@@ -37,7 +37,7 @@ public final class AccessToken {
      */
     public static AccessToken of(Path file, String header, Consumer<String> warning) throws IOException {
         if (header != null && !header.matches(HEADER)) {
-            throw new IOException("'%s' is no header that can carry a token; name for instance %s or Authorization"
+            throw new IOException("'%s' is not a header that can carry a token; name for instance %s or Authorization"
                     .formatted(header, DEFAULT_HEADER));
         }
         ReloadedFile<String> token = ReloadedFile.open(List.of(file), () -> read(file), warning);

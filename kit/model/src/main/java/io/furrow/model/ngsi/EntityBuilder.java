@@ -79,7 +79,7 @@ public final class EntityBuilder {
      */
     public EntityBuilder attribute(String name, String type, JsonNode value) {
         if (name.equals("id") || name.equals("type")) {
-            throw new IllegalArgumentException("'" + name + "' is no name for an attribute");
+            throw new IllegalArgumentException("'" + name + "' is not a name for an attribute");
         }
         attributes.put(name, new Attribute(name, type, value));
         return this;

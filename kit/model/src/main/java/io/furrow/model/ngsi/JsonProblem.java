@@ -48,7 +48,7 @@ public final class JsonProblem {
         }
         String words = END.matcher(failure.getOriginalMessage()).replaceFirst("Unexpected end of input");
         words = TRAILING.matcher(words).replaceFirst("More than one JSON document");
-        words = NO_NUMBER.matcher(words).replaceFirst("The token $1 is no JSON number; send null instead");
+        words = NO_NUMBER.matcher(words).replaceFirst("The token $1 is not a JSON number; send null instead");
         words = FOR_PROGRAMMERS.matcher(words).replaceAll("");
         return words.contains("`") ? "The value is not what it must be" : words;
     }

@@ -94,7 +94,7 @@ final class NgsiLdEntity {
                 type.isArray() && !type.isEmpty() && type.valueStream().allMatch(JsonNode::isTextual);
         if (!type.isTextual() && !several) {
             throw new UnreadableException(
-                    Reason.NOT_AN_ENTITY, "the type of the entity is no text and no list of texts");
+                    Reason.NOT_AN_ENTITY, "the type of the entity is not text and no list of texts");
         }
         return several
                 ? type.valueStream().map(JsonNode::textValue).collect(Collectors.joining(","))

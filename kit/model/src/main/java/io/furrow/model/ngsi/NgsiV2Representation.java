@@ -34,7 +34,7 @@ enum NgsiV2Representation {
 
     static UnreadableException noAttribute(String name) {
         return new UnreadableException(
-                Reason.NOT_AN_ENTITY, "attribute '" + name + "' is no object with a member 'value'");
+                Reason.NOT_AN_ENTITY, "attribute '" + name + "' is not an object with a member 'value'");
     }
 
     abstract ObjectNode attribute(String name, JsonNode reported) throws UnreadableException;
@@ -66,7 +66,7 @@ enum NgsiV2Representation {
         }
         if (reported.has("type") && !reported.get("type").isTextual()) {
             throw new UnreadableException(
-                    Reason.NOT_AN_ENTITY, "the type of entity '" + id.textValue() + "' is no text");
+                    Reason.NOT_AN_ENTITY, "the type of entity '" + id.textValue() + "' is not text");
         }
         ObjectNode normalized = JsonNodeFactory.instance.objectNode();
         for (Map.Entry<String, JsonNode> member : reported.properties()) {

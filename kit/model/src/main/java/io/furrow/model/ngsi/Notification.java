@@ -52,7 +52,7 @@ public record Notification(
             return new Notification(Optional.empty(), List.of(readEntity(root, attrsFormat)), List.of(0), List.of());
         }
         if (!root.isObject() || !root.get("data").isArray()) {
-            throw new UnreadableException(Reason.NOT_AN_ENTITY, "'data' is no array of entities");
+            throw new UnreadableException(Reason.NOT_AN_ENTITY, "'data' is not an array of entities");
         }
         Optional<String> subscription =
                 Optional.ofNullable(root.path("subscriptionId").textValue());

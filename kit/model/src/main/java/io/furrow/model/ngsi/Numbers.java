@@ -12,7 +12,7 @@ public final class Numbers {
 
     private Numbers() {}
 
-    /** The value as a finite number; empty for NaN, infinities and everything that is no number. */
+    /** The value as a finite number; empty for NaN, infinities and everything that is not a number. */
     public static Optional<Double> finite(JsonNode value) {
         if (value.isNumber()) {
             return Optional.of(value.doubleValue()).filter(Double::isFinite);

@@ -29,7 +29,7 @@ public record SlicedEntity(String type, List<Slice> attributes) {
      * @param type as reported, or as the context broker gives it
      * @param unit metadata {@code unitCode}, else {@code unit}; empty without
      * @param value its first token: a container's begin, or the value
-     * @param number the value as a double, possibly infinite; NaN of what is no number
+     * @param number the value as a double, possibly infinite; NaN of what is not a number
      */
     public record Slice(String name, String json, String type, String unit, JsonToken value, double number) {
         /** The value as a tree. */

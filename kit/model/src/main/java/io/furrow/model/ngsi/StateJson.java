@@ -53,7 +53,7 @@ public final class StateJson {
         try {
             return MAPPER.readValue(json, type);
         } catch (IOException e) {
-            throw new UncheckedIOException("the state is no " + type.getSimpleName(), e);
+            throw new UncheckedIOException("the state is not a " + type.getSimpleName(), e);
         }
     }
 }

@@ -176,7 +176,7 @@ public final class EntityReader {
         return tree == null ? value(attribute).finite() : tree.number(attribute).orElse(Double.NaN);
     }
 
-    /** The value of a wanted attribute as a quantity, in its unit; NaN if it is no number, or in an unknown unit. */
+    /** The value of a wanted attribute as a quantity, in its unit; NaN if it is not a number, or in an unknown unit. */
     public double number(String attribute, Quantity quantity) {
         return tree == null
                 ? quantity.read(value(attribute).finite(), value(attribute).unit())

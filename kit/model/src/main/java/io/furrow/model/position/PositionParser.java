@@ -14,7 +14,7 @@ final class PositionParser {
     /** Attributes that together are a position, in the order in which they are looked for. */
     static final List<Pair> PAIRS = List.of(new Pair("Latitude", "Longitude"), new Pair("latitude", "longitude"));
 
-    static final PositionReading NO_POINT = new PositionReading.Faulty("location is no GeoJSON Point");
+    static final PositionReading NO_POINT = new PositionReading.Faulty("location is not a GeoJSON Point");
 
     /** Names of two attributes. */
     public record Pair(String latitude, String longitude) {}
@@ -24,7 +24,7 @@ final class PositionParser {
     /** Degrees; NaN if the entity has no number. */
     static PositionReading of(double latitude, double longitude) {
         if (Double.isNaN(latitude) || Double.isNaN(longitude)) {
-            return new PositionReading.Faulty("latitude or longitude is no number");
+            return new PositionReading.Faulty("latitude or longitude is not a number");
         }
         if (Math.abs(latitude) > 90 || Math.abs(longitude) > 180) {
             return new PositionReading.Faulty("latitude or longitude is out of range");
@@ -61,7 +61,7 @@ final class PositionParser {
             JsonNode message = NgsiJson.read(json);
             return of(number(message.path("latitude")), number(message.path("longitude")));
         } catch (UnreadableException e) {
-            return new PositionReading.Faulty("gnss or pose is no JSON: " + e.getMessage());
+            return new PositionReading.Faulty("gnss or pose is not JSON: " + e.getMessage());
         }
     }
 

@@ -15,7 +15,7 @@ import io.furrow.model.ngsi.Entity;
  * The position of an entity: {@code location} (geo:json Point in lon/lat order, or geo:point text "lat, lon"), else
  * {@code Latitude} and {@code Longitude}, else {@code latitude} and {@code longitude}, else FIROS' {@code gnss} or {@code pose} text
  * (JSON with quotes escaped as {@code %27}). The first of these that is present, and no blank text, decides. The dashboard's page reads
- * positions by the same rules, and its tests the same table of cases. Out of range, not a number, or exactly 0,0 is no position.
+ * positions by the same rules, and its tests the same table of cases. Out of range, not a number, or exactly 0,0 is not a position.
  */
 public sealed interface PositionReading {
     /** The attributes that can hold a position. */

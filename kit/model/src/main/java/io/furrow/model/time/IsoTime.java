@@ -109,7 +109,7 @@ final class IsoTime {
         return nanos;
     }
 
-    /** Minutes east of Greenwich; {@link Integer#MIN_VALUE} where what follows is no offset of this form. */
+    /** Minutes east of Greenwich; {@link Integer#MIN_VALUE} where what follows is not an offset of this form. */
     private static int offset(CharSequence text, int at) {
         int left = text.length() - at;
         if (at < 0 || left == 0 || left == 1 && text.charAt(at) == 'Z') {

@@ -27,7 +27,7 @@ class MissionTemplateTest {
     void saysWhatIsWrongWithAFile() {
         assertThatThrownBy(() -> MissionTemplate.read("{\"template\":\"a b\"}".getBytes(StandardCharsets.UTF_8)))
                 .isInstanceOf(RejectedException.class)
-                .hasMessageContaining("'a b' is no name for 'template'");
+                .hasMessageContaining("'a b' is not a name for 'template'");
         assertThatThrownBy(() -> MissionTemplate.read("nonsense".getBytes(StandardCharsets.UTF_8)))
                 .isInstanceOfSatisfying(
                         RejectedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.NOT_JSON));

@@ -66,7 +66,7 @@ class FarmSecretCodecTest {
                     farm-secret 1;key 1 0123456789abcdef                                   | 0 lines have 'api-keys'
                     farm-secret 1;key 1 plough api-keys                                    | line 2: a farm's secret has at least 16 bytes, this one 6
                     farm-secret 1;;key one 0123456789abcdef                                | line 3: a line is 'key <number> <key>'
-                    farm-secret 1;key 1 0123456789abcdef api-keys until soon               | line 2: 'soon' is no time such as 2026-03-01T08:00:00Z
+                    farm-secret 1;key 1 0123456789abcdef api-keys until soon               | line 2: 'soon' is not a time such as 2026-03-01T08:00:00Z
                     farm-secret 1;key 1 0123456789abcdef api-keys;key 1 fedcba9876543210   | two keys have one number
                     farm-secret 1;key 1 0123456789abcdef api-keys;key 2 fedcba9876543210   | key 1 has no 'until'
                     farm-secret 1;key 1 0123456789abcdef api-keys until 2026-04-01T08:00:00Z | key 1 is the newest and has 'until'

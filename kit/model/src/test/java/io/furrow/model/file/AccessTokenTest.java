@@ -67,7 +67,7 @@ class AccessTokenTest {
 
         assertThatThrownBy(() -> AccessToken.of(file, header, warnings::add))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("'" + header + "' is no header");
+                .hasMessageContaining("'" + header + "' is not a header");
     }
 
     private static Map<String, String> headers(AccessToken token) {

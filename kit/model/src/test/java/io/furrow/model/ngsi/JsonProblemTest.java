@@ -21,8 +21,8 @@ class JsonProblemTest {
             [1,              | unexpected end of input at line 1, column 4
             {'a':1}{         | more than one JSON document at line 1, column 8
             {'a':1}¶{'a':2}  | more than one JSON document at line 2, column 1
-            {'a':NaN}        | the token NaN is no JSON number; send null instead at line 1, column 9
-            [-Infinity]      | the token -Infinity is no JSON number; send null instead at line 1, column 11
+            {'a':NaN}        | the token NaN is not a JSON number; send null instead at line 1, column 9
+            [-Infinity]      | the token -Infinity is not a JSON number; send null instead at line 1, column 11
             [}               | unexpected close marker '}': expected ']' at line 1, column 2
             [/**/1]          | unexpected character ('/' (code 47)): maybe a (non-standard) comment? at line 1, column 2
             {'a':1,'a':2}    | duplicate field 'a' at line 1, column 11

@@ -108,7 +108,7 @@ public final class MissionArchive {
             return ArchiveLine.read(line);
         } catch (UnreadableException e) {
             throw new UncheckedIOException(
-                    new IOException(file + " holds a line that is no event: " + e.getMessage(), e));
+                    new IOException(file + " holds a line that is not an event: " + e.getMessage(), e));
         }
     }
 

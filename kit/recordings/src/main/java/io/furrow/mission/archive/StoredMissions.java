@@ -155,7 +155,7 @@ public final class StoredMissions implements AutoCloseable {
      *
      * @param source for messages
      * @return how many lines
-     * @throws IOException if a line is no event, or the server does not take it; the lines before it may have been taken
+     * @throws IOException if a line is not an event, or the server does not take it; the lines before it may have been taken
      */
     public long importFrom(String mission, InputStream in, String source, LongConsumer told)
             throws IOException, InterruptedException {
@@ -184,7 +184,7 @@ public final class StoredMissions implements AutoCloseable {
             StoredEvent event = ArchiveLine.read(line);
             return new Document(collection, event.id(), EventDocumentCodec.write(event));
         } catch (UnreadableException e) {
-            throw new IOException(where + " is no event: " + e.getMessage(), e);
+            throw new IOException(where + " is not an event: " + e.getMessage(), e);
         }
     }
 

@@ -61,7 +61,7 @@ final class ArchiveFile implements AutoCloseable {
         String where = "%s, line %d".formatted(name, number);
         Optional<Cursor> position = position(json);
         if (position.isEmpty()) {
-            return new Line(last, json, where, "no event: it lacks an id or a time, or is no JSON");
+            return new Line(last, json, where, "no event: it lacks an id or a time, or is not JSON");
         }
         Cursor at = position.get();
         int order = at.compareTo(last);
@@ -112,7 +112,7 @@ final class ArchiveFile implements AutoCloseable {
                 end++;
             }
             if (line.size() + end - next > MAX_LINE_LENGTH) {
-                throw new RecordingDeletedException("%s, line %d is longer than %d MiB: this is no exported mission"
+                throw new RecordingDeletedException("%s, line %d is longer than %d MiB: this is not an exported mission"
                         .formatted(name, number, MAX_LINE_LENGTH >> 20));
             }
             line.write(buffer, next, end - next);

@@ -78,7 +78,7 @@ final class BsonNumbers {
             case INT64 -> NODES.numberNode(in.readInt64());
             case DOUBLE -> ofDouble(in.readDouble());
             case DECIMAL128 -> ofDecimal(in.readDecimal128());
-            default -> throw new IllegalArgumentException(in.getCurrentBsonType() + " is no number");
+            default -> throw new IllegalArgumentException(in.getCurrentBsonType() + " is not a number");
         };
     }
 

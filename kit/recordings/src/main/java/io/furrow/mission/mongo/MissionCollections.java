@@ -166,11 +166,7 @@ public final class MissionCollections {
             if (!NOT_ALTERABLE.contains(e.getErrorCode())) {
                 throw e;
             }
-            LOG.info(
-                    "The server builds the index {} of {} anew: {}",
-                    BY_TIME,
-                    collection.getNamespace(),
-                    e.getMessage());
+            LOG.info("The server rebuilds the index {} of {}: {}", BY_TIME, collection.getNamespace(), e.getMessage());
             return false;
         }
     }

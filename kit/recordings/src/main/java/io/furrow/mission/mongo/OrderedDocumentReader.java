@@ -117,7 +117,7 @@ final class OrderedDocumentReader implements AutoCloseable {
     static StoredEvent event(BsonDocument document) throws UnreadableException {
         BsonValue id = document.get(EventDocumentCodec.ID);
         if (!id.isString() || text(id).isEmpty()) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "_id is no event id");
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "_id is not an event id");
         }
         try {
             return EventDocumentCodec.read(document);

@@ -54,7 +54,7 @@ public record TopicRecordings(TreeMap<String, String> kafka, long until, String 
     /**
      * Opens a topic; empty if there is none.
      *
-     * @throws RecordingDeletedException if it is no topic of events, or larger than the disk
+     * @throws RecordingDeletedException if it is not a topic of events, or larger than the disk
      * @throws RecordingInterruptedException if the thread is interrupted
      * @throws RecordingException if Kafka or the disk cannot be used now
      */

@@ -12,7 +12,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * An NGSI-v2 entity as NGSI-LD. An id that is no URI becomes {@code urn:ngsi-ld:<type>:<id>}. An attribute of type
+ * An NGSI-v2 entity as NGSI-LD. An id that is not a URI becomes {@code urn:ngsi-ld:<type>:<id>}. An attribute of type
  * {@code Relationship} becomes a Relationship; {@code geo:json}, or {@code geo:point} ("latitude, longitude"), a GeoProperty;
  * all others a Property, dates with {@code @type}. Metadata {@code unitCode} stays a member, all other metadata become
  * Properties of the Property. What is null is left out: NGSI-LD has no null, and brokers understand {@code urn:ngsi-ld:null} in a

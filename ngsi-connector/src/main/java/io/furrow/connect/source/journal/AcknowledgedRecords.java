@@ -77,14 +77,14 @@ public final class AcknowledgedRecords implements TaskJournals.Verification {
             return search.missing().map(Event::sequence).orElse(committed);
         } catch (AuthorizationException e) {
             LOG.warn(
-                    "journal {}: cannot see whether Kafka still has what it acknowledged last: {}; allow the user of"
+                    "journal {}: cannot check whether Kafka still has the last acknowledged record: {}; allow the user of"
                             + " admin.override.* to read the topics {}",
                     journal.id(),
                     FailureText.of(e),
                     topics);
             return committed;
         } catch (KafkaException e) {
-            LOG.warn("journal {}: cannot see whether Kafka still has what it acknowledged last", journal.id(), e);
+            LOG.warn("journal {}: cannot check whether Kafka still has the last acknowledged record", journal.id(), e);
             return acknowledged.get(0).sequence();
         }
     }

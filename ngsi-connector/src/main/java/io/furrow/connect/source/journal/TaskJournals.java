@@ -155,7 +155,7 @@ public final class TaskJournals implements AutoCloseable {
             return new JournalConsumer(journal, known, safety.retention());
         }
         LOG.warn(
-                "journal {}: Kafka acknowledged record {} and has it no longer; sends again all from there to {}",
+                "journal {}: Kafka acknowledged record {} but does not have it any more; sending records from there to {} again",
                 journal.id(),
                 first,
                 committed);

@@ -62,7 +62,7 @@ public enum ValueMode {
             try {
                 return new SchemaAndValue(EntityStruct.ENTITY, EntityStruct.of(Entity.parse(record.value())));
             } catch (UnreadableException e) {
-                throw new IllegalArgumentException("a value that is no entity: " + e.getMessage(), e);
+                throw new IllegalArgumentException("a value that is not an entity: " + e.getMessage(), e);
             }
         }
     };

@@ -51,7 +51,7 @@ public final class DeviceHostCommand implements Callable<Integer> {
             paramLabel = "FILE",
             defaultValue = "${env:FURROW_KAFKA_PROPERTIES:-}",
             description =
-                    "Further settings of Kafka clients, a password for instance. Default: $FURROW_KAFKA_PROPERTIES.")
+                    "Further settings of Kafka clients, for instance a password. Default: $FURROW_KAFKA_PROPERTIES.")
     private String kafkaProperties;
 
     @Option(
@@ -73,7 +73,8 @@ public final class DeviceHostCommand implements Callable<Integer> {
             paramLabel = "0|1",
             defaultValue = "${env:FURROW_MQTT_QOS:-1}",
             description =
-                    "QoS of measures; with 0 they are lost while a connection is broken. Default: $FURROW_MQTT_QOS, else 1.")
+                    "QoS of measures; with 0 they are lost while the connection is broken. Default: $FURROW_MQTT_QOS, "
+                            + "else 1.")
     private int qos;
 
     @Option(

@@ -46,7 +46,7 @@ final class FieldCache {
                     fields.put(id, WorkField.largestOf(id, version.geometry()));
                 }
             } catch (IllegalArgumentException e) {
-                LOG.warn("no device can be in field {}: {}", id, e.getMessage());
+                LOG.warn("field {} is not used, because no device can be in it: {}", id, e.getMessage());
             }
         });
         return fields;

@@ -199,7 +199,7 @@ final class FleetReconciler {
             DesiredDevice carrier = desired.get(scope.identity(version.carriedBy()));
             if (carrier == null || !ROBOT.equals(carrier.type()) || !carrier.running()) {
                 throw new InvalidScenarioException(
-                        "carriedBy", "'%s' is no robot that runs here".formatted(version.carriedBy()));
+                        "carriedBy", "'%s' is not a robot that runs here".formatted(version.carriedBy()));
             }
         }
         return new FarmFleet.Member(simulated, scope, Instant.ofEpochMilli(version.from()));

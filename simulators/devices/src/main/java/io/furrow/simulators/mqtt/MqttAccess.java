@@ -27,7 +27,7 @@ public record MqttAccess(URI broker, Path trusted, int qos) {
         broker = URI.create(broker.toString().replaceFirst("^mqtt:", "tcp:").replaceFirst("^mqtts:", "ssl:"));
         if (!"tcp".equals(broker.getScheme()) && !"ssl".equals(broker.getScheme())) {
             throw new IllegalArgumentException(
-                    broker + " is no address of an MQTT broker: use tcp://host:port, or ssl://host:port with TLS");
+                    broker + " is not an address of an MQTT broker: use tcp://host:port, or ssl://host:port with TLS");
         }
         if (qos != 0 && qos != 1) {
             throw new IllegalArgumentException("QoS is 0 or 1, not " + qos);

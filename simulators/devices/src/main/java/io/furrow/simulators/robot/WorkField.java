@@ -36,7 +36,7 @@ public record WorkField(String id, LocalPlane plane, Polygon area) {
         JsonNode geometry = feature.path("geometry");
         if (!geometry.path("type").asText().equals("Polygon")) {
             throw new IllegalArgumentException(
-                    "the geometry of field '%s' is no Polygon: make each part of a MultiPolygon a field of its own"
+                    "the geometry of field '%s' is not a Polygon: make each part of a MultiPolygon a field of its own"
                             .formatted(id));
         }
         List<List<Position>> rings = new ArrayList<>();

@@ -97,7 +97,7 @@ public final class DesiredDeviceReader {
             for (String name : NO_PARAMETERS) {
                 if (parameters.has(name)) {
                     throw new InvalidScenarioException(
-                            "parameters." + name, "is no parameter; say it of the device itself");
+                            "parameters." + name, "is not a parameter; say it of the device itself");
                 }
             }
             entry.setAll(parameters.deepCopy());

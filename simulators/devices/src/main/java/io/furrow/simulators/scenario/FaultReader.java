@@ -57,7 +57,7 @@ final class FaultReader {
             return new Wrong(null, new SensorFault.Silent(during));
         }
         if (attributes.isEmpty()) {
-            throw json.refused("kind", "'%s' is no fault of this device; it can only be silent".formatted(kind));
+            throw json.refused("kind", "'%s' is not a fault of this device; it can only be silent".formatted(kind));
         }
         String attribute = json.text("attribute", attributes.get(0));
         if (!attributes.contains(attribute)) {
@@ -73,7 +73,7 @@ final class FaultReader {
                 new SensorFault.Spikes(during, json.number("share", 0, 1), json.number("height", -MAX, MAX), seed);
             default ->
                 throw json.refused(
-                        "kind", "'%s' is no kind of fault; use stuck, drift, spikes or silent".formatted(kind));
+                        "kind", "'%s' is not a kind of fault; use stuck, drift, spikes or silent".formatted(kind));
         };
         return new Wrong(attribute, fault);
     }

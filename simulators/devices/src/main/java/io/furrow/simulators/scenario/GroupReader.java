@@ -82,7 +82,7 @@ final class GroupReader {
         if (!group.has("attributes")) {
             throw group.refused(
                     "type",
-                    "'%s' is no type of device; use Thermometer, WeatherStation, Camera or Robot"
+                    "'%s' is not a type of device; use Thermometer, WeatherStation, Camera or Robot"
                             .formatted(identity.type()));
         }
         List<Quantity> quantities = new ArrayList<>();

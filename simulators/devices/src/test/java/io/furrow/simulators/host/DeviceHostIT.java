@@ -173,7 +173,7 @@ class DeviceHostIT {
                 "{\"carriedBy\": \"%s\", \"parameters\": {\"battery\": \"P3D\"}}".formatted(robot));
         await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(bench.status(camera).map(DeviceStatus::reason))
-                        .contains("carriedBy: '" + robot + "' is no robot that runs here"));
+                        .contains("carriedBy: '" + robot + "' is not a robot that runs here"));
 
         bench.addDesired("carry", robot, true, "{\"path\": [[-3.48, 40.31], [-3.48, 40.32]], \"speed\": 2}");
 

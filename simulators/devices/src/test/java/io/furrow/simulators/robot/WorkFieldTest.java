@@ -16,7 +16,7 @@ class WorkFieldTest {
     @CsvSource(delimiter = '|', textBlock = """
                     {"type": "Polygon"}                                                          | a field is a GeoJSON Feature with an id
                     {"type": "Feature", "geometry": {"type": "Polygon"}}                         | a field is a GeoJSON Feature with an id
-                    {"type": "Feature", "id": "f", "geometry": {"type": "MultiPolygon"}}         | the geometry of field 'f' is no Polygon: make each part of a MultiPolygon a field of its own
+                    {"type": "Feature", "id": "f", "geometry": {"type": "MultiPolygon"}}         | the geometry of field 'f' is not a Polygon: make each part of a MultiPolygon a field of its own
                     {"type": "Feature", "id": "f", "geometry": {"type": "Polygon", "coordinates": []}} | the Polygon of field 'f' has no ring
                     {"type": "Feature", "id": "f", "geometry": {"type": "Polygon", "coordinates": [[[1, "x"]]]}} | a corner of field 'f' is no [longitude, latitude]: [1,"x"]
                     {"type": "Feature", "id": "f", "geometry": {"type": "Polygon", "coordinates": [[[1, 2], [2, 2], [2, 3], [1, 3]]]}} | a ring of field 'f' is not closed: its last corner is its first, with at least two between

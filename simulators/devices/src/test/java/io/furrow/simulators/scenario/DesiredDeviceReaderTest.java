@@ -117,11 +117,11 @@ class DesiredDeviceReaderTest {
             Thermometer | {"path": []}                                                    | path: has no point; give at least one [longitude, latitude]
             Thermometer | {"path": [[0, 0], [0, 1]], "speed": 0}                          | speed: must be a number from 0.01 to 50, not 0
             Thermometer | {"path": [[0, 0]], "parameters": {"meanCelsius": "warm"}}       | meanCelsius: must be a number from -60 to 60, not "warm"
-            Thermometer | {"path": [[0, 0]], "parameters": {"period": "PT1S"}}            | parameters.period: is no parameter; say it of the device itself
+            Thermometer | {"path": [[0, 0]], "parameters": {"period": "PT1S"}}            | parameters.period: is not a parameter; say it of the device itself
             Thermometer | {"path": [[0, 0]], "faults": [{"kind": "drift"}]}               | faults[0].perHour: must be a number from -1000000000 to 1000000000, and is missing
             Camera      | {"path": [[0, 0]], "parameters": {"battery": "two weeks"}}      | battery: must be a duration, for instance PT1S or PT10M, not "two weeks"
             Robot       | {"area": "orchard", "parameters": {"rows": {"margin": 90}}}     | rows: field 'orchard' has no room for a row 90.0 m from its edge: give a smaller margin
-            Tractor     | {"path": [[0, 0]]}                                              | type: 'Tractor' is no type of device; use Thermometer, WeatherStation, Camera or Robot
+            Tractor     | {"path": [[0, 0]]}                                              | type: 'Tractor' is not a type of device; use Thermometer, WeatherStation, Camera or Robot
             """)
     void saysWhichSettingIsWrongAndWhatToDo(String type, String settings, String message) {
         assertThatThrownBy(() -> read(type, 1, settings))

@@ -141,7 +141,7 @@ class FarmTest {
         "apiKey": "secret",         | ,                           | line 1: is not valid JSON: Unexpected character (',' (code 44)): was expecting double-quote to start field name
         "apiKey": "secret",         | ''                          | apiKey: must be a text, and is missing
         "mission": "weeding"        | "mission": "a.b"            | missions[0].mission: must be 1 to 64 of A-Z a-z 0-9 _ -, not 'a.b'
-        "type": "WeatherStation"    | "type": "Barn"              | missions[0].devices[1].type: 'Barn' is no type of device; use Thermometer, WeatherStation, Camera or Robot
+        "type": "WeatherStation"    | "type": "Barn"              | missions[0].devices[1].type: 'Barn' is not a type of device; use Thermometer, WeatherStation, Camera or Robot
         "period": "PT1M"            | "period": "1m"              | missions[0].devices[1].period: must be a duration, for instance PT1S or PT10M, not "1m"
         "period": "PT1M"            | "period": "PT0S"            | missions[0].devices[1].period: must be longer than PT0S
         "count": 5                  | "count": 0                  | missions[0].devices[0].count: must be a whole number from 1 to 100000, not 0
@@ -152,7 +152,7 @@ class FarmTest {
         "area": "field-1",          | ''                          | missions[0].devices[0].area: is missing; say where it is with one of area, at, route or carriedBy
         "area": "field-1"           | "area": "field-1", "carriedBy": "r" | missions[0].devices[0].carriedBy: says again where the device is, after area; leave one out
         "rows": {                   | "route": [], "rows": {      | missions[0].devices[2].route: says again where the device is, after rows; leave one out
-        "kind": "stuck"             | "kind": "loose"             | missions[0].devices[0].faults[0].kind: 'loose' is no kind of fault; use stuck, drift, spikes or silent
+        "kind": "stuck"             | "kind": "loose"             | missions[0].devices[0].faults[0].kind: 'loose' is not a kind of fault; use stuck, drift, spikes or silent
         "numbers": [4]              | "numbers": 4                | missions[0].devices[0].faults[0].numbers: must be a list of the devices' numbers, from 1, as in [1, 3]
         "attribute": "Pressure"     | "attribute": "pressure"     | missions[0].devices[1].faults[0].attribute: 'pressure' is not shown; shown are Temperature, Humidity, Pressure, WindSpeed, WindDirection, Rain, SolarRadiation
         "carriedBy": "r-2"          | "carriedBy": "r-3"          | missions[0].devices[4].carriedBy: there is no robot 'r-3' in mission 'weeding'; a carrier is a robot of the same mission
@@ -163,7 +163,7 @@ class FarmTest {
         "meeting": 5                | "obstacles": {"every": "PT1M"} | missions[0].devices[2].obstacles: is not known here; known are count, entity, id, meeting, patience, period, route, rows, speed, start, tellsMission, turnRate, type
         "meanCelsius": 20           | "battery": "PT0S"           | missions[0].devices[0].battery: must be at least PT0.001S
         {"latitude": 40.3,          | {"latitude": 140.3,         | missions[1].devices[0].route[0].latitude: must be a number from -90 to 90, not 140.3
-        "type": "Polygon"           | "type": "Point"             | fields.features[0]: the geometry of field 'field-1' is no Polygon: make each part of a MultiPolygon a field of its own
+        "type": "Polygon"           | "type": "Point"             | fields.features[0]: the geometry of field 'field-1' is not a Polygon: make each part of a MultiPolygon a field of its own
         """)
     void saysWhereWhatIsWrongAndWhatToDo(String right, String wrong, String sentence) {
         String broken = FARM.replaceFirst(Pattern.quote(right), wrong == null ? "" : wrong);

@@ -31,10 +31,9 @@ import io.furrow.model.text.FailureText;
 @Command(
         name = "catalog",
         abbreviateSynopsis = true,
-        description =
-                "Lists what has passed, from the topic data.catalog that ingest keeps: missions, types of entities, their "
-                        + "attributes with type, unit, range and rate, first and last seen, sizes, images; and what is "
-                        + "stored: missions with --mongo, images with --images.")
+        description = "Lists the content of the topic data.catalog, which ingest writes: missions, entity types, their "
+                + "attributes with type, unit, range and rate, first and last time, sizes, images; and what is stored: "
+                + "missions with --mongo, images with --images.")
 public final class CatalogCommand implements Callable<Integer> {
     private enum Output {
         TABLE,
@@ -67,7 +66,7 @@ public final class CatalogCommand implements Callable<Integer> {
     @Option(
             names = "--images",
             paramLabel = "URI",
-            description = "Also count the images in this folder, the one that ingest was given with --images.")
+            description = "Also count the images in this folder, that of the option --images of ingest.")
     private String images;
 
     @Mixin

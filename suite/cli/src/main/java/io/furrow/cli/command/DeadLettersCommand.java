@@ -25,7 +25,7 @@ import io.furrow.model.topic.Topics;
 /** {@code ./furrow dead-letters}. */
 @Command(
         name = "dead-letters",
-        description = "What was set aside because it could not be read.",
+        description = "Records that could not be processed.",
         synopsisSubcommandLabel = "COMMAND")
 public final class DeadLettersCommand {
     @Spec
@@ -38,8 +38,8 @@ public final class DeadLettersCommand {
             name = "redrive",
             abbreviateSynopsis = true,
             description =
-                    "Brings dead letters back to the topic they were read from, as they were, each once. For use after "
-                            + "what set them aside has been repaired.")
+                    "Writes dead letters unchanged to the topic that they were read from, each once. Use it after the "
+                            + "cause has been repaired.")
     int redrive(
             @Option(
                             names = "--kafka",
@@ -62,8 +62,8 @@ public final class DeadLettersCommand {
                             names = "--to",
                             paramLabel = "TOPIC",
                             description =
-                                    "Topic to bring them to. Default: that of --topic without '.dead'. What the NGSI "
-                                            + "source set aside is a notification: ngsi.notifications is the topic for it.")
+                                    "Topic to write them to. Default: that of --topic without '.dead'. Dead letters of the NGSI source "
+                                            + "are notifications; their topic is ngsi.notifications.")
                     String to,
             @Option(
                             names = "--reason",
@@ -78,8 +78,8 @@ public final class DeadLettersCommand {
                             split = ",",
                             hideParamSyntax = true,
                             description =
-                                    "Only those that one of these set aside. Default: all but routes, ingest-images, missions, "
-                                            + "temperature, collision and presence: the event went on, to feed it again would double it.")
+                                    "Only those of these stages. Default: all but routes, ingest-images, missions, temperature, "
+                                            + "collision and presence, where the event itself was processed and would become a duplicate.")
                     Set<String> stages,
             @Option(names = "--again", description = "Also those that this command has sent back before.")
                     boolean again,
@@ -87,7 +87,7 @@ public final class DeadLettersCommand {
             @Option(
                             names = {"-h", "--help"},
                             usageHelp = true,
-                            description = "Show this text.")
+                            description = "Show this help.")
                     boolean wantsHelp) {
         String target = to == null ? Topics.ofDeadLetters(topic).orElseThrow(() -> nameless(topic)) : to;
         Redrive.Choice choice = new Redrive.Choice(

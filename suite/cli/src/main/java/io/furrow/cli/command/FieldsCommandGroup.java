@@ -47,7 +47,8 @@ public final class FieldsCommandGroup extends CommandGroup {
                             converter = TimeConverter.class,
                             description = "Event time, for instance 2026-03-01T00:00:00Z. Default: now.")
                     Instant at,
-            @Option(names = "--versions", description = "All versions of all times, ends too.") boolean versions) {
+            @Option(names = "--versions", description = "All versions of all times, including ends.")
+                    boolean versions) {
         try {
             List<FieldVersion> existing = fields.topic().read();
             Instant time = at == null ? Instant.now() : at;
@@ -62,7 +63,7 @@ public final class FieldsCommandGroup extends CommandGroup {
         }
     }
 
-    @Command(name = "rename", description = "Gives a field another name, in all its versions; its id stays.")
+    @Command(name = "rename", description = "Renames a field in all its versions; its id stays.")
     int rename(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "ID", description = ID) String id,
@@ -76,9 +77,9 @@ public final class FieldsCommandGroup extends CommandGroup {
     @Command(
             name = "end",
             description = {
-                "Ends a field: from a time on there are no averages and no stays of it.",
-                "What was found before stays, and a replay of an earlier time has the field as it was. Versions that were to"
-                        + " begin after that time are taken back."
+                "Ends a field: from a time on it has no averages and stays.",
+                "Earlier results stay, and a replay of an earlier time has the field as it was. Versions that begin after that"
+                        + " time are removed."
             })
     int end(
             @Mixin ControlOptions control,
@@ -87,8 +88,7 @@ public final class FieldsCommandGroup extends CommandGroup {
                             names = "--at",
                             paramLabel = "TIME",
                             converter = TimeConverter.class,
-                            description =
-                                    "Event time from which on it is no more, for instance 2026-10-01T00:00:00Z. Default: now.")
+                            description = "Event time of its end, for instance 2026-10-01T00:00:00Z. Default: now.")
                     Instant at) {
         String time =
                 (at == null ? Instant.now() : at).truncatedTo(ChronoUnit.MILLIS).toString();
@@ -100,9 +100,9 @@ public final class FieldsCommandGroup extends CommandGroup {
     @Command(
             name = "delete",
             description = {
-                "Deletes a field with all its versions, as if it had never been; this cannot be undone.",
-                "Averages and stays that were found of it stay where they are stored, under its id; a replay of an earlier time"
-                        + " finds no new ones. To keep the past, end it instead."
+                "Deletes a field with all its versions, as if it had never existed; this cannot be undone.",
+                "Stored averages and stays of it remain under its id; a replay of an earlier time has no new ones. "
+                        + "To keep the past, end the field instead."
             })
     int delete(@Mixin ControlOptions control, @Parameters(paramLabel = "ID", description = ID) String id) {
         return control.run(api -> {
@@ -127,7 +127,7 @@ public final class FieldsCommandGroup extends CommandGroup {
                 return OffsetDateTime.parse(value).toInstant();
             } catch (DateTimeException e) {
                 throw new TypeConversionException(
-                        "'" + value + "' is no time; write for instance 2026-03-01T00:00:00Z");
+                        "'" + value + "' is not a time; write for instance 2026-03-01T00:00:00Z");
             }
         }
     }

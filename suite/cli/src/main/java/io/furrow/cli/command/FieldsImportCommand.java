@@ -30,11 +30,11 @@ import io.furrow.model.field.InvalidFileException;
 @Command(
         name = "import",
         description = {
-            "Reads fields from GeoJSON, a Shapefile or a GeoPackage in any coordinate system and writes them to"
-                    + " service.fields as longitude and latitude in WGS 84. Edges stay straight between their corners; how"
-                    + " far that is off is said.",
-            "What can be mended is mended and said; a feature that cannot is refused with the reason, and the exit"
-                    + " code is 1. A field that is as it was is not written again."
+            "Reads fields from GeoJSON, a Shapefile or a GeoPackage in any coordinate system and writes them to "
+                    + "service.fields as longitude and latitude in WGS 84. Edges stay straight between their corners; the "
+                    + "report gives the error.",
+            "Repairable features are repaired and reported; others are refused with the reason, and the exit "
+                    + "code is 1. An unchanged field is not written again."
         })
 final class FieldsImportCommand implements Callable<Integer> {
     @Mixin
@@ -69,7 +69,7 @@ final class FieldsImportCommand implements Callable<Integer> {
             paramLabel = "TIME",
             converter = FieldsCommandGroup.TimeConverter.class,
             description =
-                    "Event time from which on the fields are so, for instance 2026-03-01T00:00:00Z. Default: now.")
+                    "Event time from which the fields are valid, for instance 2026-03-01T00:00:00Z. Default: now.")
     private Instant validFrom = Instant.now().truncatedTo(ChronoUnit.MILLIS);
 
     @Option(names = "--layer", paramLabel = "NAME", description = "Layer of a GeoPackage that has several.")
@@ -79,18 +79,18 @@ final class FieldsImportCommand implements Callable<Integer> {
             names = "--crs",
             paramLabel = "CODE",
             description =
-                    "Coordinate system of the file, instead of what it says itself, for instance EPSG:25830. Easting"
-                            + " or longitude come first, whatever the system defines.")
+                    "Coordinate system of the file, instead of the one that it names, for instance EPSG:25830. Easting "
+                            + "or longitude come first, whatever the system defines.")
     private String crs;
 
     @Option(
             names = "--replace",
             description =
-                    "Ends each field that the file does not hold: of the domain of --domain, or without that option of"
-                            + " the whole farm, whatever its domain. --dry-run names them.")
+                    "Ends each field that is not in the file: of the domain of --domain, or without that option of the "
+                            + "whole farm. --dry-run names them.")
     private boolean replace;
 
-    @Option(names = "--dry-run", description = "Shows what would be done, and writes nothing.")
+    @Option(names = "--dry-run", description = "Shows the changes and writes nothing.")
     private boolean dryRun;
 
     @Override

@@ -8,7 +8,7 @@ import io.furrow.cli.option.HelpOption;
 /** {@code ./furrow images}. */
 @Command(
         name = "images",
-        description = "Looks after stored images.",
+        description = "Manages stored images.",
         synopsisSubcommandLabel = "COMMAND",
         subcommands = PurgeImages.class)
 public final class ImagesCommand {

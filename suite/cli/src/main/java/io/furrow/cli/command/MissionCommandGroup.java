@@ -32,8 +32,8 @@ import io.furrow.model.text.FailureText;
 /** {@code ./furrow mission}. */
 @Command(
         name = "mission",
-        description =
-                "Creates, starts, follows and stops missions; exports, imports and archives what is kept of them in MongoDB.",
+        description = "Creates, starts, follows and stops missions; exports, imports and archives their recordings in "
+                + "MongoDB.",
         synopsisSubcommandLabel = "COMMAND",
         subcommands = MarkerCommand.class)
 public final class MissionCommandGroup extends MissionControl {
@@ -81,7 +81,8 @@ public final class MissionCommandGroup extends MissionControl {
     @Command(
             name = "export",
             description =
-                    "Writes all events of a mission in the order of their times, and its markers. The same are always the same bytes.")
+                    "Writes all events of a mission in the order of their times, and its markers. The same events give "
+                            + "the same bytes.")
     int export(
             @Mixin StoreOptions store,
             @Parameters(paramLabel = "MISSION", description = MISSION) String mission,
@@ -124,7 +125,7 @@ public final class MissionCommandGroup extends MissionControl {
     @Command(
             name = "import",
             description =
-                    "Reads events into a mission. Those that it holds already stay once, so that a broken import can "
+                    "Reads events into a mission. Events that it already has are skipped, so an interrupted import can "
                             + "be repeated.")
     int importFrom(
             @Mixin StoreOptions store,
@@ -143,8 +144,8 @@ public final class MissionCommandGroup extends MissionControl {
     @Command(
             name = "archive",
             description =
-                    "Adds what an archive lacks of missions: one file per day and mission, and a further one for what "
-                            + "comes later. Nothing in an archive is changed or removed.")
+                    "Adds missing events of missions to an archive: one file per day and mission, and another one for "
+                            + "later events. Nothing in an archive is changed or removed.")
     int archive(
             @Mixin StoreOptions store,
             @Parameters(paramLabel = "ROOT", description = "Folder of the archive" + FILES) String root,

@@ -32,9 +32,8 @@ import io.furrow.model.text.FailureText;
 @Command(
         name = "purge",
         abbreviateSynopsis = true,
-        description =
-                "Deletes images that are older than an age, by the event time in their names, and what writers that "
-                        + "died left behind. Other files are left alone.")
+        description = "Deletes images beyond an age, by the event time in their names, and incomplete files of killed "
+                + "writers. Other files stay.")
 final class PurgeImages implements Callable<Integer> {
     private static final Pattern IMAGE = Pattern.compile(".+_(\\d{17})(-[0-9a-f]{64})?\\.(png|jpg)");
     /** No write takes that long. */
@@ -43,26 +42,26 @@ final class PurgeImages implements Callable<Integer> {
     @Spec
     private CommandSpec spec;
 
-    @Parameters(paramLabel = "URI", description = "The folder that the job was given with --images, or one below it.")
+    @Parameters(paramLabel = "URI", description = "The folder of the job's option --images, or one below it.")
     private String root;
 
     @Option(
             names = "--older-than",
             paramLabel = "DURATION",
             required = true,
-            description = "Delete what is older, for instance 30d.")
+            description = "Delete older images, for instance 30d.")
     private Duration age;
 
     @Mixin
     private final FileSystemOptions fileSystems = new FileSystemOptions();
 
-    @Option(names = "--dry-run", description = "Say what would be deleted and delete nothing.")
+    @Option(names = "--dry-run", description = "Show what would be deleted and delete nothing.")
     private boolean dryRun;
 
     @Option(
             names = {"-h", "--help"},
             usageHelp = true,
-            description = "Show this text.")
+            description = "Show this help.")
     private boolean help;
 
     private Instant now;

@@ -27,9 +27,9 @@ import io.furrow.model.time.Instants;
         abbreviateSynopsis = true,
         exitCodeOnExecutionException = 2,
         description = {
-            "Shows how what analytics found in one replay differs from what it found in another, or live: encounters by pair, averages by "
-                    + "field and window, stays by device and field, all in original event time. Reads from Kafka what is there now, of a "
-                    + "replay the newest epoch.",
+            "Compares the analytics results of one replay with those of another, or live ones: encounters by "
+                    + "pair, averages by field and window, stays by device and field, all in original event time. Reads "
+                    + "from Kafka what is there now; of a replay, the newest epoch.",
             "Exit code: 0 where both are the same, 1 where they differ, 2 where they cannot be compared."
         })
 public final class CompareCommand implements Callable<Integer> {
@@ -66,13 +66,13 @@ public final class CompareCommand implements Callable<Integer> {
             names = "--from",
             paramLabel = "TIME",
             description =
-                    "Only what holds at or after this original event time, ISO 8601 or epoch ms. Needed with live.")
+                    "Only results at or after this original event time, ISO 8601 or epoch ms. Required with live.")
     private String from;
 
     @Option(
             names = "--to",
             paramLabel = "TIME",
-            description = "Only what holds before this original event time. Needed with live.")
+            description = "Only results before this original event time. Required with live.")
     private String to;
 
     @Option(
@@ -91,8 +91,8 @@ public final class CompareCommand implements Callable<Integer> {
             names = "--mission",
             paramLabel = "NAME",
             description =
-                    "Of live encounters and stays only those of devices of this mission; averages are those of all devices in a field. "
-                            + "Default: that which the replay is called after.")
+                    "Only live encounters and stays of devices of this mission; averages are those of all devices in a "
+                            + "field. Default: the mission of the replay.")
     private String mission;
 
     @Option(
@@ -112,7 +112,7 @@ public final class CompareCommand implements Callable<Integer> {
     @Option(
             names = "--html",
             paramLabel = "FILE",
-            description = "Also draw both over time into this file, a page for any browser that loads nothing else.")
+            description = "Also draw both over time into this file, a self-contained HTML page.")
     private Path html;
 
     @Override
@@ -188,7 +188,7 @@ public final class CompareCommand implements Callable<Integer> {
 
     private long time(String option, String text) {
         return Instants.of(TextNode.valueOf(text))
-                .orElseThrow(() -> refused(option + " '" + text + "' is no time: give ISO 8601 or epoch ms"))
+                .orElseThrow(() -> refused(option + " '" + text + "' is not a time: give ISO 8601 or epoch ms"))
                 .toEpochMilli();
     }
 

@@ -72,7 +72,7 @@ final class ResultReader implements AutoCloseable {
     /**
      * @param desired epoch of a replay; empty for its newest
      * @param mission see {@link ResultCollector}
-     * @throws UnreadableResultsException if a record is no entity, or Kafka does not answer
+     * @throws UnreadableResultsException if a record is not an entity, or Kafka does not answer
      */
     SideResults read(Side side, OptionalLong desired, String mission) throws UnreadableResultsException {
         try {
@@ -136,7 +136,7 @@ final class ResultReader implements AutoCloseable {
             return Entity.parse(record.value());
         } catch (UnreadableException e) {
             throw new UnreadableResultsException(
-                    "%s-%d@%d is no entity: %s. Check who else writes to the topic."
+                    "%s-%d@%d is not an entity: %s. Check who else writes to the topic."
                             .formatted(record.topic(), record.partition(), record.offset(), e.getMessage()),
                     e);
         }

@@ -29,7 +29,7 @@ record Side(String name, String topic) {
             return new Side(Topics.replayOf(code).orElseThrow(), required(code, topics));
         } else if (!NAME.matcher(code).matches()) {
             throw new UnreadableResultsException(
-                    "'%s' is no replay: name one as MISSION.ID, its topic as data.MISSION.replay.ID, or say live."
+                    "'%s' is not a replay: name one as MISSION.ID, its topic as data.MISSION.replay.ID, or say live."
                             .formatted(code));
         }
         int dot = code.indexOf('.');

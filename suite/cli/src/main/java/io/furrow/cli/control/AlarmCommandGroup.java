@@ -47,7 +47,7 @@ public final class AlarmCommandGroup extends CommandGroup {
         }
     }
 
-    @Command(name = "list", description = "Lists alarms, the most severe and of these the newest first.")
+    @Command(name = "list", description = "Lists alarms by severity, the newest first.")
     int list(
             @Mixin ControlOptions control,
             @Option(
@@ -82,17 +82,17 @@ public final class AlarmCommandGroup extends CommandGroup {
         });
     }
 
-    @Command(name = "acknowledge", description = "Says that somebody looks after an alarm.")
+    @Command(name = "acknowledge", description = "Acknowledges an alarm.")
     int acknowledge(@Mixin ControlOptions control, @Parameters(paramLabel = "ALARM", description = ID) String alarm) {
         return post(control, alarm, "acknowledge", null);
     }
 
-    @Command(name = "close", description = "Closes an alarm whose cause is over, or was not seen for a minute.")
+    @Command(name = "close", description = "Closes an alarm whose cause is over or was not observed for a minute.")
     int close(@Mixin ControlOptions control, @Parameters(paramLabel = "ALARM", description = ID) String alarm) {
         return post(control, alarm, "close", null);
     }
 
-    @Command(name = "mute", description = "Keeps an alarm from the webhook for some time.")
+    @Command(name = "mute", description = "Mutes an alarm: the webhook does not get it for some time.")
     int mute(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "ALARM", description = ID) String alarm,
@@ -105,7 +105,7 @@ public final class AlarmCommandGroup extends CommandGroup {
         return post(control, alarm, "mute", duration);
     }
 
-    @Command(name = "unmute", description = "Lets an alarm reach the webhook again.")
+    @Command(name = "unmute", description = "Unmutes an alarm: the webhook gets it again.")
     int unmute(@Mixin ControlOptions control, @Parameters(paramLabel = "ALARM", description = ID) String alarm) {
         return post(control, alarm, "unmute", null);
     }

@@ -32,7 +32,7 @@ public final class DeviceCommandGroup extends CommandGroup {
             "What it says beside: a number, true, false, null, an object or a list as JSON, all else as text; \"3\" in quotation marks is a text.";
     private static final String ID = "Id of the device's entity, as in urn:ngsi-ld:Thermometer:weeding-1.";
 
-    @Command(name = "list", description = "Lists devices: status, when last heard of, battery, whether silent.")
+    @Command(name = "list", description = "Lists devices: status, last report, battery, whether silent.")
     int list(
             @Mixin ControlOptions control,
             @Option(names = "--domain", paramLabel = "DOMAIN", description = "Only those of this domain.")
@@ -61,9 +61,7 @@ public final class DeviceCommandGroup extends CommandGroup {
                         .text("REASON", "/status/reason"));
     }
 
-    @Command(
-            name = "show",
-            description = "Shows one device: why it is silent, what was heard of it, how it is connected.")
+    @Command(name = "show", description = "Shows one device: why it is silent, its last report, its connection.")
     int show(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "DEVICE", description = ID) String device,
@@ -75,8 +73,8 @@ public final class DeviceCommandGroup extends CommandGroup {
     @Command(
             name = "credentials",
             description = {
-                "Shows what a device needs to report over MQTT: broker, login, topics, what it may send, and an example. Of all real "
-                        + "devices of a mission with --mission, also as csv or env."
+                "Shows what a device needs to report over MQTT: broker, login, topics, payloads and an example. Of "
+                        + "all real devices of a mission with --mission, also as csv or env."
             })
     int credentials(
             @Mixin ControlOptions control,
@@ -96,8 +94,8 @@ public final class DeviceCommandGroup extends CommandGroup {
     @Command(
             name = "rotate",
             description = {
-                "Gives a device a new password and shows its credentials. The old password is refused at once, and a connection that",
-                "was made with it is cut off; other devices are not affected."
+                "Gives a device a new password and shows its credentials.",
+                "The old password is refused at once, and its connection is closed; other devices are not affected."
             })
     int rotate(
             @Mixin ControlOptions control,
@@ -139,7 +137,8 @@ public final class DeviceCommandGroup extends CommandGroup {
             @Option(
                             names = "--type",
                             paramLabel = "TYPE",
-                            description = "Type of its entity; needed of a device that reports by itself, as ROBOT.")
+                            description =
+                                    "Type of its entity; required for a device that reports by itself, such as ROBOT.")
                     String type,
             @Mixin DeviceScope scope) {
         Map<String, Object> body = new LinkedHashMap<>();

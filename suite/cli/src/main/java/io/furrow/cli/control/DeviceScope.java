@@ -11,7 +11,7 @@ final class DeviceScope {
     @Option(
             names = "--fiware-service",
             paramLabel = "TENANT",
-            description = "Tenant of its entity; needed where several tenants or service paths have the id.")
+            description = "Tenant of its entity; required if several tenants or service paths have the id.")
     private String service;
 
     @Option(names = "--fiware-service-path", paramLabel = "PATH", description = "Service path of its entity.")

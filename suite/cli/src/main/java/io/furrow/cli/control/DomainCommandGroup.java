@@ -22,7 +22,7 @@ import io.furrow.model.ngsi.NgsiJson;
 /** {@code ./furrow domain}. */
 @Command(
         name = "domain",
-        description = "Creates, changes, lists and deletes domains: what missions belong to.",
+        description = "Creates, changes, lists and deletes domains, to which missions belong.",
         synopsisSubcommandLabel = "COMMAND")
 public final class DomainCommandGroup extends CommandGroup {
     private static final String DOMAINS = "/api/domains";
@@ -43,7 +43,7 @@ public final class DomainCommandGroup extends CommandGroup {
                 names = "--fields",
                 paramLabel = "ID",
                 split = ",",
-                description = "Ids of its fields, parted by commas.")
+                description = "Ids of its fields, separated by commas.")
         private List<String> fields;
 
         ObjectNode json() throws IOException {
@@ -90,7 +90,7 @@ public final class DomainCommandGroup extends CommandGroup {
                 api -> control.answered(api.send("POST", DOMAINS, details.json().put("domain", domain))));
     }
 
-    @Command(name = "change", description = "Changes what is said of a domain; what is not said stays.")
+    @Command(name = "change", description = "Changes a domain; members that are not given stay.")
     int change(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "DOMAIN", description = NAME) String domain,
@@ -102,14 +102,14 @@ public final class DomainCommandGroup extends CommandGroup {
     @Command(
             name = "delete",
             description = {
-                "Deletes a domain with its missions and their devices, and ends its fields; refused while missions run in it.",
-                "What was recorded of the missions stays as long as missions are kept, and what was found of the fields too."
+                "Deletes a domain with its missions and their devices, and ends its fields; refused while missions "
+                        + "run in it.",
+                "Recordings of the missions stay as long as missions are stored, and so do results of the fields."
             })
     int delete(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "DOMAIN", description = NAME) String domain,
-            @Option(names = "--force", description = "Also where missions run in it, which are stopped.")
-                    boolean force) {
+            @Option(names = "--force", description = "Also if missions run in it; they are stopped.") boolean force) {
         return control.run(api -> {
             JsonNode answer =
                     api.send("DELETE", DOMAINS + ControlApi.part(domain) + (force ? "?force=true" : ""), null);

@@ -36,7 +36,7 @@ public final class MarkerCommand {
             @Parameters(index = "0", paramLabel = "MISSION", description = MISSION) String mission,
             @Parameters(index = "1", paramLabel = "TIME", description = "Event time, " + ReplayArguments.TIME)
                     String time,
-            @Parameters(index = "2", paramLabel = "NOTE", description = "What is there to see.") String note) {
+            @Parameters(index = "2", paramLabel = "NOTE", description = "Text of the marker.") String note) {
         return control.command("POST", path(mission), ControlOptions.object(body(time, note)));
     }
 

@@ -53,7 +53,7 @@ public class MissionControl extends CommandGroup {
         }
     }
 
-    @Command(name = "list", description = "Lists missions and how far they are.")
+    @Command(name = "list", description = "Lists missions with their state.")
     int list(
             @Mixin ControlOptions control,
             @Option(names = "--domain", paramLabel = "DOMAIN", description = "Only those of this domain.")
@@ -73,12 +73,12 @@ public class MissionControl extends CommandGroup {
                         .text("REASON", "/status/reason"));
     }
 
-    @Command(name = "show", description = "Shows one mission: its state, the devices that it misses and why.")
+    @Command(name = "show", description = "Shows one mission: its state, missing devices and why they are missing.")
     int show(@Mixin ControlOptions control, @Parameters(paramLabel = "MISSION", description = NAME) String mission) {
         return control.showPage(MISSIONS + ControlApi.part(mission), shown -> MissionPage.of(shown, Instant.now()));
     }
 
-    @Command(name = "create", description = "Creates a mission, which does not run yet.")
+    @Command(name = "create", description = "Creates a mission without starting it.")
     int create(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "MISSION", description = NAME) String mission,
@@ -102,7 +102,7 @@ public class MissionControl extends CommandGroup {
 
     @Command(
             name = "add-devices",
-            description = "Adds devices to a mission that does not run. What it has already stays.")
+            description = "Adds devices to a mission that is not running. Devices that it already has stay.")
     int addDevices(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "MISSION", description = NAME) String mission,
@@ -135,7 +135,7 @@ public class MissionControl extends CommandGroup {
 
     /** When it starts, for how long, and to which domain it belongs. */
     static final class Begin {
-        @Option(names = "--domain", paramLabel = "DOMAIN", description = "Its domain; needed for a new mission.")
+        @Option(names = "--domain", paramLabel = "DOMAIN", description = "Its domain; required for a new mission.")
         private String domain;
 
         @Option(names = "--at", paramLabel = "TIME", description = "When: ISO 8601 or epoch ms. Default: now.")
@@ -157,7 +157,7 @@ public class MissionControl extends CommandGroup {
         return control.commandDone("POST", MISSIONS + ControlApi.part(mission) + "/stop", "stopped");
     }
 
-    @Command(name = "delete", description = "Deletes a mission that does not run. What was kept of it stays.")
+    @Command(name = "delete", description = "Deletes a mission that is not running. Its recording stays.")
     int delete(@Mixin ControlOptions control, @Parameters(paramLabel = "MISSION", description = NAME) String mission) {
         return control.command("DELETE", MISSIONS + ControlApi.part(mission), null);
     }
@@ -165,8 +165,8 @@ public class MissionControl extends CommandGroup {
     @Command(
             name = "watch",
             description = {
-                "Shows how a mission goes on, a line for each change, until it has stopped or failed.",
-                "Exit code 0 means that it came to the state that was waited for."
+                "Prints a line for each change of a mission until it has stopped or failed.",
+                "Exit code 0 means that it reached the state of --until."
             })
     int watch(
             @Mixin ControlOptions control,
@@ -175,7 +175,7 @@ public class MissionControl extends CommandGroup {
                             names = "--until",
                             paramLabel = "STATE",
                             defaultValue = "stopped",
-                            description = "Ends with this state, as running. Default: ${DEFAULT-VALUE}.")
+                            description = "Ends with this state, for instance running. Default: ${DEFAULT-VALUE}.")
                     String until) {
         MissionWatch watch = new MissionWatch(control, MISSIONS + ControlApi.part(mission), until);
         return control.run(watch) == 0 && watch.isReached() ? 0 : 1;

@@ -18,13 +18,13 @@ import io.furrow.cli.option.CommandGroup;
 /** {@code ./furrow replay}. */
 @Command(
         name = "replay",
-        description = "Asks for replays of missions, steers, follows and compares them.",
+        description = "Starts, steers, follows and compares replays of missions.",
         synopsisSubcommandLabel = "COMMAND",
         subcommands = CompareCommand.class)
 public final class ReplayCommandGroup extends CommandGroup {
     private static final String REPLAYS = "/api/replays";
 
-    @Command(name = "list", description = "Lists replays, those that rest at their ends among them.")
+    @Command(name = "list", description = "Lists replays, including those that wait at their end.")
     int list(@Mixin ControlOptions control) {
         return control.show(
                 REPLAYS,
@@ -40,7 +40,7 @@ public final class ReplayCommandGroup extends CommandGroup {
 
     @Command(
             name = "missions",
-            description = "Lists the missions that can be played back, and from when to when they reach.")
+            description = "Lists the missions that can be played back, with their first and last times.")
     int missions(@Mixin ControlOptions control) {
         return control.show(
                 "/api/recordings",
@@ -50,14 +50,14 @@ public final class ReplayCommandGroup extends CommandGroup {
                         .time("LAST", "/last"));
     }
 
-    @Command(name = "show", description = "Shows one replay: what is wanted of it, and how far it is.")
+    @Command(name = "show", description = "Shows one replay: desired state and progress.")
     int show(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "REPLAY", description = "Name of the replay, MISSION.ID.") String replay) {
         return control.showOne(REPLAYS + ControlApi.part(replay));
     }
 
-    @Command(name = "start", description = "Asks for a replay of a mission, or of several by one clock.")
+    @Command(name = "start", description = "Starts a replay of a mission, or of several missions with one clock.")
     int start(@Mixin ControlOptions control, @Mixin ReplayStart start) {
         JsonNode body = start.body(control);
         return control.run(api -> {
@@ -76,11 +76,11 @@ public final class ReplayCommandGroup extends CommandGroup {
     @Command(
             name = "watch",
             description = {
-                "Follows a replay. At a terminal it is drawn in place and steered by keys, also back from its end; elsewhere it is a line per second "
-                        + "until its end.",
-                "Keys: space pauses and resumes; left and right seek by 10 s of event time, [ and ] or with shift by a minute; . and , step "
-                        + "while it is paused; + and - double and halve the speed; l sets where a range begins, then where it ends, then "
-                        + "takes it away; m makes a marker; ? shows the keys; q ends."
+                "Follows a replay. At a terminal it is drawn in place and steered by keys; otherwise it prints a "
+                        + "line per second until the end.",
+                "Keys: space pauses and resumes; left and right seek by 10 s of event time, [ and ] or with shift by "
+                        + "a minute; . and , step while it is paused; + and - double and halve the speed; l sets the begin of "
+                        + "a range, then its end, then removes it; m makes a marker; ? shows the keys; q ends."
             })
     int watch(
             @Mixin ControlOptions control,
@@ -94,13 +94,13 @@ public final class ReplayCommandGroup extends CommandGroup {
         return control.commandDone("DELETE", target.path(control), "stopped");
     }
 
-    @Command(name = "pause", description = "Holds a replay.")
+    @Command(name = "pause", description = "Pauses a replay.")
     int pause(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
         target.arguments(control, 0, 0, "nothing");
         return steer(control, target, "pause", Map.of());
     }
 
-    @Command(name = "resume", description = "Lets a held replay go on.")
+    @Command(name = "resume", description = "Resumes a paused replay.")
     int resume(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
         target.arguments(control, 0, 0, "nothing");
         return steer(control, target, "resume", Map.of());
@@ -118,19 +118,17 @@ public final class ReplayCommandGroup extends CommandGroup {
         return steer(control, target, "speed", Map.of("speed", ReplayArguments.speed(speed)));
     }
 
-    @Command(name = "step", description = "Lets a held replay play N events, or go back by -N. Default: 1.")
+    @Command(name = "step", description = "Lets a paused replay play N events, or go back by -N. Default: 1.")
     int step(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
         List<String> arguments = target.arguments(control, 0, 1, "how many events, -N to go back");
         String count = arguments.isEmpty() ? "1" : arguments.get(0);
         if (!count.matches("[+-]?[0-9]{1,7}")) {
-            throw control.refused("'%s' is no number of events".formatted(count));
+            throw control.refused("'%s' is not a number of events".formatted(count));
         }
         return steer(control, target, "step", Map.of("count", Integer.valueOf(count)));
     }
 
-    @Command(
-            name = "loop",
-            description = "Plays what is between two event times, A and B, over and over; --off ends that.")
+    @Command(name = "loop", description = "Repeats the range between the event times A and B; --off ends it.")
     int loop(
             @Mixin ControlOptions control,
             @Mixin ReplayTarget target,

@@ -20,7 +20,7 @@ final class ReplayStart {
     @Parameters(
             arity = "0..*",
             paramLabel = "MISSION",
-            description = "Name of the mission; several are played as a group, by one clock.")
+            description = "Name of the mission; several are played as a group with one clock.")
     private List<String> named = List.of();
 
     @Option(
@@ -28,14 +28,14 @@ final class ReplayStart {
             paramLabel = "NAME",
             split = ",",
             hideParamSyntax = true,
-            description = "The same as an option, which may be given several times.")
+            description = "The same as an option; may be repeated.")
     private List<String> missions = List.of();
 
     @Option(
             names = "--topic",
             paramLabel = "TOPIC",
             description =
-                    "Topic to play on, data.NAME.replay.<8 hexadecimal digits>. Default: one that is called after the mission.")
+                    "Topic to play on, data.NAME.replay.<8 hexadecimal digits>. Default: named after the mission.")
     private String topic;
 
     @Option(
@@ -53,27 +53,23 @@ final class ReplayStart {
     @Option(names = "--speed", paramLabel = "X", description = "0.1 to 1000, or max. Default: 1.")
     private String speed;
 
-    @Option(names = "--loop", description = "Begin anew at the end.")
+    @Option(names = "--loop", description = "Start again at the end.")
     private boolean loop;
 
-    @Option(
-            names = "--range",
-            paramLabel = "A..B",
-            description = "Play what is between these event times over and over.")
+    @Option(names = "--range", paramLabel = "A..B", description = "Repeat the range between these event times.")
     private String range;
 
     @Option(
             names = "--devices",
             paramLabel = "ID",
             split = ",",
-            description = "Ids of the entities to play back, parted by commas. Default: all.")
+            description = "Ids of the entities to play back, separated by commas. Default: all.")
     private List<String> devices;
 
     @Option(
             names = "--max-gap",
             paramLabel = "DURATION",
-            description =
-                    "Shorten stretches in which nothing happens to this, for instance 30s. Default: as they were.")
+            description = "Shorten pauses without events to this, for instance 30s. Default: original pauses.")
     private Duration maxGap;
 
     @Option(
@@ -86,7 +82,7 @@ final class ReplayStart {
     @Option(
             names = "--start-at",
             paramLabel = "TIME",
-            description = "When the first event is due, by the clock. Default: at once.")
+            description = "Wall-clock time of the first event. Default: at once.")
     private String startAt;
 
     @Option(
@@ -94,20 +90,21 @@ final class ReplayStart {
             paramLabel = "JOB",
             split = ",",
             completionCandidates = JobNames.class,
-            description = "Analytics jobs to run on the replay, parted by commas: ${COMPLETION-CANDIDATES}.")
+            description = "Analytics jobs to run on the replay, separated by commas: ${COMPLETION-CANDIDATES}.")
     private List<String> analytics;
 
     @Option(
             names = "--kafka",
             paramLabel = "HOST:PORT",
-            description = "Kafka as the Flink cluster reaches it, for the lines that start analytics jobs there. "
-                    + "Default: none is named, and the jobs take 127.0.0.1:9092.")
+            description =
+                    "Kafka as the Flink cluster reaches it, for the printed commands that start analytics jobs there. "
+                            + "Default: none, so the jobs use 127.0.0.1:9092.")
     private String kafka;
 
     @Option(
             names = "--source-topic",
             paramLabel = "TOPIC",
-            description = "Play what this topic has, instead of the mission in MongoDB.")
+            description = "Play the history of this topic instead of the mission in MongoDB.")
     private String sourceTopic;
 
     @Option(

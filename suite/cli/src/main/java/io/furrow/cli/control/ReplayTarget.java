@@ -15,14 +15,14 @@ final class ReplayTarget {
     @Option(
             names = "--group",
             paramLabel = "GROUP",
-            description = "All replays of this group, as start answers it; then REPLAY is left out.")
+            description = "All replays of this group, as printed by start; omit REPLAY.")
     private String group;
 
     @Parameters(
             arity = "0..*",
             paramLabel = "REPLAY …",
             hideParamSyntax = true,
-            description = "Name of the replay, as start answers it, MISSION.ID; then what the command needs.")
+            description = "Name of the replay as printed by start, MISSION.ID; then the arguments of the command.")
     private List<String> arguments = List.of();
 
     /** Its path. */

@@ -20,7 +20,7 @@ import io.furrow.model.ngsi.NgsiJson;
 /** {@code ./furrow template}. */
 @Command(
         name = "template",
-        description = "Lists, exports, imports and deletes templates: the devices of missions to come.",
+        description = "Lists, exports, imports and deletes templates: device lists for new missions.",
         synopsisSubcommandLabel = "COMMAND")
 public final class TemplateCommandGroup extends CommandGroup {
     private static final String TEMPLATES = "/api/templates";
@@ -37,7 +37,7 @@ public final class TemplateCommandGroup extends CommandGroup {
                         .text("DESCRIPTION", "/description"));
     }
 
-    @Command(name = "export", description = "Writes a template as JSON, in the form that import reads.")
+    @Command(name = "export", description = "Writes a template as JSON that import reads.")
     int export(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "TEMPLATE", description = NAME) String template,
@@ -65,7 +65,7 @@ public final class TemplateCommandGroup extends CommandGroup {
     @Command(name = "import", description = "Saves a template from a file of JSON as the next version of its name.")
     int importFrom(
             @Mixin ControlOptions control,
-            @Parameters(paramLabel = "FILE", description = "A file as export writes it.") Path file) {
+            @Parameters(paramLabel = "FILE", description = "A file written by export.") Path file) {
         return control.run(api -> control.answered(api.send("POST", TEMPLATES, JsonFile.read(file))));
     }
 

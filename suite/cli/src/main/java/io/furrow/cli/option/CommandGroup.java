@@ -9,6 +9,6 @@ public abstract class CommandGroup {
             names = {"-h", "--help"},
             usageHelp = true,
             scope = ScopeType.INHERIT,
-            description = "Show this text.")
+            description = "Show this help.")
     private boolean help;
 }

@@ -161,7 +161,7 @@ class FieldsCommandGroupIT {
                 .contains("missing cannot be read: there is no such file")
                 .doesNotContain("Exception");
         output(2, "import", file(), "--valid-from", "yesterday");
-        assertThat(err.toString()).contains("'yesterday' is no time; write for instance");
+        assertThat(err.toString()).contains("'yesterday' is not a time; write for instance");
         output(1, "list", "--kafka", "127.0.0.1:" + FreePort.orFree(0));
         assertThat(err.toString()).contains("cannot be read").contains("Check the address given with --kafka");
     }

@@ -113,7 +113,7 @@ class ReplayCommandGroupTest {
             pause                     | Name a replay
             pause m.0a1b2c3d now      | comes nothing; there is 'now'
             seek m.0a1b2c3d           | comes TIME
-            step m.0a1b2c3d -x        | '-x' is no number of events
+            step m.0a1b2c3d -x        | '-x' is not a number of events
             step --nothing            | Name a replay
             loop m.0a1b2c3d 5         | comes A B
             start                     | Name a mission

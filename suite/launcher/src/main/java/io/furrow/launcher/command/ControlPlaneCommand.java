@@ -47,9 +47,8 @@ import io.furrow.provisioner.ProvisioningSettings;
 @Command(
         name = "control-plane",
         abbreviateSynopsis = true,
-        description =
-                "Runs an instance of the control plane alone, beside a Kafka that already runs. Several share the work; what one "
-                        + "had when it died another takes over.")
+        description = "Runs an instance of the control plane with an existing Kafka. Several instances share the work; "
+                + "when one fails, another takes over.")
 public final class ControlPlaneCommand implements Callable<Integer> {
     private static final long STOPPED_WITHIN_SECONDS = 35;
     /** Without Kafka there is nothing to hand over; another instance takes over as after a crash. */
@@ -58,11 +57,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
     @Spec
     private CommandSpec spec;
 
-    @Option(
-            names = "--kafka",
-            paramLabel = "HOST:PORT",
-            required = true,
-            description = "Kafka of the farm, whose managers this instance becomes one of.")
+    @Option(names = "--kafka", paramLabel = "HOST:PORT", required = true, description = "Kafka of the farm.")
     private String kafka;
 
     @Option(
@@ -75,7 +70,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
             names = "--standby-replicas",
             paramLabel = "N",
             defaultValue = "0",
-            description = "How many further instances hold a copy of all state, ready to take over. Default: 0.")
+            description = "Number of standby replicas of all state on other instances. Default: 0.")
     private int standbyReplicas;
 
     @Option(
@@ -99,7 +94,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
             paramLabel = "PORT",
             defaultValue = "8086",
             description =
-                    "Port of the pages /health, /ready and /metrics, plain HTTP without tokens also where the API has both; 0 for a "
+                    "Port of /health, /ready and /metrics, plain HTTP without tokens even if the API has both; 0 for a "
                             + "free one. Default: ${DEFAULT-VALUE}.")
     private int healthPort;
 
@@ -116,8 +111,8 @@ public final class ControlPlaneCommand implements Callable<Integer> {
             paramLabel = "URL",
             converter = HttpUriConverter.class,
             description =
-                    "REST API of Kafka Connect, for instance http://127.0.0.1:8083: /ready shows its connectors, and one that failed "
-                            + "raises an alarm. Default: it is not asked.")
+                    "REST API of Kafka Connect, for instance http://127.0.0.1:8083: /ready shows its connectors, and a "
+                            + "failed one raises an alarm. Default: not used.")
     private URI connect;
 
     @Option(
@@ -125,7 +120,8 @@ public final class ControlPlaneCommand implements Callable<Integer> {
             paramLabel = "N",
             defaultValue = "-1",
             description =
-                    "Copies of each topic that this makes, its internal ones too; those that exist stay as they are. Default: that of the brokers.")
+                    "Replication factor of created topics, including internal ones; existing topics do not change. "
+                            + "Default: that of the brokers.")
     private short replicationFactor;
 
     @Option(

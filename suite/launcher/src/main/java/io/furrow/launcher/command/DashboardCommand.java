@@ -37,8 +37,8 @@ import io.furrow.launcher.suite.ServerCheck;
         name = "dashboard",
         abbreviateSynopsis = true,
         description =
-                "Serves the page that shows the farm, and what it needs under one origin: topics as WebSockets and server-sent events, and the "
-                        + "control plane's REST API. Runs beside a Kafka and a control plane that already run.")
+                "Serves the page of the farm and, under the same origin, topics as WebSockets and server-sent events "
+                        + "and the control plane's REST API. Uses an existing Kafka and control plane.")
 public final class DashboardCommand implements Callable<Integer> {
     private static final long STOPPED_WITHIN_SECONDS = 15;
 
@@ -85,7 +85,8 @@ public final class DashboardCommand implements Callable<Integer> {
     @Option(
             names = "--insecure",
             description =
-                    "Listen on --host in plain HTTP: a proxy in front ends TLS, and the control plane asks for tokens.")
+                    "Listen on --host in plain HTTP: a proxy in front terminates TLS, and the control plane requires "
+                            + "tokens.")
     private boolean insecure;
 
     @Option(
@@ -111,7 +112,8 @@ public final class DashboardCommand implements Callable<Integer> {
             split = ",",
             hideParamSyntax = true,
             description =
-                    "Folders in which the job ingest stores images: pictures of cameras are served from there, and from nowhere else. Default: none.")
+                    "Folders in which the job ingest stores images; pictures of cameras are served from there only. "
+                            + "Default: none.")
     private List<Path> images;
 
     @Option(
@@ -125,7 +127,8 @@ public final class DashboardCommand implements Callable<Integer> {
             names = "--web",
             paramLabel = "DIR",
             description =
-                    "Serve the files of the page from this folder: for those who work on them, a reload shows a change. Default: those of this build.")
+                    "Serve the files of the page from this folder, for development: a reload shows a change. Default: "
+                            + "those of this build.")
     private Path web;
 
     @Option(
@@ -203,7 +206,7 @@ public final class DashboardCommand implements Callable<Integer> {
             return InetAddress.getByName(host).isLoopbackAddress();
         } catch (UnknownHostException e) {
             throw new ParameterException(
-                    spec.commandLine(), "--host %s is no address of this machine.".formatted(host), e);
+                    spec.commandLine(), "--host %s is not an address of this machine.".formatted(host), e);
         }
     }
 

@@ -15,8 +15,8 @@ import io.furrow.launcher.option.SuiteOptions;
         name = "demo",
         abbreviateSynopsis = true,
         description =
-                "Starts everything in one JVM on 127.0.0.1, with the missions and simulated devices of a small farm, and shows what "
-                        + "comes out.")
+                "Starts everything in one JVM on 127.0.0.1 with the missions and simulated devices of a small farm, "
+                        + "and shows the results.")
 public final class DemoCommand implements Callable<Integer> {
     @Spec
     private CommandSpec spec;

@@ -23,8 +23,9 @@ import io.furrow.model.file.PrivateFile;
 @Command(
         name = "init",
         description = {
-            "Makes the secrets of a farm in containers: a file of environment variables for docker/compose.yaml.",
-            "Only its owner may read it; one that is there already stays as it is."
+            "Generates the secrets of a farm in containers: a file of environment variables for "
+                    + "docker/compose.yaml.",
+            "Only its owner may read it; an existing file is not changed."
         })
 public final class InitCommand implements Callable<Integer> {
     private static final SecureRandom RANDOM = new SecureRandom();

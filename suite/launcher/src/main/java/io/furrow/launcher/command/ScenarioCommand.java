@@ -34,9 +34,9 @@ import io.furrow.simulators.scenario.Farm;
         abbreviateSynopsis = true,
         sortOptions = false,
         description = {
-            "Runs the devices of a scenario file, without a control plane: provisions them at the IoT Agent, connects them and lets"
-                    + " them report, by default to ./furrow demo on this machine.",
-            "The form of the file: simulators/README.md."
+            "Runs the devices of a scenario file, without a control plane: provisions them at the IoT Agent, "
+                    + "connects them and lets them report, by default to ./furrow demo on this machine.",
+            "The format is described in simulators/README.md."
         })
 public final class ScenarioCommand implements Callable<Integer> {
     private static final Duration DRAIN_TIMEOUT = Duration.ofSeconds(10);
@@ -60,14 +60,14 @@ public final class ScenarioCommand implements Callable<Integer> {
             names = "--qos",
             paramLabel = "N",
             defaultValue = "1",
-            description =
-                    "QoS of measures: 0, what is measured while the connection is broken is lost; or 1. Default: 1.")
+            description = "QoS of measures: 0, measures are lost while the connection is broken; or 1. Default: 1.")
     private int qos;
 
     @Option(
             names = "--for",
             paramLabel = "DURATION",
-            description = "Stop after this, as in 10m, and wait until the broker has all. Default: at Ctrl-C.")
+            description =
+                    "Stop after this, for instance 10m, and wait until the broker has all measures. Default: at Ctrl-C.")
     private Duration howLong;
 
     @Mixin

@@ -25,7 +25,7 @@ import io.furrow.model.file.PrivateFile;
 /** {@code ./furrow secret}. */
 @Command(
         name = "secret",
-        description = "Makes and rotates the farm's secret, of which the credentials of all devices are made.",
+        description = "Creates and rotates the farm's secret, from which the credentials of all devices are derived.",
         synopsisSubcommandLabel = "COMMAND")
 public final class SecretCommandGroup extends CommandGroup {
     private static final String FILE = "File of the farm's secret.";
@@ -33,7 +33,7 @@ public final class SecretCommandGroup extends CommandGroup {
     @Spec
     private CommandSpec spec;
 
-    @Command(name = "new", description = "Makes the secret of a new farm, in a file that only its owner may read.")
+    @Command(name = "new", description = "Creates the secret of a new farm in a file that only its owner may read.")
     int create(@Parameters(paramLabel = "FILE", description = FILE) Path file) {
         try {
             FarmSecret secret = FarmSecretFile.make(file);
@@ -49,7 +49,7 @@ public final class SecretCommandGroup extends CommandGroup {
         }
     }
 
-    @Command(name = "show", description = "Shows fingerprints and times of the keys of a secret, nothing of the keys.")
+    @Command(name = "show", description = "Shows fingerprints and times of the keys of a secret, not the keys.")
     int show(@Parameters(paramLabel = "FILE", description = FILE) Path file) {
         FarmSecret secret = read(file);
         Instant now = Instant.now();
@@ -70,8 +70,8 @@ public final class SecretCommandGroup extends CommandGroup {
     @Command(
             name = "rotate",
             description = {
-                "Adds a key that makes passwords from now on; those of the key before are accepted for a time.",
-                "Processes that run read the file again when it changes."
+                "Adds a key for new passwords; those of the previous key are accepted for a time.",
+                "Running processes read the file again when it changes."
             })
     int rotate(
             @Parameters(paramLabel = "FILE", description = FILE) Path file,
@@ -85,8 +85,8 @@ public final class SecretCommandGroup extends CommandGroup {
             @Option(
                             names = "--api-keys",
                             description =
-                                    "Make new API keys too. They are part of the MQTT topics: no device is heard until it has "
-                                            + "its new credentials.")
+                                    "Also create new API keys. They are part of the MQTT topics: measures of a device are lost until it "
+                                            + "has its new credentials.")
                     boolean apiKeys) {
         if (apiKeys && retainOld != null && !retainOld.isZero()) {
             throw new ParameterException(

@@ -24,8 +24,8 @@ import io.furrow.model.file.AccessToken;
         name = "up",
         abbreviateSynopsis = true,
         description =
-                "Starts everything in one JVM on 127.0.0.1 for real devices, or beside a context broker and a Kafka that "
-                        + "already run.")
+                "Starts everything in one JVM on 127.0.0.1 for real devices, also with an existing context broker "
+                        + "and Kafka.")
 public final class UpCommand implements Callable<Integer> {
     @Spec
     private CommandSpec spec;

@@ -17,9 +17,9 @@ public final class AccessFlags {
             hideParamSyntax = true,
             converter = Host.class,
             description =
-                    "Names or addresses by which the HTTP servers are reached, beside localhost, 127.0.0.0/8, [::1] and the "
-                            + "address that they listen on. A request that names another host is refused, so that no page can point its "
-                            + "own name here.")
+                    "Names or addresses by which the HTTP servers are reached, beside localhost, 127.0.0.0/8, [::1] and "
+                            + "the address that they listen on. A request for another host is refused, as protection against DNS "
+                            + "rebinding.")
     private List<String> hosts;
 
     @Option(

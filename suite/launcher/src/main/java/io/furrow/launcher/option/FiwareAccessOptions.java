@@ -28,16 +28,15 @@ public final class FiwareAccessOptions {
             names = "--fiware-token-file",
             paramLabel = "FILE",
             description =
-                    "File whose first line is a token for the proxy that guards --orion and --iot-agent, sent with every request. Read "
-                            + "again when it changes. Default: none is sent.")
+                    "File whose first line is a token for the proxy in front of --orion and --iot-agent, sent with every "
+                            + "request. Read again when it changes. Default: no token.")
     public Path tokenFile;
 
     @Option(
             names = "--fiware-token-header",
             paramLabel = "NAME",
-            description =
-                    "Header of that token: Authorization with most proxies, whose token is 'Bearer …' then. Default: "
-                            + AccessToken.DEFAULT_HEADER + ", as a Wilma PEP proxy takes it.")
+            description = "Header of that token; most proxies use Authorization with a token 'Bearer …'. Default: "
+                    + AccessToken.DEFAULT_HEADER + ", as for a Wilma PEP proxy.")
     public String tokenHeader;
 
     /** @throws CommandException if the path is none */

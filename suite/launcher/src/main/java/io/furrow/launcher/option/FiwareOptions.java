@@ -47,8 +47,8 @@ public final class FiwareOptions {
             paramLabel = "NAME",
             defaultValue = Suite.MQTT_USER,
             description =
-                    "User at the MQTT broker, who may publish as all devices; the broker of ./furrow up has none. "
-                            + "Default: ${DEFAULT-VALUE}.")
+                    "User at the MQTT broker who may publish for all devices; the broker of ./furrow up has no such "
+                            + "user. Default: ${DEFAULT-VALUE}.")
     private String user;
 
     @Option(

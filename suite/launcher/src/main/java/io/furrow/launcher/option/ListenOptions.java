@@ -35,16 +35,16 @@ public final class ListenOptions {
             paramLabel = "URL",
             converter = HttpUriConverter.class,
             description =
-                    "Where the context broker reaches that listener, for instance http://farm.lan:8090/v2/notify. Default: its address "
-                            + "and port.")
+                    "URL by which the context broker reaches that listener, for instance http://farm.lan:8090/v2/notify. "
+                            + "Default: its address and port.")
     private URI publicUrl;
 
     @Option(
             names = "--notify-secret",
             paramLabel = "FILE",
             description =
-                    "File whose first line is a secret that each notification must carry; the suite's own subscriptions do. A second line "
-                            + "is taken too while others change to the first.")
+                    "File whose first line is a secret that each notification must have; the suite's own subscriptions "
+                            + "send it. A second line is also accepted, for a rotation.")
     private Path secret;
 
     @Option(
@@ -58,8 +58,8 @@ public final class ListenOptions {
     @Option(
             names = "--listen-insecure",
             description =
-                    "Let --listen and --mqtt-listen take addresses that other machines reach without TLS: the network is trusted, or a "
-                            + "proxy in front ends TLS.")
+                    "Allow --listen and --mqtt-listen to use addresses that other machines reach without TLS: the "
+                            + "network is trusted, or a proxy in front terminates TLS.")
     private boolean insecure;
 
     /**
@@ -122,7 +122,7 @@ public final class ListenOptions {
         try {
             return InetAddress.getByName(host);
         } catch (UnknownHostException e) {
-            throw new CommandException("%s %s is no address of this machine.".formatted(option, host), e);
+            throw new CommandException("%s %s is not an address of this machine.".formatted(option, host), e);
         }
     }
 

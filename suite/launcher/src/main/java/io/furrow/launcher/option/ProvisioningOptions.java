@@ -19,8 +19,9 @@ public final class ProvisioningOptions {
             names = "--iot-agent",
             paramLabel = "URL",
             converter = HttpUriConverter.class,
-            description = "Provision devices of missions at this IoT Agent, for instance http://127.0.0.1:4041. Needs "
-                    + "--orion; without it none are provisioned at another context broker.")
+            description =
+                    "Provision devices of missions at this IoT Agent, for instance http://127.0.0.1:4041. Needs --orion; "
+                            + "without this option no devices are provisioned at another context broker.")
     public URI iotAgent;
 
     @Option(
@@ -35,8 +36,8 @@ public final class ProvisioningOptions {
             names = "--iot-agent-interval",
             paramLabel = "DURATION",
             description =
-                    "How often groups and devices at that IoT Agent are compared with what is wanted, so that what it "
-                            + "has lost comes back. Longer for many thousands of devices. Default: 30s.")
+                    "Interval at which groups and devices of that IoT Agent are reconciled, so that lost ones are "
+                            + "restored. Longer for many thousands of devices. Default: 30s.")
     private Duration interval;
 
     @Option(
@@ -48,7 +49,7 @@ public final class ProvisioningOptions {
     @Option(
             names = "--mqtt-acl-file",
             paramLabel = "FILE",
-            description = "Mosquitto's acl_file, in which they get the rules what they may publish and hear.")
+            description = "Mosquitto's acl_file, in which they get the rules for publishing and subscribing.")
     Path rules;
 
     @Option(
@@ -62,38 +63,38 @@ public final class ProvisioningOptions {
             names = "--mqtt-log",
             paramLabel = "FILE",
             description =
-                    "Mosquitto's log (log_dest file), in which it is read when devices log in and, with log_type all, to which "
-                            + "foreign topics they publish; see ./furrow device show. Need not exist yet.")
+                    "Mosquitto's log (log_dest file). It shows logins of devices and, with log_type all, publishes to "
+                            + "topics of others; see ./furrow device show. It may not exist yet.")
     Path log;
 
     @Option(
             names = "--farm-secret",
             paramLabel = "FILE",
             description =
-                    "The secret of which API keys and MQTT passwords are made, see ./furrow secret. Default of up: farm-secret in "
-                            + "the directory of --data, made with it.")
+                    "The secret from which API keys and MQTT passwords are derived, see ./furrow secret. Default of up: "
+                            + "farm-secret in the directory of --data, created with it.")
     public Path secret;
 
     @Option(
             names = "--replace-farm-secret",
             paramLabel = "FINGERPRINT",
             description =
-                    "Let --farm-secret take the place of the farm's secret with this fingerprint, which is lost. Every device needs "
-                            + "new credentials then.")
+                    "Replace the farm's lost secret, which has this fingerprint, by --farm-secret. Every device then "
+                            + "needs new credentials.")
     public String replacedSecret;
 
     @Option(
             names = "--mqtt-gateways",
             description =
-                    "Give each mission an account that speaks for all its devices, as ./furrow device-host needs it "
+                    "Create an account per mission that may publish for all its devices, as ./furrow device-host needs "
                             + "beyond 500 devices.")
     public boolean gateways;
 
     @Option(
             names = "--forget-devices",
             description =
-                    "For one start: remove devices at the IoT Agent and MQTT accounts that were made for another Kafka, or for one whose "
-                            + "data is lost. Default: they stay, and an alarm names them.")
+                    "For one start: remove IoT Agent devices and MQTT accounts that were created for another Kafka, or "
+                            + "for one whose data is lost. Default: they stay, and an alarm names them.")
     public boolean forgets;
 
     @Option(
@@ -109,7 +110,7 @@ public final class ProvisioningOptions {
             paramLabel = "DURATION",
             defaultValue = "1min",
             description =
-                    "How long devices of a mission may take to come up. Then those that are missing are named, and an alarm is "
+                    "How long devices of a mission may take to report. Then the missing ones are named and an alarm is "
                             + "raised; the mission waits for them. Default: ${DEFAULT-VALUE}.")
     public Duration startTimeout;
 
@@ -117,14 +118,15 @@ public final class ProvisioningOptions {
             names = "--api-tokens",
             paramLabel = "FILE",
             description =
-                    "Ask for a token at the control plane's REST API: lines '<name> <token> <role>', the role viewer, operator or "
-                            + "admin. Read again when it changes. Default: anyone who reaches 127.0.0.1 may do everything.")
+                    "Require a token at the control plane's REST API: lines '<name> <token> <role>', the role viewer, "
+                            + "operator or admin. Read again when it changes. Default: anyone who reaches 127.0.0.1 may do "
+                            + "everything.")
     public Path tokens;
 
     /**
      * The MQTT broker as devices reach it; null if it is not named.
      *
-     * @throws CommandException if it is no address of one
+     * @throws CommandException if it is not an address of one
      */
     public URI mqttPublic() {
         if (mqttPublic != null

@@ -13,9 +13,9 @@ public final class ReplayFlags {
             names = "--mongo",
             paramLabel = "URI",
             description =
-                    "MongoDB of the stored missions, for instance mongodb://127.0.0.1:27017: replays of missions that are not there are "
-                            + "refused, and markers are kept there. "
-                            + "@FILE reads the URI, and so its password, from a file. Default: none, any replay is handed on, and there are no markers.")
+                    "MongoDB of the stored missions, for instance mongodb://127.0.0.1:27017: replays of missing missions "
+                            + "are refused, and markers are stored there. @FILE reads the URI, and so its password, from a file. "
+                            + "Default: none; every replay is accepted, and there are no markers.")
     private String mongo;
 
     @Option(
@@ -29,14 +29,14 @@ public final class ReplayFlags {
             names = "--mongo-poll",
             paramLabel = "DURATION",
             defaultValue = "2s",
-            description = "Between two looks for missions that are new or gone. Default: ${DEFAULT-VALUE}.")
+            description = "Poll interval for new and deleted missions. Default: ${DEFAULT-VALUE}.")
     private Duration poll;
 
     @Option(
             names = "--replay-grace",
             paramLabel = "DURATION",
             defaultValue = "1h",
-            description = "How long topics of a replay are kept after it was over. Default: ${DEFAULT-VALUE}.")
+            description = "How long topics of a replay are kept after its end. Default: ${DEFAULT-VALUE}.")
     private Duration grace;
 
     @Option(
@@ -44,7 +44,7 @@ public final class ReplayFlags {
             paramLabel = "DURATION",
             defaultValue = "1h",
             description =
-                    "How long a replay that came to its end can be sought and stepped back in. Default: ${DEFAULT-VALUE}.")
+                    "How long seeks and steps are possible after a replay has reached its end. Default: ${DEFAULT-VALUE}.")
     private Duration endedRetention;
 
     @Option(
@@ -52,7 +52,7 @@ public final class ReplayFlags {
             paramLabel = "N",
             defaultValue = "256",
             description =
-                    "Replays that are not over, at one time; a start beyond is refused. Default: ${DEFAULT-VALUE}.")
+                    "Maximum number of concurrent replays; a further start is refused. Default: ${DEFAULT-VALUE}.")
     private int max;
 
     /** @throws CommandException where they cannot be used */

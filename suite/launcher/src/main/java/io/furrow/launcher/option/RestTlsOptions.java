@@ -39,7 +39,7 @@ public final class RestTlsOptions {
     @Option(
             names = "--api-insecure",
             description =
-                    "Listen on addresses of other than this machine without TLS, because a proxy in front ends it.")
+                    "Listen on addresses that other machines reach without TLS, because a proxy in front terminates it.")
     public boolean insecure;
 
     /** Null if no TLS is asked for. */

@@ -14,8 +14,8 @@ public final class SuiteOptions {
             names = "--data",
             paramLabel = "DIR",
             description =
-                    "Keep everything here across restarts: Kafka's log, Connect's offsets, checkpoints, entities, missions. "
-                            + "Default: a temporary directory that is deleted at the end.")
+                    "Store everything here across restarts: Kafka's log, Connect's offsets, checkpoints, entities, "
+                            + "missions. Default: a temporary directory that is deleted at the end.")
     public Path data;
 
     @Option(
@@ -43,9 +43,9 @@ public final class SuiteOptions {
             names = "--fields",
             paramLabel = "FILE",
             description =
-                    "GeoJSON, Shapefile or GeoPackage with the farm's fields, put on service.fields at the start as the "
-                            + "fields of all times before the first import. Default: what is there; on a broker of the suite's own where "
-                            + "nothing is, the fields of the demonstration farm.")
+                    "GeoJSON, Shapefile or GeoPackage with the farm's fields, written to service.fields at startup as "
+                            + "the fields of all times before the first import. Default: the fields that exist; on the suite's own "
+                            + "broker without fields, those of the demonstration farm.")
     Path fields;
 
     @Option(
@@ -110,8 +110,9 @@ public final class SuiteOptions {
     @Option(
             names = "--mongo",
             paramLabel = "URI",
-            description = "Keep missions in this MongoDB, for instance mongodb://127.0.0.1:27018, and start no server. "
-                    + "@FILE reads the URI, and so its password, from a file.")
+            description =
+                    "Store missions in this MongoDB, for instance mongodb://127.0.0.1:27018, and start no server. @FILE "
+                            + "reads the URI, and so its password, from a file.")
     String mongo;
 
     @Option(
@@ -138,7 +139,7 @@ public final class SuiteOptions {
             names = "--predict",
             paramLabel = "DURATION",
             description =
-                    "How far ahead encounters are predicted, 0s for none. Default: 10s with --stop-on-predicted, else 0s.")
+                    "Horizon of predicted encounters, 0s for none. Default: 10s with --stop-on-predicted, else 0s.")
     String horizon;
 
     private static final String PORT_OF = "Port of ";

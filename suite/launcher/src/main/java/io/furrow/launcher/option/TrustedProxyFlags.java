@@ -28,16 +28,17 @@ public final class TrustedProxyFlags {
             split = ",",
             hideParamSyntax = true,
             description =
-                    "Addresses, or blocks as 10.0.0.0/24, of a proxy that signs users in and names them in headers. Nobody else's headers are "
-                            + "believed. Every process that can connect from there can be any user. Needs --proxy-token-file.")
+                    "Addresses, or blocks such as 10.0.0.0/24, of a proxy that authenticates users and names them in "
+                            + "headers. Headers from elsewhere are ignored. Every process that can connect from there can be any "
+                            + "user. Needs --proxy-token-file.")
     private List<String> addresses;
 
     @Option(
             names = "--proxy-token-file",
             paramLabel = "FILE",
             description =
-                    "File with the dashboard's own token, with which it asks the control plane for users of the trusted proxy. Its line in "
-                            + "--api-tokens of the control plane ends with 'for-users'.")
+                    "File with the dashboard's own token, with which it acts at the control plane for users of the "
+                            + "trusted proxy. Its line in --api-tokens of the control plane ends with 'for-users'.")
     private Path token;
 
     @Option(
@@ -60,22 +61,24 @@ public final class TrustedProxyFlags {
             split = ",",
             hideParamSyntax = true,
             description =
-                    "Role of the members of a group: viewer, operator or admin; of several the highest. Who is in none is refused. Default: "
-                            + "viewer=viewer,operator=operator,admin=admin.")
+                    "Role of the members of a group: viewer, operator or admin; of several the highest. A user without "
+                            + "any is refused. Default: viewer=viewer,operator=operator,admin=admin.")
     private Map<String, String> groupRoles;
 
     @Option(
             names = "--sign-in-url",
             paramLabel = "URL",
             description =
-                    "Where the page leads who is not signed in, a path or a URL; {page} stands for where the proxy is to lead back to, for instance "
-                            + "/oauth2/start?rd={page}. Default: none, the page asks for a token.")
+                    "Path or URL to which the page redirects a user who is not signed in; {page} is the address to "
+                            + "return to, for instance /oauth2/start?rd={page}. Default: none; the page asks for a token.")
     private String signIn;
 
     @Option(
             names = "--sign-out-url",
             paramLabel = "URL",
-            description = "Where the page leads who signs out, for instance /oauth2/sign_out. Default: none.")
+            description =
+                    "Path or URL to which the page redirects after signing out, for instance /oauth2/sign_out. Default: "
+                            + "none.")
     private String signOut;
 
     /** Where the proxy signs users in and out. */
@@ -130,7 +133,8 @@ public final class TrustedProxyFlags {
             UserRole role = GROUPS.get(code);
             if (role == null) {
                 throw new IllegalArgumentException(
-                        "'%s' is no role for the group '%s'; it is viewer, operator or admin".formatted(code, group));
+                        "'%s' is not a role for the group '%s'; it is viewer, operator or admin"
+                                .formatted(code, group));
             }
             roles.put(group, role);
         });

@@ -20,14 +20,15 @@ public final class WatchFlags {
             names = "--webhook",
             paramLabel = "URL",
             converter = HttpUriConverter.class,
-            description = "Post alarms here, as JSON, again and again until they are taken. Default: nowhere.")
+            description = "URL to which alarms are posted as JSON, retried until accepted. Default: none.")
     private URI webhook;
 
     @Option(
             names = "--webhook-secret",
             paramLabel = "FILE",
             description =
-                    "File with the secret, at least 16 bytes, that signs what is posted; with two lines both do. Read anew when it changes. Default: nothing is signed.")
+                    "File with the secret, at least 16 bytes, that signs posts; two lines sign twice, for a rotation. "
+                            + "Read again when it changes. Default: no signature.")
     private Path webhookSecret;
 
     @Option(
@@ -35,7 +36,7 @@ public final class WatchFlags {
             paramLabel = "N",
             defaultValue = "3",
             description =
-                    "Periods without a sign of life after which a device counts as silent. Default: ${DEFAULT-VALUE}.")
+                    "Number of periods without a report after which a device counts as silent. Default: ${DEFAULT-VALUE}.")
     private int silentAfter;
 
     @Option(
@@ -49,7 +50,7 @@ public final class WatchFlags {
     @Option(
             names = "--stop-on-predicted",
             description =
-                    "Send Stop to robots that are predicted to meet. This is no safety function: messages may be late or lost.")
+                    "Send Stop to robots that are predicted to meet. This is not a safety function: messages may be late or lost.")
     private boolean stops;
 
     /**

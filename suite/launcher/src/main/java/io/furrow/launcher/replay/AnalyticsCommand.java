@@ -25,8 +25,9 @@ import io.furrow.model.topic.Topics;
         name = "analytics",
         abbreviateSynopsis = true,
         description =
-                "Runs on a Flink cluster the analytics jobs that replays were started with, and ends them with their replays, until Ctrl-C; "
-                        + "the jobs then stay, and a next start finds them. ./furrow demo and up do so by themselves, on their own Flink.")
+                "Runs the analytics jobs of replays on a Flink cluster and cancels them at the end of their replays, "
+                        + "until Ctrl-C; jobs then continue, and the next start finds them. ./furrow demo and up do this on "
+                        + "their own Flink.")
 public final class AnalyticsCommand implements Callable<Integer> {
     @Spec
     private CommandSpec spec;
@@ -36,8 +37,8 @@ public final class AnalyticsCommand implements Callable<Integer> {
             paramLabel = "URL",
             required = true,
             converter = HttpUriConverter.class,
-            description =
-                    "REST API of the cluster, for instance http://jobmanager:8081. It must take jars: web.submit.enable.")
+            description = "REST API of the cluster, for instance http://jobmanager:8081. It must accept jars: "
+                    + "web.submit.enable.")
     private URI flink;
 
     @Option(
@@ -51,7 +52,7 @@ public final class AnalyticsCommand implements Callable<Integer> {
             names = "--bootstrap-servers",
             paramLabel = "HOST:PORT",
             defaultValue = "127.0.0.1:9092",
-            description = "Kafka, as this command and the cluster reach it. Default: ${DEFAULT-VALUE}.")
+            description = "Kafka, as reached by this command and the cluster. Default: ${DEFAULT-VALUE}.")
     private String kafka;
 
     @Option(
@@ -69,7 +70,7 @@ public final class AnalyticsCommand implements Callable<Integer> {
 
     @Option(
             names = "--elastic",
-            description = "Start jobs also where no slot is free: the cluster gets task managers on demand.")
+            description = "Start jobs even if no slot is free, because the cluster starts task managers on demand.")
     private boolean elastic;
 
     @Option(

@@ -56,7 +56,7 @@ final class AnalyticsReconciler {
                 end(replay, running);
                 start(replay, running);
             } catch (AnalyticsException e) { // of this replay's topic; others continue
-                LOG.warn("Analytics on {} cannot be looked after now", replay.topic(), e);
+                LOG.warn("Analytics jobs on {} cannot be managed now", replay.topic(), e);
             }
         }
         existing.values().removeIf(replay -> isForgotten(replay, desired, running));
@@ -109,7 +109,7 @@ final class AnalyticsReconciler {
                         LOG.info("Ended {}", name);
                     } else {
                         LOG.warn(
-                                "Ended {}, which had not read all of {}, or not said so: results may be missing",
+                                "Ended {} before it had reported that it has read all of {}: results may be missing",
                                 name,
                                 job.topic());
                     }
@@ -152,7 +152,7 @@ final class AnalyticsReconciler {
             executor.start(job);
             LOG.info("Started {} on {}", job.name(), job.topic());
         } catch (AnalyticsException e) {
-            LOG.warn("{} was not started; tried again in {} s", job.name(), RETRY_INTERVAL.toSeconds(), e);
+            LOG.warn("{} was not started; next attempt in {} s", job.name(), RETRY_INTERVAL.toSeconds(), e);
         }
     }
 

@@ -146,7 +146,7 @@ final class FlinkRest {
             return answer.body().length == 0 ? NgsiJson.mapper().nullNode() : NgsiJson.read(answer.body());
         } catch (UnreadableException e) {
             throw new AnalyticsException(
-                    "%s answers to %s what is no JSON: is it a Flink? Check --flink-url.".formatted(base, path), e);
+                    "%s answers to %s what is not JSON: is it a Flink? Check --flink-url.".formatted(base, path), e);
         }
     }
 

@@ -56,7 +56,7 @@ public final class ReplayAnalytics implements AutoCloseable {
                     LOG.debug("closed", e);
                     return;
                 } catch (KafkaException e) {
-                    LOG.warn("Replays cannot be followed; tried again in {} s", RETRY.toSeconds(), e);
+                    LOG.warn("Replays cannot be read; next attempt in {} s", RETRY.toSeconds(), e);
                     isStopped(RETRY);
                 }
             }
@@ -80,7 +80,7 @@ public final class ReplayAnalytics implements AutoCloseable {
                 failed = false;
             } catch (AnalyticsException e) {
                 if (!failed) {
-                    LOG.warn("Analytics of replays cannot be looked after; tried again until it works", e);
+                    LOG.warn("Analytics jobs of replays cannot be managed; retrying", e);
                 }
                 failed = true;
             }

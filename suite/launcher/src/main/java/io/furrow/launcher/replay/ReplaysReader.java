@@ -55,7 +55,7 @@ final class ReplaysReader implements AutoCloseable {
                 desired.put(record.key(), DesiredReplay.read(record.key(), record.value()));
             }
         } catch (UnreadableException e) {
-            LOG.warn("{}-{}@{} is passed over", record.topic(), record.partition(), record.offset(), e);
+            LOG.warn("{}-{}@{} is skipped", record.topic(), record.partition(), record.offset(), e);
         }
     }
 

@@ -60,7 +60,7 @@ final class Results implements AutoCloseable {
         try {
             listener.accept(Entity.parse(record.value()));
         } catch (UnreadableException e) {
-            LOG.warn("{}-{}@{} is no entity", record.topic(), record.partition(), record.offset(), e);
+            LOG.warn("{}-{}@{} is not an entity", record.topic(), record.partition(), record.offset(), e);
         }
     }
 

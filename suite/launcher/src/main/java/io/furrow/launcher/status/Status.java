@@ -61,7 +61,7 @@ public final class Status implements AutoCloseable {
     private long ticks;
 
     /**
-     * @param screen null where the output is no terminal that can be drawn over
+     * @param screen null where the output is not a terminal that can be drawn over
      * @param suite what is shown
      */
     public Status(PrintWriter out, StatusScreen screen, Shown suite) {

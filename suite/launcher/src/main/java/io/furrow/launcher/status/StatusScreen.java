@@ -59,7 +59,7 @@ public final class StatusScreen implements AutoCloseable {
         begin();
     }
 
-    /** Null where the output is no terminal that can be drawn over, or belongs to another process: this one runs in the background. */
+    /** Null where the output is not a terminal that can be drawn over, or belongs to another process: this one runs in the background. */
     public static StatusScreen open() throws IOException {
         if (System.console() == null || isInBackground()) {
             return null;

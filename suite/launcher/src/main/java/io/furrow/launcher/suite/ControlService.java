@@ -63,8 +63,7 @@ public final class ControlService implements AutoCloseable {
             Sleep.of(POLL_INTERVAL);
         }
         if (!managers.isHealthy()) {
-            LOG.warn(
-                    "the managers are {} after {} s; they are waited for", managers.state(), START_TIMEOUT.toSeconds());
+            LOG.warn("the managers are {} after {} s; still waiting", managers.state(), START_TIMEOUT.toSeconds());
         }
         return managers.state();
     }

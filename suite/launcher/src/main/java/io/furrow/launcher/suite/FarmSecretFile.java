@@ -69,7 +69,7 @@ public final class FarmSecretFile {
      *
      * @param client settings of Kafka clients
      * @param replaced fingerprint of a secret of the farm that this one takes the place of; null for none
-     * @throws CommandException if it cannot be read or is no secret; the message says what to do
+     * @throws CommandException if it cannot be read or is not a secret; the message says what to do
      */
     public static SecretFile open(Path file, Properties client, String replaced) {
         try {

@@ -32,7 +32,7 @@ final class JobFolder {
                 Files.deleteIfExists(file);
             }
         } catch (IOException e) {
-            LOG.info("{} was not deleted; nothing needs it any more", folder, e);
+            LOG.info("{} was not deleted, although it is not used any more", folder, e);
         }
     }
 }

@@ -136,7 +136,7 @@ final class Jobs {
             savepoint.get(SAVEPOINT_SECONDS, TimeUnit.SECONDS);
         } catch (ExecutionException | TimeoutException e) {
             LOG.warn(
-                    "No savepoint of job {}: it will go on from its last checkpoint and repeat what came after it",
+                    "No savepoint of job {}: it will restart from its last checkpoint and process again what came after it",
                     name,
                     e);
         } catch (InterruptedException e) {

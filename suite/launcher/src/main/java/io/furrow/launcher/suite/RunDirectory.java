@@ -85,7 +85,7 @@ public final class RunDirectory implements AutoCloseable {
     /** Java's messages are the path alone. */
     private static String reason(IOException e) {
         if (e instanceof FileAlreadyExistsException) {
-            return e.getMessage() + " is no directory";
+            return e.getMessage() + " is not a directory";
         } else if (e instanceof AccessDeniedException) {
             return "no permission for " + e.getMessage();
         }
@@ -130,7 +130,7 @@ public final class RunDirectory implements AutoCloseable {
             try {
                 writers.pop().close();
             } catch (Exception e) { // AutoCloseable declares no narrower type
-                LOG.warn("what writes to {} did not stop cleanly", path, e);
+                LOG.warn("a writer to {} did not stop cleanly", path, e);
             }
         }
         close();

@@ -152,7 +152,7 @@ class CommandLineTest {
                 "--fiware-service-path north|--fiware-service-path north is none",
                 "--fiware-token-header X-Farm|--fiware-token-header needs --fiware-token-file",
                 "--fiware-token-file /nowhere/token|--fiware-token-file: /nowhere/token cannot be read",
-                "--mqtt x --orion http://127.0.0.1:1026|--mqtt: x is no address of an MQTT broker",
+                "--mqtt x --orion http://127.0.0.1:1026|--mqtt: x is not an address of an MQTT broker",
                 "--mongo x|--mongo: ",
             })
     void rejectsWhatCannotWorkOrIsOpenToAnybody(String options, String sentence) {
@@ -250,9 +250,9 @@ class CommandLineTest {
 
     @ParameterizedTest
     @CsvSource({
-        "up --allowed-hosts farm.example.org:8085, --allowed-hosts, farm.example.org:8085' is no host",
-        "demo --allowed-origins map.example.org, --allowed-origins, map.example.org' is no origin",
-        "control-plane --allowed-hosts http://farm, --allowed-hosts, http://farm' is no host"
+        "up --allowed-hosts farm.example.org:8085, --allowed-hosts, farm.example.org:8085' is not a host",
+        "demo --allowed-origins map.example.org, --allowed-origins, map.example.org' is not an origin",
+        "control-plane --allowed-hosts http://farm, --allowed-hosts, http://farm' is not a host"
     })
     void rejectsNamesOfItsServersThatAreNone(String arguments, String option, String why) {
         assertThat(furrow.execute(arguments.split(" "))).isNotZero();
@@ -267,7 +267,7 @@ class CommandLineTest {
         assertThat(furrow.execute(upOnFreePorts(file.resolve("below")))).isNotZero();
 
         assertThat(err.toString().trim())
-                .startsWith("Cannot write in %s (%s is no directory)".formatted(file.resolve("below"), file))
+                .startsWith("Cannot write in %s (%s is not a directory)".formatted(file.resolve("below"), file))
                 .endsWith("Name a directory that you may write with --data.")
                 .hasLineCount(1);
     }

@@ -57,7 +57,7 @@ final class WebhookSecret {
         try {
             secrets = secrets(file);
         } catch (IOException e) {
-            LOG.warn("the webhook's secret cannot be read, the previous one still signs: {}", e.getMessage());
+            LOG.warn("the webhook's secret cannot be read; the previous one stays in use: {}", e.getMessage());
         }
         return secrets;
     }

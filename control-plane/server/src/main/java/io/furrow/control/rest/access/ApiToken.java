@@ -87,7 +87,7 @@ public record ApiToken(String name, byte[] secret, Role role, boolean forUsers) 
         }
         return Role.of(parts.group(3))
                 .orElseThrow(() -> wrong(
-                        file, index, "'%s' is no role; it is viewer, operator or admin".formatted(parts.group(3))));
+                        file, index, "'%s' is not a role; it is viewer, operator or admin".formatted(parts.group(3))));
     }
 
     private static IOException wrong(Path file, int index, String reason) {

@@ -78,7 +78,7 @@ public final class TlsListener {
                 context.reload(each -> use(each, newest));
                 LOG.info("the REST API has a new certificate");
             } catch (Exception e) { // Jetty declares no narrower type
-                LOG.warn("the new certificate of the REST API cannot be used; the one from before stays", e);
+                LOG.warn("the new certificate of the REST API cannot be used; the previous one stays in use", e);
             }
             used = newest;
         }

@@ -171,7 +171,7 @@ public final class StateView {
         try {
             return (ObjectNode) NgsiJson.read(value);
         } catch (UnreadableException e) {
-            throw new IllegalStateException("what was put is no JSON object", e);
+            throw new IllegalStateException("what was put is not a JSON object", e);
         }
     }
 }

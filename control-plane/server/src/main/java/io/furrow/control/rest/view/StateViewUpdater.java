@@ -107,7 +107,7 @@ public final class StateViewUpdater implements AutoCloseable {
             } catch (WakeupException e) { // to look whether it is closed
                 LOG.debug("the view of the control plane's topics was woken up", e);
             } catch (RuntimeException e) { // of Kafka, or of ours: without a view nothing can be read
-                LOG.warn("the view of the control plane's topics failed and begins anew", e);
+                LOG.warn("the view of the control plane's topics failed and is rebuilt", e);
                 failure = FailureText.of(e);
                 view.clear();
                 pause();
@@ -235,7 +235,7 @@ public final class StateViewUpdater implements AutoCloseable {
                 view.audit(record.offset(), value);
             }
         } catch (UnreadableException e) { // managers and hosts write nothing of the kind
-            LOG.debug("{}-{}@{} is no JSON", record.topic(), record.partition(), record.offset(), e);
+            LOG.debug("{}-{}@{} is not JSON", record.topic(), record.partition(), record.offset(), e);
         }
     }
 

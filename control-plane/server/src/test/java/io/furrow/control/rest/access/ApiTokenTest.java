@@ -37,10 +37,10 @@ class ApiTokenTest {
     @CsvSource(delimiter = '|', textBlock = """
                     ann a-token-of-sixteen-signs;bob short         | line 2: a line is '<name> <token> <role>', the token at least 16 characters long
                     a-token-of-sixteen-signs                       | line 1: a line is
-                    ann a-token-of-sixteen-signs root              | line 1: 'root' is no role; it is viewer, operator or admin
+                    ann a-token-of-sixteen-signs root              | line 1: 'root' is not a role; it is viewer, operator or admin
                     ann a-token-of-sixteen-signs admin now         | line 1: a line is
                     ann a-token-of-sixteen-signs;;bob a-token-of-sixteen-signs admin | line 3: this token stands further above
-                    ann a-token-of-sixteen-signs for-users         | line 1: 'for-users' is no role
+                    ann a-token-of-sixteen-signs for-users         | line 1: 'for-users' is not a role
                     # nobody                                       | holds no token
                     """)
     void namesTheLineThatIsWrong(String lines, String message) {

@@ -182,7 +182,7 @@ public final class ControlApi {
         try {
             return body.length == 0 ? MissingNode.getInstance() : NgsiJson.read(body);
         } catch (UnreadableException e) {
-            throw new ControlPlaneException(base + " answers what is no JSON: is it a control plane? Check --api.", e);
+            throw new ControlPlaneException(base + " answers what is not JSON: is it a control plane? Check --api.", e);
         }
     }
 }

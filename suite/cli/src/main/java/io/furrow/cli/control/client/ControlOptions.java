@@ -48,8 +48,9 @@ public final class ControlOptions {
             names = "--token-file",
             paramLabel = "FILE",
             description =
-                    "File of the token that the control plane asks for: its first line is a token, or '<name> <token> <role>' as in "
-                            + "the file of the control plane. Default: the token in $FURROW_TOKEN, else the file $FURROW_TOKEN_FILE.")
+                    "File with the token for the control plane: its first line is a token, or '<name> <token> <role>' as "
+                            + "in the file of the control plane. Default: the token in $FURROW_TOKEN, else the file "
+                            + "$FURROW_TOKEN_FILE.")
     private Path tokenFile;
 
     @Option(

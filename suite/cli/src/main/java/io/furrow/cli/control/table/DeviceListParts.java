@@ -20,7 +20,7 @@ public final class DeviceListParts {
 
     private DeviceListParts() {}
 
-    /** The member {@code devices} of a request, cut into as many requests as it takes; one where it is no list, or fits. */
+    /** The member {@code devices} of a request, cut into as many requests as it takes; one where it is not a list, or fits. */
     public static List<ObjectNode> requests(ObjectNode whole) {
         List<ObjectNode> requests = new ArrayList<>();
         if (!whole.path(DEVICES).isArray()) {

@@ -24,7 +24,7 @@ public final class JsonFile {
         try {
             return NgsiJson.read(fileOrJson.getBytes(StandardCharsets.UTF_8));
         } catch (UnreadableException e) {
-            throw new IOException("the list of devices is no JSON: " + e.getMessage(), e);
+            throw new IOException("the list of devices is not JSON: " + e.getMessage(), e);
         }
     }
 
@@ -33,7 +33,7 @@ public final class JsonFile {
         try {
             return NgsiJson.readFile(Files.readAllBytes(file));
         } catch (UnreadableException e) {
-            throw new IOException(file + " is no JSON: " + e.getMessage(), e);
+            throw new IOException(file + " is not JSON: " + e.getMessage(), e);
         } catch (FileSystemException e) {
             throw new IOException(file + ": " + FileProblem.of(e), e);
         }
