@@ -1,6 +1,5 @@
 package io.furrow.dashboard.feed;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.LinkedHashMap;
@@ -13,10 +12,10 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.errors.TimeoutException;
-import org.apache.kafka.common.header.Header;
 
 import io.furrow.dashboard.http.Problem;
 import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -74,17 +73,16 @@ public final class InitialState {
     /** Each epoch of a replay says again what is known, and ends with a record that reports no entity. */
     private static boolean isOfNewestEpoch(
             ConsumerRecord<byte[], byte[]> record, long[] epoch, Map<String, FeedRecord> newest) {
-        Header header = record.headers().lastHeader(EPOCH);
-        if (header == null) {
+        String text = KafkaClients.text(record.headers(), EPOCH);
+        if (text == null) {
             return true;
         }
-        long of = Long.parseLong(new String(header.value(), StandardCharsets.UTF_8));
+        long of = Long.parseLong(text);
         if (of > epoch[0]) {
             epoch[0] = of;
             newest.clear();
         }
-        Header kind = record.headers().lastHeader(KIND);
-        return of == epoch[0] && (kind == null || !new String(kind.value(), StandardCharsets.UTF_8).equals("end"));
+        return of == epoch[0] && !"end".equals(KafkaClients.text(record.headers(), KIND));
     }
 
     private void put(

@@ -17,6 +17,7 @@ import org.apache.kafka.clients.consumer.OffsetAndTimestamp;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -199,7 +200,7 @@ public final class TopicHistory {
                 JsonNode value = member.isObject() ? member.path("value") : member;
                 return value.isValueNode() && !value.asText().isEmpty()
                         ? "="
-                                + FeedRecord.scopeOf(record)
+                                + KafkaClients.scope(record.headers())
                                         .identity(read.path("type").asText(""), value.asText())
                         : own;
             } catch (UnreadableException e) {

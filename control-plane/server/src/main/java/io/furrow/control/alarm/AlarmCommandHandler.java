@@ -1,12 +1,10 @@
 package io.furrow.control.alarm;
 
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
-import java.util.concurrent.atomic.AtomicInteger;
 import java.util.function.Predicate;
 
 import io.furrow.control.manager.CommandHandler;
@@ -224,9 +222,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         if (until == null || tables.mutes().contains(key)) {
             return;
         }
-        AtomicInteger count = new AtomicInteger();
-        tables.mutes().forEach(mute -> count.incrementAndGet());
-        if (count.get() >= Limits.MUTES) {
+        if (tables.mutes().all().size() >= Limits.MUTES) {
             throw new RejectedException(
                     ErrorCode.QUOTA_EXCEEDED,
                     "%d subjects are muted already; unmute some, or mute all of a kind".formatted(Limits.MUTES));
@@ -263,12 +259,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     }
 
     private void clear(long now) {
-        List<Alarm> closed = new ArrayList<>();
-        tables.alarms().forEach(alarm -> {
-            if (alarm.state() == AlarmState.CLOSED) {
-                closed.add(alarm);
-            }
-        });
+        List<Alarm> closed = tables.alarms().where(alarm -> alarm.state() == AlarmState.CLOSED);
         closed.sort(Comparator.comparingLong((Alarm alarm) -> alarm.period().changed())
                 .reversed());
         for (int i = 0; i < closed.size(); i++) {
@@ -277,13 +268,9 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
                 publisher.put(Topics.ALARMS, closed.get(i).alarm(), null);
             }
         }
-        List<String> passed = new ArrayList<>();
-        tables.mutes().forEach(mute -> {
-            if (mute.until() <= now) {
-                passed.add(mute.key());
-            }
-        });
-        passed.forEach(key -> tables.mutes().put(key, null));
+        tables.mutes()
+                .where(mute -> mute.until() <= now)
+                .forEach(mute -> tables.mutes().put(mute.key(), null));
     }
 
     /** Returns the alarm that is not closed; null if none. */
@@ -294,9 +281,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
 
     /** Returns a copy, because the store changes during the iteration. */
     private List<Alarm> current() {
-        List<Alarm> current = new ArrayList<>();
-        tables.current().forEach(id -> current.add(tables.alarms().get(id)));
-        return current;
+        return tables.current().all().stream().map(tables.alarms()::get).toList();
     }
 
     private void change(Alarm alarm, AlarmEvent event, long now) {

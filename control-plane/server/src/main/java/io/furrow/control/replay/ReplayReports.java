@@ -1,6 +1,5 @@
 package io.furrow.control.replay;
 
-import java.util.ArrayList;
 import java.util.List;
 
 import io.furrow.control.manager.Table;
@@ -53,13 +52,9 @@ final class ReplayReports {
 
     /** Names of those that had come to their ends by a moment. @param moment epoch ms */
     List<String> endedBy(long moment) {
-        List<String> names = new ArrayList<>();
-        reports.forEach(each -> {
-            if (each.ended() != null && each.ended() <= moment) {
-                names.add(each.replay());
-            }
-        });
-        return names;
+        return reports.where(each -> each.ended() != null && each.ended() <= moment).stream()
+                .map(ReportedReplay::replay)
+                .toList();
     }
 
     /** @throws RejectedException where a command cannot change what is in this state */

@@ -11,7 +11,7 @@ import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
 import io.furrow.control.manager.Observer;
-import io.furrow.control.manager.RecordScope;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
@@ -39,7 +39,7 @@ final class ClockAlarmProcessor implements Observer {
         if (record.value() == null) {
             return;
         }
-        FiwareScope scope = RecordScope.of(record);
+        FiwareScope scope = KafkaClients.scope(record.headers());
         Entity entity = Entity.parse(record.value());
         if (!entity.type().equals(ClockResult.BEHIND_TYPE)) {
             return;

@@ -10,7 +10,7 @@ import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
 import io.furrow.control.manager.Observer;
-import io.furrow.control.manager.RecordScope;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -46,7 +46,7 @@ public final class EncounterAlarmProcessor implements Observer {
         if (record.value() == null) {
             return;
         }
-        EncounterReport encounter = EncounterReport.read(record.value(), RecordScope.of(record));
+        EncounterReport encounter = EncounterReport.read(record.value(), KafkaClients.scope(record.headers()));
         String pair = encounter.identity();
         switch (encounter.phase()) {
             case "started" -> {
