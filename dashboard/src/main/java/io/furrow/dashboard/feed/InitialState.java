@@ -24,8 +24,10 @@ import io.furrow.model.topic.Topics;
  * What was known of the keys of a topic before a stream began. Of {@code data.raw} and the topics of domains and missions it is what
  * {@code data.latest} has of their entities, of a replay the newest of each entity in its newest epoch, of any other topic the
  * newest of each key; where the topic is not compacted, of the last hour.
+ *
+ * @param compacted whether a topic is
  */
-public final class InitialState {
+public record InitialState(Properties client, StreamLimits limits, Predicate<String> compacted) {
     private static final Pattern LIVE = Pattern.compile("data\\.[^.]+\\.realtime(\\.[^.]+)?");
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
     /** What is older is history, not state: such a topic may hold a week of records each second. */
@@ -33,17 +35,6 @@ public final class InitialState {
 
     private static final String EPOCH = "replay-epoch";
     private static final String KIND = "replay-kind";
-
-    private final Properties client;
-    private final StreamLimits limits;
-    private final Predicate<String> compacted;
-
-    /** @param compacted whether a topic is */
-    public InitialState(Properties client, StreamLimits limits, Predicate<String> compacted) {
-        this.client = client;
-        this.limits = limits;
-        this.compacted = compacted;
-    }
 
     /** @throws Problem where it takes too long, or is too much */
     public List<FeedRecord> read(String topic) {

@@ -11,7 +11,7 @@ import org.eclipse.jetty.util.Callback;
 
 import io.furrow.dashboard.http.Problem;
 import io.furrow.dashboard.proxy.TopicStreams;
-import io.furrow.http.MetricsPage;
+import io.furrow.http.prometheus.MetricsPage;
 import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.NgsiJson;
 

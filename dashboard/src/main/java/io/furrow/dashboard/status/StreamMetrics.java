@@ -6,8 +6,8 @@ import java.util.stream.Stream;
 
 import io.furrow.dashboard.feed.StreamCounters;
 import io.furrow.dashboard.proxy.TopicStreams;
-import io.furrow.http.MetricsPage;
-import io.furrow.http.MetricsPage.Point;
+import io.furrow.http.prometheus.MetricsPage;
+import io.furrow.http.prometheus.MetricsPage.Point;
 
 /** What streams are and did, in the text format of Prometheus. Neither topics nor users are labels: the page needs no token. */
 final class StreamMetrics {

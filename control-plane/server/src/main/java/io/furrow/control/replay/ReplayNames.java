@@ -11,16 +11,8 @@ import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 /** Gives new replays names and topics that no wanted replay has. */
-final class ReplayNames {
+record ReplayNames(Table<DesiredReplay> replays, Supplier<UUID> ids) {
     private static final int ID_DIGITS = 8;
-
-    private final Table<DesiredReplay> replays;
-    private final Supplier<UUID> ids;
-
-    ReplayNames(Table<DesiredReplay> replays, Supplier<UUID> ids) {
-        this.replays = replays;
-        this.ids = ids;
-    }
 
     /** Eight digits that no replay of the missions, no topic of them and no group has. */
     String newId(List<String> missions) {

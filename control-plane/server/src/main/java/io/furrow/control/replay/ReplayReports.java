@@ -11,13 +11,7 @@ import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;
 
 /** The actual state of desired replays, as reported, and what of a command fits it. */
-final class ReplayReports {
-    private final Table<ReportedReplay> reports;
-
-    ReplayReports(Table<ReportedReplay> reports) {
-        this.reports = reports;
-    }
-
+record ReplayReports(Table<ReportedReplay> reports) {
     /** Stores what is different from the report before. @param now epoch ms */
     void take(String replay, ReplayStatus report, long now) {
         ReportedReplay before = reports.get(replay);

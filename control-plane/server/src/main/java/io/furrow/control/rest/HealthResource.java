@@ -11,7 +11,7 @@ import jakarta.ws.rs.Produces;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
-import io.furrow.http.MetricsPage;
+import io.furrow.http.prometheus.MetricsPage;
 import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.NgsiJson;
 

@@ -18,8 +18,8 @@ import org.glassfish.jersey.uri.UriTemplate;
 
 import io.furrow.control.rest.view.PendingReplies;
 import io.furrow.control.rest.view.StateView;
-import io.furrow.http.MetricsPage;
-import io.furrow.http.MetricsPage.Point;
+import io.furrow.http.prometheus.MetricsPage;
+import io.furrow.http.prometheus.MetricsPage.Point;
 import io.furrow.kafka.ComponentStatus;
 import io.furrow.kafka.Readiness;
 import io.furrow.model.topic.Topics;

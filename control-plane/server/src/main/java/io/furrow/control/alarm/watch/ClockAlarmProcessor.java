@@ -23,16 +23,8 @@ import io.furrow.model.result.ClockResult;
  * Raises alarms for devices whose reports arrive too late and are dropped by all analyses. A job reports such a
  * device once a minute; the alarm ends after three minutes without a report.
  */
-final class ClockAlarmProcessor implements Observer {
+record ClockAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types) implements Observer {
     private static final Duration HOLDS = Duration.ofMinutes(3);
-
-    private final AlarmCommandHandler alarms;
-    private final Function<String, String> types;
-
-    ClockAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types) {
-        this.alarms = alarms;
-        this.types = types;
-    }
 
     @Override
     public void take(Record<String, byte[]> record, long now) throws UnreadableException {

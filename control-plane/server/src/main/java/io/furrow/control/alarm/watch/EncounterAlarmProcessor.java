@@ -20,12 +20,11 @@ import io.furrow.model.ngsi.UnreadableException;
  * it too, if it was closed manually or began before the processor started. No record reports the end of a prediction:
  * it ends when it is not repeated for a while, or when the encounter starts, and there is none while there is a collision. A
  * collision that is not repeated for {@link AlarmCommandHandler#COLLISION_HOLDS} has ended, too: its last record was lost.
+ *
+ * @param types returns the type of a device's entity by tenant, service path and id
  */
-public final class EncounterAlarmProcessor implements Observer {
-    private final AlarmCommandHandler alarms;
-    private final Function<String, String> types;
-    private final AlarmDurations holds;
-
+public record EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations holds)
+        implements Observer {
     /**
      * How long alarms last without a record of their encounter.
      *
@@ -33,13 +32,6 @@ public final class EncounterAlarmProcessor implements Observer {
      * @param collision how long a collision lasts after the end of its encounter
      */
     public record AlarmDurations(Duration prediction, Duration collision) {}
-
-    /** @param types returns the type of a device's entity by tenant, service path and id */
-    EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations holds) {
-        this.alarms = alarms;
-        this.types = types;
-        this.holds = holds;
-    }
 
     @Override
     public void take(Record<String, byte[]> record, long now) throws UnreadableException {

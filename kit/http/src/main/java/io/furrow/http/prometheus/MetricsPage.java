@@ -1,4 +1,4 @@
-package io.furrow.http;
+package io.furrow.http.prometheus;
 
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
