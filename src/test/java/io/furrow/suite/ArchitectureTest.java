@@ -213,6 +213,7 @@ class ArchitectureTest {
                     io.furrow.http.jetty   | java.., io.furrow.http, io.furrow.http.jetty, org.eclipse.jetty..
                     io.furrow.http.flink   | java.., io.furrow.http, io.furrow.http.flink, org.apache.flink..
                     io.furrow.http.connect | java.., io.furrow.http, io.furrow.http.connect, org.apache.kafka.., jakarta..
+                    io.furrow.http.prometheus | java.., io.furrow.http.prometheus, io.prometheus..
                     """)
     void keepsTheAccessRuleFreeOfEnginesAndItsAdaptersApart(String where, String allowed) {
         ArchRuleDefinition.classes()

@@ -1,12 +1,10 @@
 package io.furrow.dashboard;
 
 import java.net.URI;
-import java.nio.ByteBuffer;
 import java.time.Duration;
 import java.util.concurrent.TimeUnit;
 
 import org.eclipse.jetty.client.HttpClient;
-import org.eclipse.jetty.http.HttpFields;
 import org.eclipse.jetty.http.HttpHeader;
 import org.eclipse.jetty.http.HttpHeaderValue;
 import org.eclipse.jetty.http.HttpMethod;
@@ -93,14 +91,9 @@ final class ControlPlaneProxy extends ProxyHandler.Reverse {
     }
 
     private void unavailable(Response response, Callback callback, Throwable failure) {
-        HttpFields.Mutable headers = response.getHeaders();
-        headers.clear();
-        headers.put(HttpHeader.CONTENT_TYPE, "application/json");
-        response.setStatus(502);
-        byte[] json = Problem.json(
-                "control-plane-away",
-                "the control plane at %s does not answer (%s); check --control-plane and that it runs"
-                        .formatted(base, FailureText.of(failure)));
-        response.write(true, ByteBuffer.wrap(json), callback);
+        response.getHeaders().clear();
+        String reason = "the control plane at %s does not answer (%s); check --control-plane and that it runs"
+                .formatted(base, FailureText.of(failure));
+        new Problem(502, "control-plane-away", reason).answer(response, callback);
     }
 }

@@ -40,11 +40,12 @@ import io.furrow.dashboard.proxy.RegisterServlet;
 import io.furrow.dashboard.proxy.StreamServlet;
 import io.furrow.dashboard.proxy.TopicStreams;
 import io.furrow.dashboard.proxy.TopicsServlet;
-import io.furrow.dashboard.status.BackendHealth;
 import io.furrow.dashboard.status.StatusPages;
 import io.furrow.http.AccessRule;
 import io.furrow.http.OptionNames;
 import io.furrow.http.jetty.AccessHandler;
+import io.furrow.kafka.Probe;
+import io.furrow.kafka.Readiness;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -53,7 +54,6 @@ import io.furrow.model.text.FailureText;
  */
 public final class Dashboard implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Dashboard.class);
-    private static final OptionNames OPTIONS = new OptionNames("--allowed-hosts", "--allowed-origins");
     private static final int THREADS = 64;
     private static final long STOPPING_MILLIS = 2_000;
     private static final Duration IDLE = Duration.ofSeconds(60);
@@ -84,14 +84,19 @@ public final class Dashboard implements AutoCloseable {
     private final ImageIndex images;
     private final UserCache users;
     private final Admin admin;
-    private final BackendHealth surroundings;
+    private final Readiness readiness = new Readiness(Clock.systemUTC());
+    private final List<Probe> probes;
 
     private Dashboard(DashboardSettings settings) {
         this.users = new UserCache(settings.controlPlane(), System::nanoTime);
         this.streams = new TopicStreams(settings.client(), settings.rules(), settings.limits(), users);
         this.admin = Admin.create(settings.client());
         this.images = new ImageIndex(settings.client());
-        this.surroundings = new BackendHealth(streams, settings.controlPlane(), Clock.systemUTC());
+        URI health = URI.create(settings.controlPlane().toString().replaceAll("/+$", "") + "/health");
+        this.probes = List.of(
+                new Probe("kafka", () -> streams.checkKafka(Probe.TIMEOUT), () -> {}),
+                Probe.http("controlPlane", health));
+        probes.forEach(probe -> readiness.require(probe::status));
     }
 
     /** @throws IOException if the port is taken */
@@ -122,7 +127,7 @@ public final class Dashboard implements AutoCloseable {
             paths.addMapping(new ServletPathSpec(path), own);
         }
         paths.addMapping(new ServletPathSpec("/api/*"), new ControlPlaneProxy(settings.controlPlane()));
-        Handler status = new StatusPages(surroundings, streams);
+        Handler status = new StatusPages(readiness, streams);
         STATUS.forEach(path -> paths.addMapping(new ServletPathSpec(path), status));
         if (settings.page().tileFile() != null) {
             paths.addMapping(
@@ -131,7 +136,7 @@ public final class Dashboard implements AutoCloseable {
         }
         paths.addMapping(
                 new ServletPathSpec("/"), PageFiles.handler(settings.page().folder()));
-        AccessRule rule = AccessRule.allowing(settings.allowed(), OPTIONS)
+        AccessRule rule = AccessRule.allowing(settings.allowed(), OptionNames.FLAGS)
                 .servedAs(settings.host())
                 .withProbes(StatusPages.HEALTH, StatusPages.READY);
         Handler signedIn = new ProxyHeaders(settings.proxy(), users, streams.counters()::refused, paths);
@@ -225,7 +230,7 @@ public final class Dashboard implements AutoCloseable {
 
     @Override
     public void close() {
-        surroundings.close();
+        probes.forEach(Probe::close);
         streams.close();
         images.close();
         admin.close(Duration.ofSeconds(1));

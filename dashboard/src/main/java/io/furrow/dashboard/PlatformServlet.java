@@ -21,7 +21,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import jakarta.servlet.http.HttpServlet;
 import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 import org.apache.kafka.clients.admin.Admin;
@@ -32,7 +31,8 @@ import org.apache.kafka.clients.admin.TopicDescription;
 import org.apache.kafka.clients.consumer.OffsetAndMetadata;
 import org.apache.kafka.common.TopicPartition;
 
-import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.auth.User;
+import io.furrow.dashboard.auth.UserServlet;
 import io.furrow.dashboard.http.Problem;
 import io.furrow.dashboard.proxy.TopicStreams;
 import io.furrow.model.ngsi.NgsiJson;
@@ -44,7 +44,7 @@ import io.furrow.model.text.FailureText;
  * committed; how many records each topic of dead letters has; and what the control plane says of its parts. Found out once in two seconds at
  * most, however many ask.
  */
-final class PlatformServlet extends HttpServlet {
+final class PlatformServlet extends UserServlet {
     private static final long serialVersionUID = 1L;
     private static final Duration FRESH = Duration.ofSeconds(2);
     private static final Duration TIMEOUT = Duration.ofSeconds(5);
@@ -60,23 +60,15 @@ final class PlatformServlet extends HttpServlet {
 
     /** @param controlPlane base of its REST API */
     PlatformServlet(TopicStreams streams, Admin admin, URI controlPlane) {
+        super(streams.users(), streams.counters()::refused);
         this.streams = streams;
         this.admin = admin;
         this.readiness = URI.create(controlPlane.toString().replaceAll("/+$", "") + "/ready");
     }
 
     @Override
-    protected void doGet(HttpServletRequest request, HttpServletResponse response) throws IOException {
-        try {
-            streams.users().find(Credentials.of(request));
-            byte[] json = current();
-            response.setContentType("application/json");
-            response.setHeader("Cache-Control", "no-store");
-            response.getOutputStream().write(json);
-        } catch (Problem problem) {
-            streams.counters().refused(problem);
-            problem.answer(response);
-        }
+    protected void answer(HttpServletRequest request, HttpServletResponse response, User user) throws IOException {
+        write(current(), response);
     }
 
     private synchronized byte[] current() {
@@ -112,8 +104,7 @@ final class PlatformServlet extends HttpServlet {
             Throwable cause = e instanceof ExecutionException ? e.getCause() : e;
             kafka.put("state", "away").put("reason", reason(cause));
         } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new Problem(503, "stopping", "the dashboard stops");
+            throw Problem.stopping();
         }
     }
 
@@ -200,8 +191,7 @@ final class PlatformServlet extends HttpServlet {
                     .put("status", "away")
                     .put("reason", "%s does not answer (%s)".formatted(readiness, FailureText.of(e)));
         } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new Problem(503, "stopping", "the dashboard stops");
+            throw Problem.stopping();
         }
     }
 }

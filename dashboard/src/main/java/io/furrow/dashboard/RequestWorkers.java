@@ -1,6 +1,5 @@
 package io.furrow.dashboard;
 
-import java.nio.ByteBuffer;
 import java.util.concurrent.LinkedBlockingQueue;
 import java.util.concurrent.RejectedExecutionException;
 import java.util.concurrent.ThreadPoolExecutor;
@@ -81,10 +80,8 @@ final class RequestWorkers extends Handler.Wrapper {
                 "overloaded",
                 "%d requests wait for Kafka or the control plane; ask again in a moment".formatted(WAITING));
         refused.accept(problem);
-        response.setStatus(problem.status());
-        response.getHeaders().put(HttpHeader.CONTENT_TYPE, "application/json");
         response.getHeaders().put(HttpHeader.RETRY_AFTER, "1");
-        response.write(true, ByteBuffer.wrap(problem.json()), callback);
+        problem.answer(response, callback);
     }
 
     @Override

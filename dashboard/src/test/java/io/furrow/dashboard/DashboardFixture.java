@@ -30,11 +30,11 @@ import org.junit.jupiter.api.extension.ExtendWith;
 import org.junit.jupiter.api.extension.ExtensionContext;
 
 import io.furrow.control.ControlSettings;
-import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 

@@ -23,14 +23,14 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.ControlSettings;
-import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.dashboard.auth.AddressRange;
 import io.furrow.dashboard.auth.TrustedProxy;
-import io.furrow.dashboard.auth.UserRole;
 import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.kafka.Readiness;
+import io.furrow.model.control.Role;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
@@ -110,7 +110,7 @@ class TrustedProxyIT {
                         List.of(AddressRange.parse(proxy)),
                         USER,
                         GROUPS,
-                        Map.of("farmers", UserRole.VIEWER, "drivers", UserRole.OPERATOR, "owners", UserRole.ADMIN),
+                        Map.of("farmers", Role.VIEWER, "drivers", Role.OPERATOR, "owners", Role.ADMIN),
                         token)));
     }
 

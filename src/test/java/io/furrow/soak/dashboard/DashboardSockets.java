@@ -28,9 +28,9 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 
 import io.furrow.control.ControlSettings;
-import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
+import io.furrow.kafka.Readiness;
 import io.furrow.model.topic.Topics;
 import io.furrow.soak.control.KafkaProcess;
 import io.furrow.soak.control.Until;

@@ -21,15 +21,15 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.ControlSettings;
-import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.dashboard.Dashboard;
 import io.furrow.dashboard.DashboardSettings;
 import io.furrow.dashboard.auth.AddressRange;
 import io.furrow.dashboard.auth.TrustedProxy;
-import io.furrow.dashboard.auth.UserRole;
 import io.furrow.dashboard.page.PageSettings;
+import io.furrow.kafka.Readiness;
+import io.furrow.model.control.Role;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -109,7 +109,7 @@ class SignInIT {
                 List.of(AddressRange.parse("127.0.0.1")),
                 "X-Forwarded-User",
                 "X-Forwarded-Groups",
-                Map.of("drivers", UserRole.OPERATOR),
+                Map.of("drivers", Role.OPERATOR),
                 DASHBOARD);
         PageSettings pages = PageSettings.DEFAULT.withSignIn("/oauth2/start?rd={page}", "/oauth2/sign_out?rd={page}");
         try (Dashboard dashboard = Dashboard.start(settings().withProxy(proxy).withPage(pages))) {

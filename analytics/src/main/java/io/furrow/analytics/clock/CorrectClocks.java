@@ -16,7 +16,6 @@ import io.furrow.analytics.eventtime.SingleTimer;
 import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.FiwareScope;
-import io.furrow.model.event.HeaderNames;
 import io.furrow.model.result.ResultTypes;
 
 /**
@@ -108,10 +107,7 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
     }
 
     static String identity(TopicRecord record) {
-        return FiwareScope.of(
-                        record.headers().get(HeaderNames.SERVICE),
-                        record.headers().get(HeaderNames.SERVICE_PATH))
-                .identity(id(record));
+        return FiwareScope.of(record.headers()).identity(id(record));
     }
 
     static boolean isOfDevice(TopicRecord record) {

@@ -12,7 +12,6 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.ClockSkewLimit;
 import io.furrow.flink.time.ReplayKind;
 import io.furrow.model.event.FiwareScope;
-import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Quantity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.position.EntityReader;
@@ -57,8 +56,7 @@ public final class ReadPositions extends ReadEntities<PositionFix> {
 
     private static PositionFix fix(EntityReader entity, Position position, TopicRecord record)
             throws UnreadableException {
-        FiwareScope scope = FiwareScope.of(
-                record.headers().get(HeaderNames.SERVICE), record.headers().get(HeaderNames.SERVICE_PATH));
+        FiwareScope scope = FiwareScope.of(record.headers());
         String carrier =
                 entity.text("carriedBy").or(() -> entity.text("refRobot")).orElse("");
         return new PositionFix(

@@ -1,8 +1,6 @@
 package io.furrow.analytics.presence;
 
 import java.nio.charset.StandardCharsets;
-import java.security.MessageDigest;
-import java.security.NoSuchAlgorithmException;
 import java.util.HexFormat;
 
 import io.furrow.analytics.position.PositionFix;
@@ -13,6 +11,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.result.PresenceResult;
 import io.furrow.model.result.ResultTypes;
+import io.furrow.model.text.Sha256;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -71,11 +70,6 @@ final class PresenceRecord {
     /** The first 128 bits of a SHA-256 over device and field, in lower-case hexadecimal. */
     private static String id(String device, String field) {
         String text = device.length() + ":" + device + field;
-        try {
-            byte[] digest = MessageDigest.getInstance("SHA-256").digest(text.getBytes(StandardCharsets.UTF_8));
-            return HexFormat.of().formatHex(digest, 0, ID_BYTES);
-        } catch (NoSuchAlgorithmException e) {
-            throw new IllegalStateException("every Java platform has SHA-256", e);
-        }
+        return HexFormat.of().formatHex(Sha256.of(text.getBytes(StandardCharsets.UTF_8)), 0, ID_BYTES);
     }
 }

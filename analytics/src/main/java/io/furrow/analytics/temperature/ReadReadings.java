@@ -67,7 +67,7 @@ final class ReadReadings extends ReadEntities<Reading> {
             long time = Epochs.timeOf(record);
             accepted.inc();
             Map<String, String> headers = record.headers();
-            FiwareScope scope = FiwareScope.of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH));
+            FiwareScope scope = FiwareScope.of(headers);
             String eventId = headers.containsKey(HeaderNames.CE_ID)
                     ? idOf(headers.get(HeaderNames.CE_ID), Epochs.of(time))
                     : EventId.of(scope, Entity.parse(record.value()), Instant.ofEpochMilli(time));

@@ -15,19 +15,11 @@ import io.furrow.model.field.ImportOptions;
 import io.furrow.model.field.InvalidFileException;
 
 /** Derives the id, name and domain of a field from the attributes of its feature. */
-final class FeatureNaming {
+record FeatureNaming(ImportOptions options, Set<String> attributes) {
     private static final String ID = "id";
     private static final String NAME = "name";
     private static final String DOMAIN = "Domain";
     private static final String VALID_FROM = "validFrom";
-
-    private final ImportOptions options;
-    private final Set<String> attributes;
-
-    private FeatureNaming(ImportOptions options, Set<String> attributes) {
-        this.options = options;
-        this.attributes = attributes;
-    }
 
     /** @throws InvalidFileException if an option names an attribute that no feature has */
     static FeatureNaming of(Path file, List<SourceFeature> features, ImportOptions options)

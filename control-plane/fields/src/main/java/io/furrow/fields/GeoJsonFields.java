@@ -10,7 +10,6 @@ import java.util.List;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import org.locationtech.jts.algorithm.Orientation;
 import org.locationtech.jts.geom.Coordinate;
 
 import io.furrow.model.field.InvalidFileException;
@@ -96,7 +95,7 @@ final class GeoJsonFields {
         List<List<List<Coordinate>>> polygons = new ArrayList<>();
         List<String> notes = new ArrayList<>();
         collect(geometry, polygons, notes);
-        int turned = turned(polygons);
+        int turned = Rings.turned(polygons, true);
         if (turned > 0) {
             notes.add("reversed " + Counts.of(turned, "ring") + " to the orientation of RFC 7946");
         }
@@ -146,19 +145,5 @@ final class GeoJsonFields {
             polygon.add(corners);
         }
         return polygon;
-    }
-
-    /** Counts rings of the wrong orientation: shells are counter-clockwise, holes clockwise. */
-    private static int turned(List<List<List<Coordinate>>> polygons) {
-        int turned = 0;
-        for (List<List<Coordinate>> polygon : polygons) {
-            for (int ring = 0; ring < polygon.size(); ring++) {
-                if (Rings.isArea(polygon.get(ring))
-                        && Orientation.isCCWArea(Rings.closed(polygon.get(ring))) != (ring == 0)) {
-                    turned++;
-                }
-            }
-        }
-        return turned;
     }
 }

@@ -19,21 +19,13 @@ import io.furrow.model.text.FailureText;
 /**
  * Reads a feature layer of a GeoPackage (OGC 12-128), an SQLite database. The order is x, y in every coordinate system.
  */
-final class GeoPackageFields {
+record GeoPackageFields(Path file, Connection database) {
     private static final String LAYERS = """
         SELECT c.table_name, g.column_name, g.srs_id, s.organization, s.organization_coordsys_id, s.definition
         FROM gpkg_contents c JOIN gpkg_geometry_columns g ON g.table_name = c.table_name
         LEFT JOIN gpkg_spatial_ref_sys s ON s.srs_id = g.srs_id
         WHERE c.data_type = 'features' ORDER BY c.table_name\
         """;
-
-    private final Path file;
-    private final Connection database;
-
-    private GeoPackageFields(Path file, Connection database) {
-        this.file = file;
-        this.database = database;
-    }
 
     private record Layer(String table, String geometry, String crs) {}
 

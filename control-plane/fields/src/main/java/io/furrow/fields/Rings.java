@@ -3,6 +3,7 @@ package io.furrow.fields;
 import java.util.ArrayList;
 import java.util.List;
 
+import org.locationtech.jts.algorithm.Orientation;
 import org.locationtech.jts.algorithm.PointLocation;
 import org.locationtech.jts.geom.Coordinate;
 import org.locationtech.jts.geom.Location;
@@ -74,5 +75,19 @@ final class Rings {
             }
         }
         return false;
+    }
+
+    /** Counts rings of the wrong orientation. @param counterClockwise whether shells are so, and holes clockwise */
+    static int turned(List<List<List<Coordinate>>> polygons, boolean counterClockwise) {
+        int turned = 0;
+        for (List<List<Coordinate>> polygon : polygons) {
+            for (int ring = 0; ring < polygon.size(); ring++) {
+                boolean expected = counterClockwise == (ring == 0);
+                turned += isArea(polygon.get(ring)) && Orientation.isCCWArea(closed(polygon.get(ring))) != expected
+                        ? 1
+                        : 0;
+            }
+        }
+        return turned;
     }
 }

@@ -8,14 +8,13 @@ import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 
-import org.locationtech.jts.algorithm.Orientation;
 import org.locationtech.jts.geom.Coordinate;
 
 import io.furrow.model.field.InvalidFileException;
 import io.furrow.model.text.Counts;
 
 /** Reads the main file of a Shapefile (.shp), as specified by "ESRI Shapefile Technical Description", July 1998. */
-final class ShapefileReader {
+record ShapefileReader(Path file, ByteBuffer bytes) {
     private static final int FILE_CODE = 9994;
     private static final int FILE_HEADER = 100;
     private static final int RECORD_HEADER = 8;
@@ -26,14 +25,6 @@ final class ShapefileReader {
     private static final int POLYGON = 5;
     private static final int POLYGON_Z = 15;
     private static final int POLYGON_M = 25;
-
-    private final Path file;
-    private final ByteBuffer bytes;
-
-    private ShapefileReader(Path file, ByteBuffer bytes) {
-        this.file = file;
-        this.bytes = bytes;
-    }
 
     /** The content of a record; {@code fault} says why there is no outline. */
     record Shape(Outline outline, String fault) {}
@@ -115,16 +106,7 @@ final class ShapefileReader {
         if (type != POLYGON) {
             notes.add(type == POLYGON_Z ? Outline.HEIGHTS_LEFT_OUT : Outline.MEASURES_LEFT_OUT);
         }
-        int turned = 0;
-        for (List<List<Coordinate>> polygon : polygons) {
-            for (int ring = 0; ring < polygon.size(); ring++) {
-                // Shells are clockwise here, holes counter-clockwise.
-                if (Rings.isArea(polygon.get(ring))
-                        && Orientation.isCCWArea(Rings.closed(polygon.get(ring))) == (ring == 0)) {
-                    turned++;
-                }
-            }
-        }
+        int turned = Rings.turned(polygons, false);
         if (turned > 0) {
             notes.add("distinguished shells from holes by their position, because " + Counts.of(turned, "ring")
                     + " had the wrong orientation");

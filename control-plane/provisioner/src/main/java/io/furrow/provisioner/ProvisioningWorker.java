@@ -24,14 +24,11 @@ import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.Uuid;
 import org.apache.kafka.common.errors.InterruptException;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.Fault;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceConnection;
@@ -84,21 +81,16 @@ final class ProvisioningWorker implements AutoCloseable {
                 new RetrySchedule(System::nanoTime, settings.agent().interval());
         this.client = settings.client();
         this.agent = settings.agent().base().toString();
-        this.consumer =
-                new KafkaConsumer<>(consumerSettings(client), new StringDeserializer(), new ByteArrayDeserializer());
-        this.producer = new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer());
+        this.consumer = KafkaClients.consumer(consumerSettings(client));
+        this.producer = KafkaClients.producer(client);
         this.failures = new FailureReporter(desired, producer);
         this.connections = new ConnectionPublisher(settings, desired, producer, System::currentTimeMillis);
         consumer.subscribe(List.of(Topics.DEVICES), new Assignment());
     }
 
     private static Properties consumerSettings(Properties client) {
-        Properties settings = new Properties();
-        settings.putAll(client);
+        Properties settings = CommittedReader.settings(client);
         settings.setProperty("group.id", GROUP);
-        settings.setProperty("isolation.level", "read_committed");
-        settings.setProperty("enable.auto.commit", "false");
-        settings.setProperty("auto.offset.reset", "earliest");
         settings.setProperty("session.timeout.ms", TAKEN_OVER_AFTER_MS);
         return settings;
     }

@@ -19,6 +19,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.DaemonThreads;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.time.Backoff;
 
@@ -26,7 +27,7 @@ import io.furrow.model.time.Backoff;
  * Runs a topology in this JVM, alone or as one of several instances, and keeps it running: a thread that loses Kafka is replaced, and
  * where a client ends for another reason a new one is started, after a pause that grows from one second to one minute.
  */
-final class StreamsApplication implements AutoCloseable {
+public class StreamsApplication implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(StreamsApplication.class);
     private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(30);
     private static final Duration MIN_BACKOFF = Duration.ofSeconds(1);
@@ -46,26 +47,16 @@ final class StreamsApplication implements AutoCloseable {
     /** Whether a start is scheduled: a client may say that it failed while its start does. */
     private boolean startsLater;
 
-    private StreamsApplication(String name, Supplier<Topology> topology, Properties settings) {
+    /** @param name for people, as in {@code control plane} */
+    StreamsApplication(String name, Supplier<Topology> topology, Properties settings) {
         this.name = name;
         this.topology = topology;
         this.settings = settings;
-        this.supervisor = Executors.newSingleThreadScheduledExecutor(task -> {
-            Thread thread = new Thread(task, name + " supervisor");
-            thread.setDaemon(true);
-            return thread;
-        });
+        this.supervisor = Executors.newSingleThreadScheduledExecutor(DaemonThreads.named(name + " supervisor"));
     }
 
-    /** @param name for people, as in {@code control plane} */
-    static StreamsApplication start(String name, Supplier<Topology> topology, Properties settings) {
-        StreamsApplication application = new StreamsApplication(name, topology, settings);
-        application.startClient();
-        return application;
-    }
-
-    /** Its start blocks until it has what all instances hold, and must not keep others from closing this. */
-    private void startClient() {
+    /** Blocks until it has what all instances hold, and must not keep others from closing this. */
+    final void startClient() {
         KafkaStreams fresh = newClient();
         if (fresh != null) {
             fresh.start();
@@ -144,17 +135,17 @@ final class StreamsApplication implements AutoCloseable {
     }
 
     /** Whether it runs, and has its state, not being about to rebuild or to hand it over. */
-    boolean isHealthy() {
+    public final boolean isHealthy() {
         return streams.state() == KafkaStreams.State.RUNNING;
     }
 
-    /** {@code RUNNING}, {@code REBALANCING} and so on. */
-    String state() {
+    /** For a health page: {@code RUNNING}, {@code REBALANCING} and so on. */
+    public final String state() {
         return streams.state().name();
     }
 
-    /** Its last success is the last time that all of its threads had asked Kafka for records. */
-    ComponentStatus status() {
+    /** For a health page. Its last success is the last time that all of its threads had asked Kafka for records. */
+    public ComponentStatus status() {
         KafkaStreams current = streams;
         boolean up = current.state() == KafkaStreams.State.RUNNING;
         String cause = failure;

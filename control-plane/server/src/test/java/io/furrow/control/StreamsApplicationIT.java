@@ -45,9 +45,10 @@ class StreamsApplicationIT {
             ControlSettings settings = ControlSettings.of(client);
             ServiceTopics.prepare(settings);
             try (StreamsApplication application =
-                            StreamsApplication.start("application", this::topology, settings.streams());
+                            new StreamsApplication("application", this::topology, settings.streams());
                     KafkaProducer<String, byte[]> producer =
                             new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
+                application.startClient();
                 await().atMost(TIMEOUT).until(application::isHealthy);
                 producer.send(new ProducerRecord<>(Topics.DOMAINS, "north", new byte[1]));
 

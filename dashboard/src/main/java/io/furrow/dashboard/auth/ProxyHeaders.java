@@ -2,11 +2,9 @@ package io.furrow.dashboard.auth;
 
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
-import java.nio.ByteBuffer;
 import java.util.function.Consumer;
 
 import org.eclipse.jetty.http.HttpFields;
-import org.eclipse.jetty.http.HttpHeader;
 import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
@@ -41,9 +39,7 @@ public final class ProxyHeaders extends Handler.Wrapper {
             headers = replaced(request);
         } catch (Problem problem) {
             refused.accept(problem);
-            response.setStatus(problem.status());
-            response.getHeaders().put(HttpHeader.CONTENT_TYPE, "application/json");
-            response.write(true, ByteBuffer.wrap(problem.json()), callback);
+            problem.answer(response, callback);
             return true;
         }
         return super.handle(

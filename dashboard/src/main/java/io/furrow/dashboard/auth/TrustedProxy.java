@@ -9,6 +9,7 @@ import java.util.regex.Pattern;
 import java.util.stream.Stream;
 
 import io.furrow.dashboard.http.Problem;
+import io.furrow.model.control.Role;
 
 /**
  * A proxy in front of the dashboard that signs users in, with OpenID Connect for instance, and names them in headers. The headers of
@@ -21,11 +22,7 @@ import io.furrow.dashboard.http.Problem;
  * @param token of the dashboard, which the control plane's file of tokens has with {@code for-users}
  */
 public record TrustedProxy(
-        List<AddressRange> addresses,
-        String userHeader,
-        String groupsHeader,
-        Map<String, UserRole> roles,
-        String token) {
+        List<AddressRange> addresses, String userHeader, String groupsHeader, Map<String, Role> roles, String token) {
     private static final Pattern NAME = Pattern.compile("[A-Za-z0-9_.@-]{1,64}");
 
     public TrustedProxy {
@@ -62,11 +59,11 @@ public record TrustedProxy(
                     "%s has no name of 1 to 64 of A-Z a-z 0-9 _ . @ -; another header may, --user-header names it"
                             .formatted(userHeader));
         }
-        UserRole role = groups.stream()
+        Role role = groups.stream()
                 .flatMap(value -> Arrays.stream(value.split("[,|]")))
                 .map(String::strip)
                 .flatMap(group -> Stream.ofNullable(roles.get(group)))
-                .max(UserRole::compareTo)
+                .max(Role::compareTo)
                 .orElseThrow(() -> new Problem(
                         403,
                         "no-role",

@@ -1,4 +1,6 @@
 package io.furrow.dashboard.auth;
 
+import io.furrow.model.control.Role;
+
 /** @param name as on the audit topic */
-public record User(String name, UserRole role) {}
+public record User(String name, Role role) {}

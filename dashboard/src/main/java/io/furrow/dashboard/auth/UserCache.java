@@ -5,21 +5,19 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
-import java.security.MessageDigest;
-import java.security.NoSuchAlgorithmException;
 import java.time.Duration;
-import java.util.HexFormat;
-import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.function.LongSupplier;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.dashboard.http.Problem;
+import io.furrow.kafka.BoundedMap;
+import io.furrow.model.control.Role;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
+import io.furrow.model.text.Sha256;
 
 /** Asks the control plane whose token it is. An answer counts for some seconds, so a token that is taken back does not for longer. */
 public final class UserCache {
@@ -34,14 +32,7 @@ public final class UserCache {
             HttpClient.newBuilder().connectTimeout(TIMEOUT).build();
     private final URI controlPlane;
     private final LongSupplier nanos;
-    private final Map<String, CachedUser> cached = new LinkedHashMap<>() {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        protected boolean removeEldestEntry(Map.Entry<String, CachedUser> eldest) {
-            return size() > MAX_REMEMBERED;
-        }
-    };
+    private final Map<String, CachedUser> cached = BoundedMap.byInsertion(MAX_REMEMBERED);
 
     private record CachedUser(User user, long since) {}
 
@@ -56,11 +47,9 @@ public final class UserCache {
      *     word for its users
      */
     public User find(Credentials credentials) {
-        String key = digest(String.join(
-                "\n",
-                String.valueOf(credentials.authorization()),
-                String.valueOf(credentials.user()),
-                String.valueOf(credentials.role())));
+        String key = Sha256.hex(
+                "%s\n%s\n%s" // the tokens themselves are kept nowhere
+                        .formatted(credentials.authorization(), credentials.user(), credentials.role()));
         synchronized (cached) {
             CachedUser before = cached.get(key);
             if (before != null && nanos.getAsLong() - before.since() < REMEMBERED.toNanos()) {
@@ -95,8 +84,9 @@ public final class UserCache {
                     && !name.equals(credentials.user())) { // it asks for no tokens, or is an older one
                 throw notTaken("it says that the request is from '" + name + "'");
             }
-            return new User(name, UserRole.of(user.path("role").asText()));
-        } catch (IOException | UnreadableException | IllegalArgumentException e) {
+            return new User(
+                    name, Role.of(user.path("role").asText()).orElseThrow(() -> unavailable(me, "it names no role")));
+        } catch (IOException | UnreadableException e) {
             throw unavailable(me, FailureText.of(e));
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
@@ -126,15 +116,5 @@ public final class UserCache {
                 "control-plane-away",
                 "the control plane, which knows who may do what, cannot be asked at %s (%s); check --control-plane and that it runs"
                         .formatted(me, why));
-    }
-
-    /** The tokens themselves are kept nowhere. */
-    private static String digest(String text) {
-        try {
-            return HexFormat.of()
-                    .formatHex(MessageDigest.getInstance("SHA-256").digest(text.getBytes(StandardCharsets.UTF_8)));
-        } catch (NoSuchAlgorithmException e) {
-            throw new IllegalStateException(e);
-        }
     }
 }

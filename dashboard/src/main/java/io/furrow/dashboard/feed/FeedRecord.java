@@ -13,7 +13,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.Header;
 
-import io.furrow.model.event.FiwareScope;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -52,12 +52,7 @@ public final class FeedRecord {
     public String ofAllTypes() {
         return record.key() == null
                 ? record.partition() + "/" + record.offset()
-                : scopeOf(record).identity(recordKey());
-    }
-
-    /** Tenant and service path of the headers of a record. */
-    static FiwareScope scopeOf(ConsumerRecord<byte[], byte[]> record) {
-        return FiwareScope.of(header(record, HeaderNames.SERVICE), header(record, HeaderNames.SERVICE_PATH));
+                : KafkaClients.scope(record.headers()).identity(recordKey());
     }
 
     /** Whether it deletes what another one reports; a deletion that names no tenant and path, or no type, is one of all of them. */
@@ -101,12 +96,7 @@ public final class FeedRecord {
     }
 
     private String header(String name) {
-        return header(record, name);
-    }
-
-    private static String header(ConsumerRecord<byte[], byte[]> record, String name) {
-        Header header = record.headers().lastHeader(name);
-        return header == null || header.value() == null ? null : new String(header.value(), StandardCharsets.UTF_8);
+        return KafkaClients.text(record.headers(), name);
     }
 
     /** About what it takes in memory until it is sent. */

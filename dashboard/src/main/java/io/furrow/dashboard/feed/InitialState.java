@@ -1,6 +1,5 @@
 package io.furrow.dashboard.feed;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.LinkedHashMap;
@@ -13,10 +12,10 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.errors.TimeoutException;
-import org.apache.kafka.common.header.Header;
 
 import io.furrow.dashboard.http.Problem;
 import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -25,8 +24,10 @@ import io.furrow.model.topic.Topics;
  * What was known of the keys of a topic before a stream began. Of {@code data.raw} and the topics of domains and missions it is what
  * {@code data.latest} has of their entities, of a replay the newest of each entity in its newest epoch, of any other topic the
  * newest of each key; where the topic is not compacted, of the last hour.
+ *
+ * @param compacted whether a topic is
  */
-public final class InitialState {
+public record InitialState(Properties client, StreamLimits limits, Predicate<String> compacted) {
     private static final Pattern LIVE = Pattern.compile("data\\.[^.]+\\.realtime(\\.[^.]+)?");
     private static final Duration TIMEOUT = Duration.ofSeconds(30);
     /** What is older is history, not state: such a topic may hold a week of records each second. */
@@ -34,17 +35,6 @@ public final class InitialState {
 
     private static final String EPOCH = "replay-epoch";
     private static final String KIND = "replay-kind";
-
-    private final Properties client;
-    private final StreamLimits limits;
-    private final Predicate<String> compacted;
-
-    /** @param compacted whether a topic is */
-    public InitialState(Properties client, StreamLimits limits, Predicate<String> compacted) {
-        this.client = client;
-        this.limits = limits;
-        this.compacted = compacted;
-    }
 
     /** @throws Problem where it takes too long, or is too much */
     public List<FeedRecord> read(String topic) {
@@ -74,17 +64,16 @@ public final class InitialState {
     /** Each epoch of a replay says again what is known, and ends with a record that reports no entity. */
     private static boolean isOfNewestEpoch(
             ConsumerRecord<byte[], byte[]> record, long[] epoch, Map<String, FeedRecord> newest) {
-        Header header = record.headers().lastHeader(EPOCH);
-        if (header == null) {
+        String text = KafkaClients.text(record.headers(), EPOCH);
+        if (text == null) {
             return true;
         }
-        long of = Long.parseLong(new String(header.value(), StandardCharsets.UTF_8));
+        long of = Long.parseLong(text);
         if (of > epoch[0]) {
             epoch[0] = of;
             newest.clear();
         }
-        Header kind = record.headers().lastHeader(KIND);
-        return of == epoch[0] && (kind == null || !new String(kind.value(), StandardCharsets.UTF_8).equals("end"));
+        return of == epoch[0] && !"end".equals(KafkaClients.text(record.headers(), KIND));
     }
 
     private void put(

@@ -9,8 +9,9 @@ import java.util.Set;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
-import java.util.concurrent.TimeUnit;
 import java.util.function.Function;
+
+import io.furrow.kafka.DaemonThreads;
 
 /**
  * Reads the known state of topics in threads of its own: of one topic at a time once, for all who asked before the reading
@@ -21,11 +22,7 @@ public final class InitialStateReader implements AutoCloseable {
     private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(2);
 
     private final Function<String, List<FeedRecord>> reader;
-    private final ExecutorService threads = Executors.newFixedThreadPool(THREADS, task -> {
-        Thread thread = new Thread(task, "initial-state");
-        thread.setDaemon(true);
-        return thread;
-    });
+    private final ExecutorService threads = Executors.newFixedThreadPool(THREADS, DaemonThreads.named("initial-state"));
     /** Readings that have not begun. */
     private final Map<String, CompletableFuture<List<FeedRecord>>> next = new HashMap<>();
     /** Topics that are read, or are about to be. */
@@ -70,10 +67,6 @@ public final class InitialStateReader implements AutoCloseable {
     @Override
     public void close() {
         threads.shutdownNow();
-        try {
-            threads.awaitTermination(CLOSE_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS);
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-        }
+        DaemonThreads.await(threads, CLOSE_TIMEOUT);
     }
 }

@@ -8,13 +8,27 @@ import io.furrow.dashboard.http.Problem;
 
 /** What streams did since the dashboard started. Reasons are codes, of which there are few. */
 public final class StreamCounters {
-    private final LongAdder recordsRead = new LongAdder();
-    private final LongAdder recordsSent = new LongAdder();
-    private final LongAdder recordsMerged = new LongAdder();
-    private final LongAdder messagesWritten = new LongAdder();
-    private final LongAdder opened = new LongAdder();
-    private final Map<Closing, LongAdder> closed = new ConcurrentHashMap<>();
+    private final Map<Enum<?>, LongAdder> counts = new ConcurrentHashMap<>();
     private final Map<String, LongAdder> refused = new ConcurrentHashMap<>();
+
+    /** What is counted without a reason. */
+    public enum Count {
+        STREAMS_OPENED("Streams that were opened."),
+        RECORDS_READ("Records of topics that were read."),
+        RECORDS_SENT("Records that were sent, counted once for each stream."),
+        RECORDS_MERGED("Records that a newer one took the place of before they were sent."),
+        MESSAGES_WRITTEN("Messages of sockets that Kafka has.");
+
+        private final String help;
+
+        Count(String help) {
+            this.help = help;
+        }
+
+        public String help() {
+            return help;
+        }
+    }
 
     /** Why a stream is over. */
     public enum Closing {
@@ -38,28 +52,14 @@ public final class StreamCounters {
         }
     }
 
-    void read() {
-        recordsRead.increment();
+    /** @param what a {@link Count} or a {@link Closing} */
+    public void add(Enum<?> what, long by) {
+        counts.computeIfAbsent(what, any -> new LongAdder()).add(by);
     }
 
-    public void sent(int records) {
-        recordsSent.add(records);
-    }
-
-    public void merged() {
-        recordsMerged.increment();
-    }
-
-    public void written() {
-        messagesWritten.increment();
-    }
-
-    public void opened() {
-        opened.increment();
-    }
-
-    public void closed(Closing reason) {
-        closed.computeIfAbsent(reason, any -> new LongAdder()).increment();
+    public long sum(Enum<?> what) {
+        LongAdder count = counts.get(what);
+        return count == null ? 0 : count.sum();
     }
 
     /** A request or a message was refused. */
@@ -70,31 +70,6 @@ public final class StreamCounters {
     /** @param error a code */
     public void refused(String error) {
         refused.computeIfAbsent(error, any -> new LongAdder()).increment();
-    }
-
-    public long recordsRead() {
-        return recordsRead.sum();
-    }
-
-    public long recordsSent() {
-        return recordsSent.sum();
-    }
-
-    public long recordsMerged() {
-        return recordsMerged.sum();
-    }
-
-    public long messagesWritten() {
-        return messagesWritten.sum();
-    }
-
-    public long streamsOpened() {
-        return opened.sum();
-    }
-
-    public long streamsClosed(Closing reason) {
-        LongAdder count = closed.get(reason);
-        return count == null ? 0 : count.sum();
     }
 
     public Map<String, LongAdder> refusals() {

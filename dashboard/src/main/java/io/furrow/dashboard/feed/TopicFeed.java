@@ -18,6 +18,8 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.dashboard.feed.StreamCounters.Count;
+import io.furrow.kafka.CommittedReader;
 import io.furrow.model.text.FailureText;
 
 /** The one consumer of a topic, from its end on, for all streams of it; on a thread of its own. */
@@ -62,12 +64,7 @@ public final class TopicFeed implements AutoCloseable {
     }
 
     static Properties settings(Properties client) {
-        Properties settings = new Properties();
-        client.stringPropertyNames().forEach(name -> settings.setProperty(name, client.getProperty(name)));
-        settings.setProperty("isolation.level", "read_committed");
-        settings.setProperty("enable.auto.commit", "false");
-        settings.setProperty("auto.offset.reset", "earliest"); // what was deleted before it was read
-        settings.setProperty("allow.auto.create.topics", "false");
+        Properties settings = CommittedReader.settings(client);
         settings.setProperty("fetch.max.wait.ms", "250");
         return settings;
     }
@@ -154,7 +151,7 @@ public final class TopicFeed implements AutoCloseable {
             return;
         }
         for (ConsumerRecord<byte[], byte[]> record : records) {
-            counters.read();
+            counters.add(Count.RECORDS_READ, 1);
             FeedRecord next = new FeedRecord(record, sequence++, limits.valueBytes());
             streams.forEach(stream -> stream.offer(next));
         }

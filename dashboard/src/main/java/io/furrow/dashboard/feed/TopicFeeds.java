@@ -62,8 +62,7 @@ public final class TopicFeeds implements AutoCloseable {
         } catch (ExecutionException | TimeoutException e) {
             throw unavailable();
         } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new Problem(503, "stopping", "the dashboard stops");
+            throw Problem.stopping();
         }
     }
 
@@ -95,8 +94,7 @@ public final class TopicFeeds implements AutoCloseable {
             throw new Problem(
                     503, "kafka-away", "Kafka does not say how long its topics are; check --kafka and that it runs");
         } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new Problem(503, "stopping", "the dashboard stops");
+            throw Problem.stopping();
         }
     }
 
@@ -115,8 +113,7 @@ public final class TopicFeeds implements AutoCloseable {
             LOG.debug("the configuration of {} cannot be read", topic, e);
             return true;
         } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new Problem(503, "stopping", "the dashboard stops");
+            throw Problem.stopping();
         }
     }
 

@@ -17,6 +17,7 @@ import org.apache.kafka.clients.consumer.OffsetAndTimestamp;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -24,14 +25,10 @@ import io.furrow.model.ngsi.UnreadableException;
  * Reads what a topic holds of a stretch of time, by the timestamps of its records. Of more than it may read or answer it leaves out the
  * oldest, and says since when the answer is whole.
  */
-public final class TopicHistory {
+public record TopicHistory(Properties client, Limits limits, int valueBytes) {
     private static final Duration POLL = Duration.ofMillis(200);
     /** Records are not strictly in the order of their timestamps. */
     private static final long DISORDER_MS = 60_000;
-
-    private final Properties client;
-    private final Limits limits;
-    private final int valueBytes;
 
     /**
      * Of one answer.
@@ -59,12 +56,6 @@ public final class TopicHistory {
      * @param since epoch ms from which on nothing was left out; {@code from} where all is there
      */
     public record Answer(List<FeedRecord> records, long since) {}
-
-    public TopicHistory(Properties client, Limits limits, int valueBytes) {
-        this.client = client;
-        this.limits = limits;
-        this.valueBytes = valueBytes;
-    }
 
     public Answer read(Range range) {
         try (KafkaConsumer<byte[], byte[]> consumer = new KafkaConsumer<>(
@@ -199,7 +190,7 @@ public final class TopicHistory {
                 JsonNode value = member.isObject() ? member.path("value") : member;
                 return value.isValueNode() && !value.asText().isEmpty()
                         ? "="
-                                + FeedRecord.scopeOf(record)
+                                + KafkaClients.scope(record.headers())
                                         .identity(read.path("type").asText(""), value.asText())
                         : own;
             } catch (UnreadableException e) {

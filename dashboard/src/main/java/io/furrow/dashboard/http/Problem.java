@@ -1,11 +1,14 @@
 package io.furrow.dashboard.http;
 
 import java.io.IOException;
+import java.nio.ByteBuffer;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import jakarta.servlet.http.HttpServletResponse;
+import org.eclipse.jetty.http.HttpHeader;
+import org.eclipse.jetty.server.Response;
+import org.eclipse.jetty.util.Callback;
 
-import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.control.CommandResult;
 
 /** Why a request is refused, in the shape that the control plane's REST API uses: {@code status}, {@code error}, {@code reason}. */
 public final class Problem extends RuntimeException {
@@ -39,12 +42,19 @@ public final class Problem extends RuntimeException {
     }
 
     public static byte[] json(String error, String reason) {
-        return NgsiJson.write(JsonNodeFactory.instance
-                .objectNode()
-                .put("type", "response")
-                .put("status", "error")
-                .put("error", error)
-                .put("reason", reason));
+        return CommandResult.ofError(error, reason).toBytes();
+    }
+
+    /** Of a request whose thread is interrupted, and stays so. */
+    public static Problem stopping() {
+        Thread.currentThread().interrupt();
+        return new Problem(503, "stopping", "the dashboard stops");
+    }
+
+    public void answer(Response response, Callback callback) {
+        response.setStatus(status);
+        response.getHeaders().put(HttpHeader.CONTENT_TYPE, "application/json");
+        response.write(true, ByteBuffer.wrap(json()), callback);
     }
 
     public void answer(HttpServletResponse response) throws IOException {

@@ -2,7 +2,6 @@ package io.furrow.dashboard.image;
 
 import java.net.URI;
 import java.time.Duration;
-import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -15,6 +14,7 @@ import org.apache.kafka.common.errors.WakeupException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.kafka.BoundedMap;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -33,14 +33,7 @@ public final class ImageIndex implements AutoCloseable {
     private static final Pattern IMAGE_TYPE = Pattern.compile("image/(png|jpeg|webp|gif|avif|bmp)");
 
     private final Properties client;
-    private final Map<String, ImageLocation> images = new LinkedHashMap<>() {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        protected boolean removeEldestEntry(Map.Entry<String, ImageLocation> eldest) {
-            return size() > MAX;
-        }
-    };
+    private final Map<String, ImageLocation> images = BoundedMap.byInsertion(MAX);
     private Thread reader;
     private CommittedReader<byte[]> topic;
     private boolean caughtUp;

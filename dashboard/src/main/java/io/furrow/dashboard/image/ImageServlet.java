@@ -4,10 +4,7 @@ import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.security.MessageDigest;
-import java.security.NoSuchAlgorithmException;
 import java.time.Duration;
-import java.util.HexFormat;
 import java.util.List;
 import java.util.function.Consumer;
 
@@ -18,6 +15,7 @@ import jakarta.servlet.http.HttpServletResponse;
 import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.auth.UserCache;
 import io.furrow.dashboard.http.Problem;
+import io.furrow.model.text.Sha256;
 
 /**
  * {@code GET /api/images/<sha256>}: a stored image that {@code data.images} names. Only files below the folders that the dashboard was given
@@ -89,7 +87,7 @@ public final class ImageServlet extends HttpServlet {
                     "the image has %d bytes; up to %d are served".formatted(Files.size(file), LARGEST));
         }
         byte[] bytes = Files.readAllBytes(file);
-        if (!HexFormat.of().formatHex(sha256().digest(bytes)).equals(image.sha256())) {
+        if (!Sha256.hex(bytes).equals(image.sha256())) {
             throw new Problem(502, "image-changed", "what is stored there has another SHA-256 by now");
         }
         return bytes;
@@ -118,13 +116,5 @@ public final class ImageServlet extends HttpServlet {
                 404,
                 "unknown-image",
                 "the image is not a file below the folders that --images names, or is deleted by now");
-    }
-
-    private static MessageDigest sha256() {
-        try {
-            return MessageDigest.getInstance("SHA-256");
-        } catch (NoSuchAlgorithmException e) {
-            throw new IllegalStateException("every Java has SHA-256", e);
-        }
     }
 }

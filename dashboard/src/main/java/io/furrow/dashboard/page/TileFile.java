@@ -10,7 +10,6 @@ import java.nio.file.Path;
 
 import org.eclipse.jetty.http.HttpHeader;
 import org.eclipse.jetty.http.HttpMethod;
-import org.eclipse.jetty.http.HttpStatus;
 import org.eclipse.jetty.http.content.HttpContent;
 import org.eclipse.jetty.http.content.ResourceHttpContent;
 import org.eclipse.jetty.server.Handler;
@@ -118,11 +117,8 @@ public final class TileFile {
             if (reads) {
                 return super.handle(request, response, callback);
             }
-            response.setStatus(HttpStatus.METHOD_NOT_ALLOWED_405);
             response.getHeaders().put(HttpHeader.ALLOW, "GET, HEAD");
-            response.getHeaders().put(HttpHeader.CONTENT_TYPE, "application/json");
-            byte[] json = Problem.json("method-not-allowed", "tiles are read with GET");
-            response.write(true, ByteBuffer.wrap(json), callback);
+            new Problem(405, "method-not-allowed", "tiles are read with GET").answer(response, callback);
             return true;
         }
     }

@@ -7,19 +7,18 @@ import java.util.concurrent.TimeoutException;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import jakarta.servlet.http.HttpServlet;
 import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 import org.apache.kafka.clients.admin.Admin;
 
-import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.auth.User;
+import io.furrow.dashboard.auth.UserServlet;
 import io.furrow.dashboard.feed.TopicDensity;
 import io.furrow.dashboard.http.Problem;
-import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
 /** {@code GET /api/density/<topic>?from&to&width}: how many records a topic has, bucket by bucket, epoch ms. */
-public final class DensityServlet extends HttpServlet {
+public final class DensityServlet extends UserServlet {
     private static final long serialVersionUID = 1L;
     private static final long DAY = 86_400_000;
 
@@ -27,25 +26,19 @@ public final class DensityServlet extends HttpServlet {
     private final transient TopicDensity density;
 
     public DensityServlet(TopicStreams streams, Admin admin) {
+        super(streams.users(), streams.counters()::refused);
         this.streams = streams;
         this.density = new TopicDensity(admin);
     }
 
     @Override
-    protected void doGet(HttpServletRequest request, HttpServletResponse response) throws IOException {
-        try {
-            streams.users().find(Credentials.of(request));
-            String topic = StreamRequest.topic(request, streams.rules());
-            long width = StreamRequest.number(request, "width", 100, DAY, null);
-            long from =
-                    Math.floorDiv(StreamRequest.number(request, "from", 0, Long.MAX_VALUE / 4, null), width) * width;
-            long to = StreamRequest.number(request, "to", from, from + TopicDensity.MAX_BUCKETS * width, null);
-            streams.feeds().check(topic);
-            write(topic, from, width, Math.toIntExact(-Math.floorDiv(from - to, width)), response);
-        } catch (Problem problem) {
-            streams.counters().refused(problem);
-            problem.answer(response);
-        }
+    protected void answer(HttpServletRequest request, HttpServletResponse response, User user) throws IOException {
+        String topic = StreamRequest.topic(request, streams.rules());
+        long width = StreamRequest.number(request, "width", 100, DAY, null);
+        long from = Math.floorDiv(StreamRequest.number(request, "from", 0, Long.MAX_VALUE / 4, null), width) * width;
+        long to = StreamRequest.number(request, "to", from, from + TopicDensity.MAX_BUCKETS * width, null);
+        streams.feeds().check(topic);
+        write(topic, from, width, Math.toIntExact(-Math.floorDiv(from - to, width)), response);
     }
 
     private void write(String topic, long from, long width, int buckets, HttpServletResponse response)
@@ -67,11 +60,8 @@ public final class DensityServlet extends HttpServlet {
                                             ? "no answer within 15 s"
                                             : FailureText.of(cause)));
         } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new Problem(503, "stopping", "the dashboard stops");
+            throw Problem.stopping();
         }
-        response.setContentType("application/json");
-        response.setHeader("Cache-Control", "no-store");
-        response.getOutputStream().write(NgsiJson.write(answer));
+        write(answer, response);
     }
 }

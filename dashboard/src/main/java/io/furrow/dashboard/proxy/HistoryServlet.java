@@ -7,21 +7,21 @@ import java.util.concurrent.Semaphore;
 import java.util.concurrent.TimeUnit;
 import java.util.regex.Pattern;
 
-import jakarta.servlet.http.HttpServlet;
 import jakarta.servlet.http.HttpServletRequest;
 import jakarta.servlet.http.HttpServletResponse;
 import org.apache.kafka.common.KafkaException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.auth.User;
+import io.furrow.dashboard.auth.UserServlet;
 import io.furrow.dashboard.feed.FeedRecord;
 import io.furrow.dashboard.feed.TopicHistory;
 import io.furrow.dashboard.http.Problem;
 import io.furrow.model.text.FailureText;
 
 /** {@code GET /api/history/<topic>}: what a topic holds of a stretch of time. At most {@value #AT_ONCE} are read at once. */
-public final class HistoryServlet extends HttpServlet {
+public final class HistoryServlet extends UserServlet {
     private static final long serialVersionUID = 1L;
     private static final Logger LOG = LoggerFactory.getLogger(HistoryServlet.class);
     private static final int AT_ONCE = 4;
@@ -34,27 +34,22 @@ public final class HistoryServlet extends HttpServlet {
     private final transient Semaphore free = new Semaphore(AT_ONCE);
 
     public HistoryServlet(TopicStreams streams, Properties client) {
+        super(streams.users(), streams.counters()::refused);
         this.streams = streams;
         this.history = new TopicHistory(
                 client, TopicHistory.Limits.DEFAULT, streams.limits().valueBytes());
     }
 
     @Override
-    protected void doGet(HttpServletRequest request, HttpServletResponse response) throws IOException {
-        try {
-            streams.users().find(Credentials.of(request));
-            String topic = StreamRequest.topic(request, streams.rules());
-            long now = System.currentTimeMillis();
-            long from = StreamRequest.number(request, "from", 0, Long.MAX_VALUE / 2, null);
-            long to = StreamRequest.number(request, "to", from, Long.MAX_VALUE / 2, Math.max(from, now + 1));
-            int limit = (int) StreamRequest.number(request, "limit", 1, RECORDS, (long) RECORDS);
-            TopicHistory.Range range = new TopicHistory.Range(topic, from, to, newest(request), limit);
-            streams.feeds().check(topic);
-            write(read(range), response);
-        } catch (Problem problem) {
-            streams.counters().refused(problem);
-            problem.answer(response);
-        }
+    protected void answer(HttpServletRequest request, HttpServletResponse response, User user) throws IOException {
+        String topic = StreamRequest.topic(request, streams.rules());
+        long now = System.currentTimeMillis();
+        long from = StreamRequest.number(request, "from", 0, Long.MAX_VALUE / 2, null);
+        long to = StreamRequest.number(request, "to", from, Long.MAX_VALUE / 2, Math.max(from, now + 1));
+        int limit = (int) StreamRequest.number(request, "limit", 1, RECORDS, (long) RECORDS);
+        TopicHistory.Range range = new TopicHistory.Range(topic, from, to, newest(request), limit);
+        streams.feeds().check(topic);
+        write(read(range), response);
     }
 
     private TopicHistory.Answer read(TopicHistory.Range range) {
@@ -64,8 +59,7 @@ public final class HistoryServlet extends HttpServlet {
                         503, "overloaded", "%d histories are being read; ask again in a moment".formatted(AT_ONCE));
             }
         } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new Problem(503, "stopping", "the dashboard stops");
+            throw Problem.stopping();
         }
         try {
             return history.read(range);

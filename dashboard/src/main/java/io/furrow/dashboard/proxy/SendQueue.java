@@ -10,6 +10,7 @@ import java.util.Queue;
 
 import io.furrow.dashboard.feed.FeedRecord;
 import io.furrow.dashboard.feed.StreamCounters;
+import io.furrow.dashboard.feed.StreamCounters.Count;
 import io.furrow.dashboard.feed.StreamLimits;
 
 /**
@@ -51,7 +52,7 @@ final class SendQueue {
             if (before != null) {
                 bytes -= before.bytes();
                 merged++;
-                counters.merged();
+                counters.add(Count.RECORDS_MERGED, 1);
             }
         }
         bytes += record.bytes();
@@ -74,10 +75,6 @@ final class SendQueue {
         notes.add(frame);
     }
 
-    synchronized boolean isOverflown() {
-        return overflown;
-    }
-
     /** The next frame; null if nothing waits. */
     synchronized String take() {
         if (!initial.isEmpty()) {
@@ -92,7 +89,7 @@ final class SendQueue {
 
     private String frame(Iterator<FeedRecord> waiting, boolean counted) {
         if (request.format() == StreamRequest.Format.VALUE) {
-            counters.sent(1);
+            counters.add(Count.RECORDS_SENT, 1);
             return taken(waiting, counted).text();
         }
         List<String> records = new ArrayList<>();
@@ -102,7 +99,7 @@ final class SendQueue {
             records.add(record);
             chars += record.length();
         }
-        counters.sent(records.size());
+        counters.add(Count.RECORDS_SENT, records.size());
         String tail = counted && merged > 0 ? "],\"merged\":" + merged + "}" : "]}";
         merged = counted ? 0 : merged;
         return "{\"records\":[" + String.join(",", records) + tail;

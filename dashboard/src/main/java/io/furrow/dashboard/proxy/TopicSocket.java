@@ -13,6 +13,7 @@ import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.auth.User;
 import io.furrow.dashboard.feed.FeedRecord;
 import io.furrow.dashboard.feed.StreamCounters.Closing;
+import io.furrow.dashboard.feed.StreamCounters.Count;
 import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.http.Problem;
 import io.furrow.model.ngsi.NgsiJson;
@@ -189,7 +190,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
                     refuse(problem);
                     return;
                 }
-                streams.counters().written();
+                streams.counters().add(Count.MESSAGES_WRITTEN, 1);
                 if (ticket.request().format() == StreamRequest.Format.RECORD) {
                     send(NgsiJson.write(NgsiJson.mapper()
                             .createObjectNode()

@@ -27,6 +27,7 @@ import io.furrow.dashboard.feed.StreamLimits;
 import io.furrow.dashboard.feed.TopicFeeds;
 import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.http.Problem;
+import io.furrow.kafka.DaemonThreads;
 import io.furrow.model.text.FailureText;
 
 /** All streams of a server, over sockets and as events: begins and ends them, and looks after them meanwhile. */
@@ -53,10 +54,12 @@ public final class TopicStreams implements AutoCloseable {
     private final Set<OpenStream> streams = ConcurrentHashMap.newKeySet();
     private final StreamCounters counters = new StreamCounters();
     /** Of two threads: one may wait for the control plane while the other pings. */
-    private final ScheduledExecutorService clock = Executors.newScheduledThreadPool(2, daemon("streams-clock"));
+    private final ScheduledExecutorService clock =
+            Executors.newScheduledThreadPool(2, DaemonThreads.named("streams-clock"));
 
-    private final ExecutorService beginners = Executors.newFixedThreadPool(BEGINNERS, daemon("streams-begin"));
-    private final ExecutorService endings = Executors.newSingleThreadExecutor(daemon("streams-end"));
+    private final ExecutorService beginners =
+            Executors.newFixedThreadPool(BEGINNERS, DaemonThreads.named("streams-begin"));
+    private final ExecutorService endings = Executors.newSingleThreadExecutor(DaemonThreads.named("streams-end"));
 
     public TopicStreams(Properties client, TopicRules rules, StreamLimits limits, UserCache users) {
         this.feeds = new TopicFeeds(client, limits, counters);
@@ -70,14 +73,6 @@ public final class TopicStreams implements AutoCloseable {
         clock.scheduleWithFixedDelay(
                 () -> streams.forEach(OpenStream::ping), PING_SECONDS, PING_SECONDS, TimeUnit.SECONDS);
         clock.scheduleWithFixedDelay(this::reauthenticate, USER_SECONDS, USER_SECONDS, TimeUnit.SECONDS);
-    }
-
-    private static java.util.concurrent.ThreadFactory daemon(String name) {
-        return task -> {
-            Thread thread = new Thread(task, name);
-            thread.setDaemon(true);
-            return thread;
-        };
     }
 
     Tickets tickets() {
@@ -151,7 +146,7 @@ public final class TopicStreams implements AutoCloseable {
                         "a socket is opened once and soon; ask GET /api/register/<topic> for a path"));
         quota.take(ticket.client());
         TopicSocket socket = new TopicSocket(this, ticket, limits);
-        counters.opened();
+        counters.add(StreamCounters.Count.STREAMS_OPENED, 1);
         streams.add(socket);
         return socket;
     }
@@ -169,7 +164,7 @@ public final class TopicStreams implements AutoCloseable {
     CompletableFuture<Void> begin(StreamRequest request, OpenStream stream, SendQueue queue) {
         CompletableFuture<Void> begun = new CompletableFuture<>();
         if (streams.add(stream) && !(stream instanceof TopicSocket)) {
-            counters.opened();
+            counters.add(StreamCounters.Count.STREAMS_OPENED, 1);
         }
         if (stream.isClosed()) {
             streams.remove(stream);
@@ -223,7 +218,7 @@ public final class TopicStreams implements AutoCloseable {
 
     void end(String topic, OpenStream stream, StreamCounters.Closing reason) {
         streams.remove(stream);
-        counters.closed(reason);
+        counters.add(reason, 1);
         quota.give(stream.credentials().client());
         try {
             endings.execute(() -> feeds.remove(topic, stream));
@@ -270,11 +265,7 @@ public final class TopicStreams implements AutoCloseable {
         beginners.shutdownNow();
         endings.shutdownNow();
         initialStates.close();
-        try {
-            beginners.awaitTermination(Duration.ofSeconds(2).toMillis(), TimeUnit.MILLISECONDS);
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-        }
+        DaemonThreads.await(beginners, Duration.ofSeconds(2));
         feeds.close();
         writer.close();
     }

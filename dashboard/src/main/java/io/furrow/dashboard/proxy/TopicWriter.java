@@ -15,10 +15,10 @@ import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.dashboard.auth.User;
-import io.furrow.dashboard.auth.UserRole;
 import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.dashboard.http.Problem;
 import io.furrow.model.control.AdminCommands;
+import io.furrow.model.control.Role;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.FailureText;
@@ -52,10 +52,10 @@ final class TopicWriter implements AutoCloseable {
                     "topic-not-allowed",
                     "topic '%s' is not among those that may be written; --writable-topics names them".formatted(topic));
         }
-        check(user, UserRole.OPERATOR);
+        check(user, Role.OPERATOR);
         ObjectNode json = read(message);
         if (AdminCommands.contains(topic, json.path("command").asText())) {
-            check(user, UserRole.ADMIN);
+            check(user, Role.ADMIN);
         }
         json.put("user", user.name()); // nobody speaks for another
         JsonNode id = json.path("requestId");
@@ -75,7 +75,7 @@ final class TopicWriter implements AutoCloseable {
         return written;
     }
 
-    private static void check(User user, UserRole minimum) {
+    private static void check(User user, Role minimum) {
         if (!user.role().includes(minimum)) {
             throw new Problem(
                     403,

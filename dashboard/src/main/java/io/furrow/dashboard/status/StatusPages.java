@@ -2,7 +2,6 @@ package io.furrow.dashboard.status;
 
 import java.nio.ByteBuffer;
 
-import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.eclipse.jetty.http.HttpHeader;
 import org.eclipse.jetty.http.HttpMethod;
 import org.eclipse.jetty.server.Handler;
@@ -12,6 +11,8 @@ import org.eclipse.jetty.util.Callback;
 
 import io.furrow.dashboard.http.Problem;
 import io.furrow.dashboard.proxy.TopicStreams;
+import io.furrow.http.prometheus.MetricsPage;
+import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
@@ -23,12 +24,12 @@ public final class StatusPages extends Handler.Abstract {
     public static final String READY = "/ready";
     public static final String METRICS = "/metrics";
 
-    private final BackendHealth surroundings;
-    private final StreamMetrics metrics;
+    private final Readiness readiness;
+    private final TopicStreams streams;
 
-    public StatusPages(BackendHealth surroundings, TopicStreams streams) {
-        this.surroundings = surroundings;
-        this.metrics = new StreamMetrics(streams);
+    public StatusPages(Readiness readiness, TopicStreams streams) {
+        this.readiness = readiness;
+        this.streams = streams;
     }
 
     @Override
@@ -41,22 +42,20 @@ public final class StatusPages extends Handler.Abstract {
         switch (Request.getPathInContext(request)) {
             case READY -> ready(response, callback);
             case METRICS -> {
-                response.getHeaders().put(HttpHeader.CONTENT_TYPE, StreamMetrics.CONTENT_TYPE);
-                response.write(true, ByteBuffer.wrap(metrics.page()), callback);
+                response.getHeaders().put(HttpHeader.CONTENT_TYPE, MetricsPage.CONTENT_TYPE);
+                response.write(true, ByteBuffer.wrap(StreamMetrics.page(streams)), callback);
             }
-            default -> json(response, callback, NgsiJson.write(surroundings.page("up")));
+            default -> json(response, callback, NgsiJson.write(readiness.health()));
         }
         return true;
     }
 
     private void ready(Response response, Callback callback) {
-        boolean ready = surroundings.areUp();
-        ObjectNode page = surroundings.page(ready ? "ready" : "not-ready");
-        if (!ready) {
+        if (!readiness.isReady()) {
             response.setStatus(503);
             response.getHeaders().put(HttpHeader.RETRY_AFTER, "1");
         }
-        json(response, callback, NgsiJson.write(page));
+        json(response, callback, NgsiJson.write(readiness.readiness()));
     }
 
     private static void json(Response response, Callback callback, byte[] body) {

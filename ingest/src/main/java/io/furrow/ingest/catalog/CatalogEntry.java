@@ -10,7 +10,6 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.ingest.route.EventEntity;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.FiwareScope;
-import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.SlicedEntity;
@@ -85,8 +84,7 @@ public record CatalogEntry(
 
     private static String service(ReportedEvent event) {
         Map<String, String> headers = event.record().headers();
-        return FiwareScope.of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH))
-                .service();
+        return FiwareScope.of(headers).service();
     }
 
     /** The same with a number of entities more, or less. */

@@ -1,8 +1,8 @@
 package io.furrow.ingest.image;
 
-import io.furrow.mission.image.Sha256;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.Sha256;
 
 /** A whole image of a known format, not larger than allowed. */
 record Image(byte[] bytes, ImageFormat format, String sha256) {

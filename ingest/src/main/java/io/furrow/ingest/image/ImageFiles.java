@@ -15,7 +15,7 @@ import org.apache.flink.core.fs.FileSystem.WriteMode;
 import org.apache.flink.core.fs.Path;
 
 import io.furrow.mission.image.ImageName;
-import io.furrow.mission.image.Sha256;
+import io.furrow.model.text.Sha256;
 
 /**
  * Images as files on a Flink file system. A file appears whole or not at all: it is written under another name and renamed,

@@ -102,7 +102,7 @@ final class ImageMover {
 
     private static FiwareScope scope(TopicRecord record) {
         Map<String, String> headers = record.headers();
-        return FiwareScope.of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH));
+        return FiwareScope.of(headers);
     }
 
     private static TopicRecord manifest(ReportedEvent event, String attribute, StoredImage stored) {

@@ -40,7 +40,6 @@ public enum LatestKey {
             return key;
         }
         Map<String, String> headers = latest.headers();
-        return FiwareScope.of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH))
-                .identity(key);
+        return FiwareScope.of(headers).identity(key);
     }
 }

@@ -92,8 +92,7 @@ public final class ParseEvents extends ProcessFunction<TopicRecord, ReportedEven
 
     /** A record of another producer may lack the event id: it gets the one that the source would have given. */
     static ReportedEvent recognize(TopicRecord record) throws UnreadableException {
-        FiwareScope scope = FiwareScope.of(
-                record.headers().get(HeaderNames.SERVICE), record.headers().get(HeaderNames.SERVICE_PATH));
+        FiwareScope scope = FiwareScope.of(record.headers());
         return record.value() == null ? deletion(record, scope) : change(record, scope);
     }
 

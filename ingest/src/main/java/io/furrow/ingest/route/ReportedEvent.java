@@ -50,7 +50,7 @@ public record ReportedEvent(
     /** Of a deletion of all entities of an id: that of the one of this type. */
     ReportedEvent deletionOf(String its) {
         Map<String, String> headers = record.headers();
-        FiwareScope scope = FiwareScope.of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH));
+        FiwareScope scope = FiwareScope.of(headers);
         Instant time = Instant.ofEpochMilli(time());
         String itsId = new EntityDeletion(its, entityId, scope, time, time, Origin.KAFKA).id();
         TopicRecord deletion = record.with(Map.of(HeaderNames.CE_ID, itsId, HeaderNames.ENTITY_TYPE, its));

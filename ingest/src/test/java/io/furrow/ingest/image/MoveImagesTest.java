@@ -4,10 +4,10 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.record.DeadLetters;
 import io.furrow.ingest.route.ReportedEvent;
-import io.furrow.mission.image.Sha256;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.Sha256;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -134,9 +134,9 @@ class MissionArchiveTest {
         store(awkward());
         Path file = new Path(directory.resolve("m.ndjson.gz").toUri());
 
-        MissionFiles.export(missions, "m", file, ignored -> {});
+        MissionFiles.write(file, out -> missions.export("m", out, ignored -> {}));
         byte[] first = Files.readAllBytes(directory.resolve("m.ndjson.gz"));
-        MissionFiles.export(missions, "m", file, ignored -> {});
+        MissionFiles.write(file, out -> missions.export("m", out, ignored -> {}));
 
         assertThat(Files.readAllBytes(directory.resolve("m.ndjson.gz"))).isEqualTo(first);
         assertThat(MissionFiles.importFrom(missions, "other", file, ignored -> {}))
@@ -148,13 +148,13 @@ class MissionArchiveTest {
     void leavesTheFileThatIsThereWhereAnExportFails() throws Exception {
         store(awkward());
         Path file = new Path(directory.resolve("files/m.ndjson.gz").toUri());
-        MissionFiles.export(missions, "m", file, ignored -> {});
+        MissionFiles.write(file, out -> missions.export("m", out, ignored -> {}));
         byte[] first = Files.readAllBytes(directory.resolve("files/m.ndjson.gz"));
         client.getDatabase("persistence")
                 .getCollection("mission_m")
                 .insertOne(new Document("_id", "z").append("_time", new Date(Events.TIME + DAY)));
 
-        assertThatThrownBy(() -> MissionFiles.export(missions, "m", file, ignored -> {}))
+        assertThatThrownBy(() -> MissionFiles.write(file, out -> missions.export("m", out, ignored -> {})))
                 .hasMessageContaining("a document that ingest did not write");
 
         assertThat(Files.readAllBytes(directory.resolve("files/m.ndjson.gz"))).isEqualTo(first);

@@ -34,8 +34,8 @@ final class ArchivedMission {
             assertThat(exported(missions, "copy")).isEqualTo(lines());
 
             Path file = new Path(root, "weeding.ndjson.gz");
-            MissionFiles.export(missions, "weeding", file, told -> {});
-            MissionFiles.export(missions, "weeding", file, told -> {}); // in the place of the first
+            MissionFiles.write(file, out -> missions.export("weeding", out, told -> {}));
+            MissionFiles.write(file, out -> missions.export("weeding", out, told -> {})); // in the place of the first
             MissionFiles.importFrom(missions, "other", file, told -> {});
             assertThat(exported(missions, "other")).isEqualTo(lines());
         }

@@ -72,8 +72,7 @@ public final class LatestState {
     }
 
     private static FiwareScope scope(StoredEvent event) {
-        return FiwareScope.of(
-                event.headers().get(HeaderNames.SERVICE), event.headers().get(HeaderNames.SERVICE_PATH));
+        return FiwareScope.of(event.headers());
     }
 
     /** Empty for a deletion that does not name it. */

@@ -19,61 +19,65 @@ record PendingSteps(PlaybackState at, DesiredReplay desired) {
     }
 
     private boolean isForward() {
-        return desired.step() != null && desired.step().total() > at.steps();
+        return desired.step() != null && desired.step().total() > at.steps;
     }
 
     /** Those asked for before a jump, or while it runs, are not made up for. */
-    PlaybackState withoutObsolete() {
+    void dropObsolete() {
         DesiredReplay.Step step = desired.step();
         DesiredReplay.Seek seek = desired.seek();
-        boolean obsolete = step != null && (!isHeld() || seek != null && seek.sequence() > step.sequence());
-        return obsolete ? PlaybackTransitions.steps(at, step.total()) : at;
+        if (step != null && (!isHeld() || seek != null && seek.sequence() > step.sequence())) {
+            at.steps = step.total();
+        }
     }
 
     /** Whether a replay that is held plays the event. */
     boolean plays(ReadyEvent next) {
-        boolean repeats = at.goal() != null && next.cursor().compareTo(at.goal()) <= 0;
+        boolean repeats = at.goal != null && next.cursor().compareTo(at.goal) <= 0;
         return isHeld() && !isOfGroup() && (repeats || isForward());
     }
 
-    /** The state after that event was played by a step. */
-    PlaybackState played(ReadyEvent next) {
-        if (at.goal() == null) {
-            return PlaybackTransitions.steps(at, at.steps() + 1);
+    /** That event was played by a step. */
+    void played(ReadyEvent next) {
+        if (at.goal == null) {
+            at.steps++;
+        } else if (next.cursor().compareTo(at.goal) >= 0) {
+            at.goal = null;
         }
-        return next.cursor().compareTo(at.goal()) >= 0 ? PlaybackTransitions.towards(at, null) : at;
     }
 
     /**
-     * Without a goal that lies behind what is played next or at all, and without steps forward at the end.
+     * Drops a goal that lies behind what is played next or at all, and steps forward at the end.
      *
      * @param next null if it is not known, or at the end
      */
-    PlaybackState possible(ReadyEvent next, boolean isAtEnd) {
-        boolean passed = at.goal() != null && next != null && next.cursor().compareTo(at.goal()) > 0;
-        PlaybackState state = at.goal() != null && (passed || isAtEnd) ? PlaybackTransitions.towards(at, null) : at;
-        return isAtEnd && isForward()
-                ? PlaybackTransitions.steps(state, desired.step().total())
-                : state;
+    void dropImpossible(ReadyEvent next, boolean isAtEnd) {
+        boolean passed = at.goal != null && next != null && next.cursor().compareTo(at.goal) > 0;
+        if (passed || isAtEnd) {
+            at.goal = null;
+        }
+        if (isAtEnd && isForward()) {
+            at.steps = desired.step().total();
+        }
     }
 
     /** Whether events before are to be found. Also from its end. */
     boolean wantsBack() {
-        return (at.phase() == Phase.PLAYING || at.phase() == Phase.ENDED)
-                && at.goal() == null
+        return (at.phase == Phase.PLAYING || at.phase == Phase.ENDED)
+                && at.goal == null
                 && isHeld()
                 && !isOfGroup()
                 && desired.step() != null
-                && desired.step().total() < at.steps();
+                && desired.step().total() < at.steps;
     }
 
     ReadRequest.Back back() {
-        return new ReadRequest.Back(at.epoch(), at.cursor(), beginning(), stepsBack());
+        return new ReadRequest.Back(at.epoch, at.cursor, beginning(), stepsBack());
     }
 
     /** As many as are found at once. */
     private long stepsBack() {
-        return Math.min(at.steps() - desired.step().total(), MAX_BACK);
+        return Math.min(at.steps - desired.step().total(), MAX_BACK);
     }
 
     /** Whether that is still requested. */
@@ -86,16 +90,14 @@ record PendingSteps(PlaybackState at, DesiredReplay desired) {
         return !steppedBack.found().equals(beginning());
     }
 
-    /** The state when those steps back are made. */
-    PlaybackState done(ReadResult.SteppedBack steppedBack) {
-        return PlaybackTransitions.steps(
-                at,
-                isWithin(steppedBack)
-                        ? at.steps() - steppedBack.count()
-                        : desired.step().total());
+    /** Those steps back are made. */
+    void done(ReadResult.SteppedBack steppedBack) {
+        at.steps = isWithin(steppedBack)
+                ? at.steps - steppedBack.count()
+                : desired.step().total();
     }
 
     private Cursor beginning() {
-        return Cursor.before(desired.from(at.first()));
+        return Cursor.before(desired.from(at.first));
     }
 }

@@ -6,6 +6,7 @@ import java.util.Optional;
 import java.util.function.LongUnaryOperator;
 
 import io.furrow.flink.record.Epochs;
+import io.furrow.mission.Cursor;
 import io.furrow.model.control.DesiredReplay;
 import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.control.ReplayStatus;
@@ -26,7 +27,7 @@ public final class Playback {
 
     private final Schedule schedule;
     private DesiredReplay desired;
-    private PlaybackState at;
+    private final PlaybackState at;
     private ReadAhead ahead;
 
     /** Greatest epoch that its topic had records of when it went on after a restart. */
@@ -46,26 +47,28 @@ public final class Playback {
     public Playback(DesiredReplay desired, PlaybackState state, long now, LongUnaryOperator wall) {
         this.desired = desired;
         this.schedule = new Schedule(desired, wall);
-        boolean fresh = state.sequence() < 0;
+        this.at = state.copy();
+        boolean fresh = at.sequence < 0;
         this.withoutState = fresh;
         this.passBegan = fresh ? now : now - MIN_PASS;
-        Long start =
-                fresh && desired.seek() != null ? Long.valueOf(desired.seek().to()) : state.start();
-        this.at = PlaybackTransitions.of(state, desired.sequence(), start);
+        at.sequence = desired.sequence();
         if (fresh) {
-            at = steps().withoutObsolete();
+            at.start = desired.seek() == null
+                    ? at.start
+                    : Long.valueOf(desired.seek().to());
+            steps().dropObsolete();
         }
         if (fresh && isStopped()) {
-            at = PlaybackTransitions.over(at, Phase.STOPPED, null);
-        } else if (at.epoch() > Epochs.LAST) {
-            at = PlaybackTransitions.over(at, Phase.FAILED, NO_EPOCH_LEFT);
+            at.enter(Phase.STOPPED, null);
+        } else if (at.epoch > Epochs.LAST) {
+            at.enter(Phase.FAILED, NO_EPOCH_LEFT);
         }
         startOver(now);
     }
 
     private void startOver(long now) {
-        schedule.anchor(now, at.position());
-        ahead = new ReadAhead(at.cursor());
+        schedule.anchor(now, at.position);
+        ahead = new ReadAhead(at.cursor);
         waiting = null;
     }
 
@@ -80,10 +83,10 @@ public final class Playback {
         used = epoch;
         usedStamp = stamp;
         waiting = null;
-        if (withoutState && at.phase() == Phase.OPENING && at.epoch() <= epoch) {
-            begin(at.start(), passBegan);
-        } else if (withoutState && at.phase() == Phase.OPENING) {
-            at = PlaybackTransitions.stamped(at, stamp);
+        if (withoutState && at.phase == Phase.OPENING && at.epoch <= epoch) {
+            begin(at.start, passBegan);
+        } else if (withoutState && at.phase == Phase.OPENING) {
+            at.stamp = Math.max(at.stamp, stamp);
         }
     }
 
@@ -97,18 +100,18 @@ public final class Playback {
 
     /** Takes what is requested now, unless it is older than what was applied; a record that this ends the epoch with is returned. */
     public Optional<PlaybackRecord> apply(DesiredReplay next, long now) {
-        if (next.sequence() <= at.sequence()) {
+        if (next.sequence() <= at.sequence) {
             return Optional.empty();
         }
-        boolean seeks = next.seek() != null && next.seek().sequence() > at.sequence();
-        boolean plainAgain = at.phase() == Phase.BETWEEN && desired.range() != null && next.range() == null;
+        boolean seeks = next.seek() != null && next.seek().sequence() > at.sequence;
+        boolean plainAgain = at.phase == Phase.BETWEEN && desired.range() != null && next.range() == null;
         long position = position(now);
         long rangeEnd = desired.to();
-        schedule.follow(next, at.phase() == Phase.PLAYING, now);
+        schedule.follow(next, at.phase == Phase.PLAYING, now);
         desired = next;
-        at = PlaybackTransitions.of(at, next.sequence(), at.start());
-        at = steps().withoutObsolete();
-        at = schedule.isHeld() ? at : PlaybackTransitions.towards(at, null);
+        at.sequence = next.sequence();
+        steps().dropObsolete();
+        at.goal = schedule.isHeld() ? at.goal : null;
         schedule.anchor(now, position);
         if (isStopped()) {
             return over(Phase.STOPPED, null, "stopped", now);
@@ -131,13 +134,13 @@ public final class Playback {
 
     /** Ends it because of a record that cannot be read. @param sequence of the record */
     public Optional<PlaybackRecord> refuse(long sequence, String reason, long now) {
-        at = PlaybackTransitions.of(at, Math.max(at.sequence(), sequence), at.start());
+        at.sequence = Math.max(at.sequence, sequence);
         return fail(reason, now);
     }
 
     private Optional<PlaybackRecord> over(Phase how, String reason, String said, long now) {
         Optional<PlaybackRecord> end = end(said, now);
-        at = PlaybackTransitions.over(at, how, reason);
+        at.enter(how, reason);
         ahead.setPrimes(null);
         waiting = null;
         return end;
@@ -151,9 +154,9 @@ public final class Playback {
     /** Also an epoch that could not begin: who was given the name of its topic waits for an end. */
     private Optional<PlaybackRecord> closed(Phase how, String reason, long now) {
         if (!hasBegun()) {
-            at = PlaybackTransitions.unopened(at, desired);
-            at = PlaybackTransitions.over(at, how, reason);
-            return Optional.of(played(PlaybackRecord.Kind.END, null, reason, at.position(), now));
+            at.unopened(desired);
+            at.enter(how, reason);
+            return Optional.of(played(PlaybackRecord.Kind.END, null, reason, at.position, now));
         }
         return over(how, reason, reason, now);
     }
@@ -161,22 +164,22 @@ public final class Playback {
     /** Of an epoch that has begun. */
     private Optional<PlaybackRecord> end(String reason, long now) {
         return hasBegun()
-                ? Optional.of(played(PlaybackRecord.Kind.END, null, reason, at.position(), now))
+                ? Optional.of(played(PlaybackRecord.Kind.END, null, reason, at.position, now))
                 : Optional.empty();
     }
 
     /** Whether an epoch is under way, which ends with a record. */
     public boolean hasBegun() {
-        return at.phase() == Phase.PLAYING
-                || at.phase() == Phase.PRIMING && (ahead.primes() != null || at.number() > 0);
+        return at.phase == Phase.PLAYING || at.phase == Phase.PRIMING && (ahead.primes() != null || at.number > 0);
     }
 
     private void begin(Long start, long now) {
-        if (Math.max(at.epoch(), used) >= Epochs.LAST) {
-            at = PlaybackTransitions.over(at, Phase.FAILED, NO_EPOCH_LEFT);
+        if (Math.max(at.epoch, used) >= Epochs.LAST) {
+            at.enter(Phase.FAILED, NO_EPOCH_LEFT);
             return;
         }
-        at = PlaybackTransitions.stamped(PlaybackTransitions.nextEpoch(at, start, used), usedStamp);
+        at.beginEpoch(start, used);
+        at.stamp = Math.max(at.stamp, usedStamp);
         schedule.beginEpoch();
         passBegan = now;
         startOver(now);
@@ -190,7 +193,7 @@ public final class Playback {
     /** Takes what was read; a record that this ends the epoch with is returned. */
     public Optional<PlaybackRecord> take(ReadResult readResult, long now) {
         boolean awaited = !isOver() || goesBackFromEnd() && !(readResult instanceof ReadResult.NextPage);
-        if (readResult.epoch() != at.epoch() || !awaited) {
+        if (readResult.epoch() != at.epoch || !awaited) {
             return Optional.empty();
         }
         if (readResult instanceof ReadResult.Unavailable away) {
@@ -205,11 +208,11 @@ public final class Playback {
             if (opened.span().isEmpty()) {
                 return closed(Phase.ENDED, "mission '" + desired.mission() + "' has no event", now);
             }
-            at = PlaybackTransitions.opened(at, opened.span().get(), desired);
+            at.opened(opened.span().get(), desired);
             startOver(now);
         } else if (readResult instanceof ReadResult.Primed primed) {
             ahead.setPrimes(primed.primes());
-            schedule.anchor(now, at.point());
+            schedule.anchor(now, at.point);
             ahead.add(primed.first());
         } else if (readResult instanceof ReadResult.NextPage nextPage) {
             boolean stood = ahead.peek() == null;
@@ -230,11 +233,11 @@ public final class Playback {
             return Optional.empty();
         }
         boolean within = steps().isWithin(steppedBack);
-        at = steps().done(steppedBack);
+        steps().done(steppedBack);
         Optional<PlaybackRecord> end = end("step", now);
         begin(within ? Long.valueOf(steppedBack.found().time()) : null, now);
         if (within && !isOver()) {
-            at = PlaybackTransitions.towards(at, steppedBack.found());
+            at.goal = steppedBack.found();
         }
         return end;
     }
@@ -242,24 +245,23 @@ public final class Playback {
     /** The next event; null if it is not known. */
     private ReadyEvent next() {
         ReadyEvent next = ahead.peek();
-        schedule.approach(next, at.position());
+        schedule.approach(next, at.position);
         return next;
     }
 
     /** The next record, if it is due. */
     public Optional<PlaybackRecord> poll(long now) {
-        if (at.phase() == Phase.BETWEEN && now >= passBegan + MIN_PASS) {
+        if (at.phase == Phase.BETWEEN && now >= passBegan + MIN_PASS) {
             begin(null, now);
-        } else if (at.phase() == Phase.PRIMING && ahead.primes() != null && now >= schedule.anchor()) {
+        } else if (at.phase == Phase.PRIMING && ahead.primes() != null && now >= schedule.anchor()) {
             List<ReadyEvent> primes = ahead.primes();
-            if (at.primes() < primes.size()) {
-                return Optional.of(
-                        played(PlaybackRecord.Kind.PRIME, primes.get((int) at.primes()), null, at.point(), now));
+            if (at.primes < primes.size()) {
+                return Optional.of(played(PlaybackRecord.Kind.PRIME, primes.get((int) at.primes), null, at.point, now));
             }
-            at = PlaybackTransitions.playing(at);
+            at.enter(Phase.PLAYING, null);
             ahead.setPrimes(null);
         }
-        return at.phase() == Phase.PLAYING ? play(now) : Optional.empty();
+        return at.phase == Phase.PLAYING ? play(now) : Optional.empty();
     }
 
     private Optional<PlaybackRecord> play(long now) {
@@ -268,26 +270,26 @@ public final class Playback {
             return Optional.of(endOfPass(now));
         }
         ReadyEvent next = atEnd ? null : next();
-        at = steps().possible(next, atEnd);
+        steps().dropImpossible(next, atEnd);
         if (next == null || !steps().plays(next) && now < schedule.due(next)) {
             return Optional.empty();
         }
         if (schedule.isHeld()) {
-            at = steps().played(next);
+            steps().played(next);
             schedule.step(next, now);
         } else {
             schedule.play(next, now);
         }
-        at = PlaybackTransitions.skipped(at, ahead.remove());
+        at.skipped += ahead.remove();
         return Optional.of(played(PlaybackRecord.Kind.EVENT, next, null, next.time(), now));
     }
 
     private PlaybackRecord endOfPass(long now) {
-        at = PlaybackTransitions.skipped(at, ahead.skippedOfRest());
+        at.skipped += ahead.skippedOfRest();
         boolean again = desired.loops() && (schedule.isOfGroup() || hasSomethingToRepeat());
-        PlaybackRecord end = played(PlaybackRecord.Kind.END, null, again ? "loop" : "ended", at.position(), now);
+        PlaybackRecord end = played(PlaybackRecord.Kind.END, null, again ? "loop" : "ended", at.position, now);
         String reason = desired.loops() && !again ? "there is no event to play over and over" : null;
-        at = PlaybackTransitions.over(at, again ? Phase.BETWEEN : Phase.ENDED, reason);
+        at.enter(again ? Phase.BETWEEN : Phase.ENDED, reason);
         if (!again) {
             startOver(now); // holds nothing that was read: what is asked for behind the end reads anew
         }
@@ -296,7 +298,7 @@ public final class Playback {
 
     /** Whether this pass, if it was a whole one, had an event. */
     private boolean hasSomethingToRepeat() {
-        return at.events() > 0 || at.point() > desired.from(at.first());
+        return at.events > 0 || at.point > desired.from(at.first);
     }
 
     private boolean isAtEnd() {
@@ -306,16 +308,16 @@ public final class Playback {
     private PlaybackRecord played(PlaybackRecord.Kind kind, ReadyEvent event, String reason, long time, long now) {
         boolean rebased = desired.plan().stamps() == ReplayPlan.Stamps.NOW;
         long offset = rebased // none is negative
-                ? Math.max(at.stamp(), Math.max(time, schedule.wall(now))) - time
-                : at.offset();
-        PlaybackRecord playbackRecord = new PlaybackRecord(kind, event, reason, at.epoch(), at.number(), time, offset);
-        at = PlaybackTransitions.played(at, playbackRecord);
+                ? Math.max(at.stamp, Math.max(time, schedule.wall(now))) - time
+                : at.offset;
+        PlaybackRecord playbackRecord = new PlaybackRecord(kind, event, reason, at.epoch, at.number, time, offset);
+        at.played(playbackRecord);
         return playbackRecord;
     }
 
     /** When {@link #poll} should be called again, ms of the clock; {@link Long#MAX_VALUE} where something else must happen first. */
     public long due() {
-        return switch (at.phase()) {
+        return switch (at.phase) {
             case BETWEEN -> passBegan + MIN_PASS;
             case PRIMING -> ahead.primes() == null ? Timeline.NEVER : schedule.anchor();
             case PLAYING -> {
@@ -331,19 +333,24 @@ public final class Playback {
 
     /** Event time that is reached, epoch ms. */
     private long position(long now) {
-        if (at.phase() != Phase.PLAYING) {
-            return at.position();
+        if (at.phase != Phase.PLAYING) {
+            return at.position;
         }
         ReadyEvent next = next();
-        long most = next == null ? at.position() : next.time(); // of what is not read yet nobody knows when it was
-        return schedule.position(now, at.position(), most);
+        long most = next == null ? at.position : next.time(); // of what is not read yet nobody knows when it was
+        return schedule.position(now, at.position, most);
     }
 
     /** With which it continues after a restart. */
     public PlaybackState snapshot(long now) {
-        ReadyEvent next = at.phase() == Phase.PLAYING ? next() : null;
-        PlaybackState state = PlaybackTransitions.at(at, position(now));
-        return next == null ? state : PlaybackTransitions.before(state, next.time());
+        ReadyEvent next = at.phase == Phase.PLAYING ? next() : null;
+        PlaybackState state = at.copy();
+        state.position = position(now);
+        if (next != null
+                && at.cursor.compareTo(Cursor.before(next.time())) < 0) { // nothing that is played lies between
+            state.cursor = Cursor.before(next.time());
+        }
+        return state;
     }
 
     public DesiredReplay desired() {
@@ -352,15 +359,15 @@ public final class Playback {
 
     /** Of the desired replay that was applied last. */
     public long sequence() {
-        return at.sequence();
+        return at.sequence;
     }
 
     public long epoch() {
-        return at.epoch();
+        return at.epoch;
     }
 
     public boolean isOver() {
-        return at.phase().isOver();
+        return at.phase.isOver();
     }
 
     /** Whether it is over and waits for nothing to be read. */
@@ -369,7 +376,7 @@ public final class Playback {
     }
 
     private boolean goesBackFromEnd() {
-        return at.phase() == Phase.ENDED && ahead.isFetching();
+        return at.phase == Phase.ENDED && ahead.isFetching();
     }
 
     /** By how much the newest event was behind its schedule, ms. */
@@ -378,7 +385,7 @@ public final class Playback {
     }
 
     public ReplayStatus.State state() {
-        return at.phase().told(schedule.isHeld());
+        return at.phase.told(schedule.isHeld());
     }
 
     /**
@@ -389,24 +396,24 @@ public final class Playback {
      */
     public ReplayStatus status(long now, long worst, double rate) {
         return new ReplayStatus(
-                at.sequence(),
+                at.sequence,
                 state(),
-                at.reason(),
+                at.reason,
                 false,
                 at.progress(position(now), worst, schedule.slip(), rate, awaited(now)));
     }
 
     /** Whether it reads what it has to know before an epoch can begin. */
     public boolean isSeeking() {
-        return ahead.isFetching() && !isOver() && !hasBegun() && at.phase() != Phase.BETWEEN;
+        return ahead.isFetching() && !isOver() && !hasBegun() && at.phase != Phase.BETWEEN;
     }
 
     /** What it waits for; null if it waits for nothing. */
     public String awaited(long now) {
         if (waiting == null && isSeeking() && now - passBegan >= Schedule.STALL) {
-            return at.phase() == Phase.OPENING
+            return at.phase == Phase.OPENING
                     ? "seeking: the recording is being opened"
-                    : "seeking: what was known before %s is being read".formatted(Instant.ofEpochMilli(at.point()));
+                    : "seeking: what was known before %s is being read".formatted(Instant.ofEpochMilli(at.point));
         }
         return waiting == null && !isOver() ? schedule.beginsAt(now) : waiting;
     }

@@ -52,15 +52,15 @@ final class ReadAhead {
         ReadRequest next = null;
         PendingSteps pendingSteps = new PendingSteps(at, desired);
         int page = expected(PAGE * desired.speed());
-        if (at.phase() == Phase.OPENING) {
-            next = new ReadRequest.Open(at.epoch());
-        } else if (at.phase() == Phase.PRIMING && primes == null) {
-            Cursor from = at.point() <= at.first() ? Cursor.START : Cursor.before(at.point());
-            next = new ReadRequest.Begin(at.epoch(), at.point(), from, at.point() > at.first(), desired.loops(), page);
+        if (at.phase == Phase.OPENING) {
+            next = new ReadRequest.Open(at.epoch);
+        } else if (at.phase == Phase.PRIMING && primes == null) {
+            Cursor from = at.point <= at.first ? Cursor.START : Cursor.before(at.point);
+            next = new ReadRequest.Begin(at.epoch, at.point, from, at.point > at.first, desired.loops(), page);
         } else if (pendingSteps.wantsBack()) {
             next = pendingSteps.back();
-        } else if (at.phase() == Phase.PLAYING && wantsMore(desired.to())) {
-            next = new ReadRequest.Next(at.epoch(), loaded, page);
+        } else if (at.phase == Phase.PLAYING && wantsMore(desired.to())) {
+            next = new ReadRequest.Next(at.epoch, loaded, page);
         }
         fetching = next != null;
         return Optional.ofNullable(next);

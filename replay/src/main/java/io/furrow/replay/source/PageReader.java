@@ -13,6 +13,7 @@ import java.util.function.Consumer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.kafka.DaemonThreads;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.EventPage;
 import io.furrow.mission.PageLimits;
@@ -79,11 +80,7 @@ final class PageReader implements AutoCloseable {
         this.shared = shared;
         this.out = out;
         this.pages = shared.budget().pages();
-        thread = new ScheduledThreadPoolExecutor(1, task -> {
-            Thread reader = new Thread(task, "replay-pages-" + replay.replay());
-            reader.setDaemon(true);
-            return reader;
-        });
+        thread = new ScheduledThreadPoolExecutor(1, DaemonThreads.named("replay-pages-" + replay.replay()));
         thread.setKeepAliveTime(IDLE_SECONDS, TimeUnit.SECONDS);
         thread.allowCoreThreadTimeOut(true);
     }

@@ -177,10 +177,10 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, EnumeratorS
     /** One that no checkpoint knows; of what was reported of it before, epochs and timestamps continue. */
     private void fresh(String replay, byte[] value) {
         ReplayStatus status = told.remove(replay);
-        PlaybackState state = PlaybackState.fresh();
+        PlaybackState state = new PlaybackState();
         if (status != null && status.progress() != null) {
             ReplayStatus.Progress progress = status.progress();
-            state = PlaybackState.before(progress.epoch() + 1, progress.position() + progress.offset());
+            state = new PlaybackState(progress.epoch() + 1, progress.position() + progress.offset());
         }
         unassigned.put(replay, new ReplaySplit(replay, value, state));
     }

@@ -23,6 +23,7 @@ import org.apache.flink.runtime.execution.SuppressRestartsException;
 
 import io.furrow.flink.record.DeadLetterCounters;
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.kafka.DaemonThreads;
 import io.furrow.mission.PageLimits;
 import io.furrow.replay.recording.PageBudget;
 import io.furrow.replay.recording.RecordingSources;
@@ -75,11 +76,7 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
 
     @Override
     public void start() {
-        timer = new ScheduledThreadPoolExecutor(1, task -> {
-            Thread thread = new Thread(task, "replay-timer");
-            thread.setDaemon(true);
-            return thread;
-        });
+        timer = new ScheduledThreadPoolExecutor(1, DaemonThreads.named("replay-timer"));
         timer.setRemoveOnCancelPolicy(true);
     }
 

@@ -2,7 +2,6 @@ package io.furrow.replay.topic;
 
 import java.io.IOException;
 import java.io.Serializable;
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -14,9 +13,10 @@ import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.InterruptException;
-import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
+import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.text.FailureText;
 
@@ -33,12 +33,8 @@ record TopicEndReader(Properties client) implements Serializable {
 
     /** @throws IOException if Kafka cannot be asked now */
     TopicEnd of(String topic) throws IOException, InterruptedException {
-        Properties settings = new Properties();
-        settings.putAll(client);
+        Properties settings = CommittedReader.settings(client);
         settings.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_uncommitted");
-        settings.setProperty(ConsumerConfig.ENABLE_AUTO_COMMIT_CONFIG, "false");
-        settings.setProperty(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, "false");
-        settings.remove(ConsumerConfig.GROUP_ID_CONFIG);
         try (KafkaConsumer<byte[], byte[]> consumer =
                 new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
             List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
@@ -70,11 +66,9 @@ record TopicEndReader(Properties client) implements Serializable {
     }
 
     private static long epoch(ConsumerRecord<byte[], byte[]> record) {
-        Header header = record.headers().lastHeader(HeaderNames.REPLAY_EPOCH);
+        String epoch = KafkaClients.text(record.headers(), HeaderNames.REPLAY_EPOCH);
         try {
-            return header == null
-                    ? TopicEnd.EMPTY.epoch()
-                    : Long.parseLong(new String(header.value(), StandardCharsets.UTF_8));
+            return epoch == null ? TopicEnd.EMPTY.epoch() : Long.parseLong(epoch);
         } catch (NumberFormatException e) { // not written by a replay
             return TopicEnd.EMPTY.epoch();
         }

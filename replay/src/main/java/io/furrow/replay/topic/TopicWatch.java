@@ -14,6 +14,8 @@ import java.util.concurrent.TimeUnit;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.kafka.DaemonThreads;
+
 /**
  * Asks every second whether the topics that replays are played on are still there. One that was deleted is made again before its replay is
  * told: a record that is under way to a missing topic would hold up those of all other replays. What is missing twice was deleted; a broker
@@ -38,11 +40,7 @@ public final class TopicWatch implements AutoCloseable {
 
     public TopicWatch(ReplayTopics.Writing topics, Duration interval) {
         this.topics = topics;
-        thread = Executors.newSingleThreadScheduledExecutor(task -> {
-            Thread watching = new Thread(task, "replay-topics");
-            watching.setDaemon(true);
-            return watching;
-        });
+        thread = Executors.newSingleThreadScheduledExecutor(DaemonThreads.named("replay-topics"));
         thread.scheduleWithFixedDelay(this::check, interval.toMillis(), interval.toMillis(), TimeUnit.MILLISECONDS);
     }
 

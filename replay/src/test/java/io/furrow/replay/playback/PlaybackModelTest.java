@@ -72,7 +72,7 @@ class PlaybackModelTest {
         List<String> whole = untimed(played(mission, List.of(new DesiredStates.DesiredState(0, desired)), random));
 
         List<String> lines = new ArrayList<>();
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
+        Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
         for (long now = 0; !playback.isOver(); now++) {
             read(playback, mission, random, now, lines);
             Optional<PlaybackRecord> played = playback.poll(now);
@@ -92,7 +92,7 @@ class PlaybackModelTest {
     private static List<String> played(
             List<StoredEvent> mission, List<DesiredStates.DesiredState> desiredStates, Random random) {
         List<String> lines = new ArrayList<>();
-        Playback playback = new Playback(desiredStates.get(0).desired(), PlaybackState.fresh(), 0, DesiredStates::wall);
+        Playback playback = new Playback(desiredStates.get(0).desired(), new PlaybackState(), 0, DesiredStates::wall);
         int next = 1;
         long now = 0;
         while (now != Long.MAX_VALUE) {

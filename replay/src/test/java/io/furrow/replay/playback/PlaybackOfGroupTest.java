@@ -30,7 +30,7 @@ class PlaybackOfGroupTest {
     }
 
     private static Playback playback(DesiredReplay desired, long now) {
-        return new Playback(desired, PlaybackState.fresh(), now, DesiredStates::wall);
+        return new Playback(desired, new PlaybackState(), now, DesiredStates::wall);
     }
 
     /** What is written until the time, each with when: {@code 2500 b}, {@code 3000 ended}. */

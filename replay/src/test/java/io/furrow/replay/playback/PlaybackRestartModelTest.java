@@ -69,7 +69,7 @@ class PlaybackRestartModelTest {
         mission = Missions.random(random);
         desiredStates =
                 random.nextInt(4) == 0 ? DesiredStates.ofGroup(random, mission) : DesiredStates.random(random, mission);
-        playback = new Playback(desiredStates.get(0).desired(), PlaybackState.fresh(), 0, this::wall);
+        playback = new Playback(desiredStates.get(0).desired(), new PlaybackState(), 0, this::wall);
         for (int next = 1; next < desiredStates.size(); next++) {
             for (int turn = random.nextInt(MAX_TURNS); turn > 0; turn--) {
                 turn(desiredStates.get(next - 1).desired());
@@ -120,8 +120,8 @@ class PlaybackRestartModelTest {
             boolean known = random.nextInt(4) > 0;
             skew = newest.clock() == null ? random.nextInt(1_000_000) - 500_000 : 0;
             run = known ? snapshot.stamp() : 0;
-            playback = new Playback(
-                    known ? desiredThen : newest, known ? snapshot : PlaybackState.fresh(), now, this::wall);
+            playback =
+                    new Playback(known ? desiredThen : newest, known ? snapshot : new PlaybackState(), now, this::wall);
             if (!stamps.isEmpty()) {
                 long newestStamp = stamps.values().stream().max(Long::compare).orElseThrow();
                 playback.goOnAfter(stamps.lastKey(), newestStamp);
@@ -151,7 +151,7 @@ class PlaybackRestartModelTest {
                 assertThat(contents.merge(place, content, (known, same) -> known))
                         .as("record %s", place)
                         .isEqualTo(content);
-                long point = playback.snapshot(now).point();
+                long point = playback.snapshot(now).point;
                 epochs.computeIfAbsent(playbackRecord.epoch(), epoch -> new Epoch(point, new TreeMap<>()))
                         .records()
                         .put(playbackRecord.sequence(), playbackRecord);

@@ -26,7 +26,7 @@ class PlaybackTest {
     @Test
     void standsWhereItIsWhileItDoesNotKnowWhatComesNext() {
         DesiredReplay desired = DesiredStates.start(ReplayCommand.MAX);
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
+        Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
         playback.fetch();
         playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
@@ -34,7 +34,7 @@ class PlaybackTest {
         assertThat(playback.poll(0)).map(one -> one.event().id()).contains("a");
         playback.fetch();
 
-        assertThat(playback.snapshot(100).position()).isEqualTo(FIRST.time());
+        assertThat(playback.snapshot(100).position).isEqualTo(FIRST.time());
         DesiredReplay paused = DesiredStates.with(desired, State.PAUSED, 1, null, 0);
         playback.apply(paused, 100);
         playback.apply(DesiredStates.with(paused, State.RUNNING, 1, null, 0), 200);
@@ -48,28 +48,28 @@ class PlaybackTest {
     @Test
     void goesOnBehindWhatIsLeftOutAndShowsWhereItIsWhileTheRecordingIsAway() {
         DesiredReplay desired = DesiredStates.start(1);
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
+        Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
         playback.fetch();
         playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
         playback.take(new ReadResult.Primed(0, List.of(), page(FIRST, desired, false)), 0);
         playback.poll(0);
         playback.fetch();
-        assertThat(playback.snapshot(0).cursor()).isEqualTo(Cursor.after(FIRST));
+        assertThat(playback.snapshot(0).cursor).isEqualTo(Cursor.after(FIRST));
         playback.take(new ReadResult.NextPage(0, page(NEXT, desired, false)), 0);
         playback.fetch();
         playback.take(new ReadResult.Unavailable(0, "away"), 400);
 
-        assertThat(playback.snapshot(500).cursor()).isEqualTo(Cursor.before(NEXT.time()));
+        assertThat(playback.snapshot(500).cursor).isEqualTo(Cursor.before(NEXT.time()));
         assertThat(playback.status(500, 0, 0).progress().position()).isEqualTo(FIRST.time() + 500);
         assertThat(playback.poll(1_000)).isPresent();
-        assertThat(playback.snapshot(1_000).cursor()).isEqualTo(Cursor.after(NEXT));
+        assertThat(playback.snapshot(1_000).cursor).isEqualTo(Cursor.after(NEXT));
     }
 
     @Test
     void countsNothingTwiceThatItSkippedOfWhatARestartReadsAgain() {
         DesiredReplay desired = DesiredStates.start(1);
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
+        Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
         playback.fetch();
         playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
@@ -94,7 +94,7 @@ class PlaybackTest {
         ReplayPlan plan = new ReplayPlan(
                 null, null, NEXT.time(), false, List.of("urn:d0"), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
         DesiredReplay desired = DesiredReplay.started("m", "data.m.replay.0a1b2c3d", plan, ReplayCommand.MAX, 0, 1);
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
+        Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
         playback.fetch();
         playback.take(new ReadResult.Opened(0, Optional.of(new RecordingExtent(FIRST.time(), NEXT.time() + 9_000))), 0);
         playback.fetch();
@@ -109,7 +109,7 @@ class PlaybackTest {
     @Test
     void saysWhatASeekReadsThatTakesLong() {
         DesiredReplay desired = DesiredStates.with(DesiredStates.start(1), State.PAUSED, 1, NEXT.time(), 0);
-        Playback playback = new Playback(desired, PlaybackState.fresh(), 0, DesiredStates::wall);
+        Playback playback = new Playback(desired, new PlaybackState(), 0, DesiredStates::wall);
         playback.fetch();
         assertThat(waiting(playback, 999)).isNull();
         assertThat(waiting(playback, 1_000)).isEqualTo("seeking: the recording is being opened");
@@ -127,7 +127,7 @@ class PlaybackTest {
 
     @Test
     void endsAnEpochThatCannotBeginWithoutSteppingBackInTime() {
-        PlaybackState played = PlaybackState.before(3, NEXT.time() + 5_000);
+        PlaybackState played = new PlaybackState(3, NEXT.time() + 5_000);
         DesiredReplay desired = DesiredStates.with(DesiredStates.start(1), State.RUNNING, 1, NEXT.time(), 0);
         Playback playback = new Playback(desired, played, 0, DesiredStates::wall);
         playback.fetch();
@@ -145,7 +145,7 @@ class PlaybackTest {
 
     @Test
     void beginsNoEpochThatHasNoNumber() {
-        PlaybackState spent = PlaybackState.before(Epochs.LAST + 1, 5);
+        PlaybackState spent = new PlaybackState(Epochs.LAST + 1, 5);
 
         assertThat(new Playback(DesiredStates.start(1), spent, 0, DesiredStates::wall).status(0, 0, 0))
                 .extracting(ReplayStatus::state, ReplayStatus::reason)

@@ -42,7 +42,7 @@ class ReplayEnumeratorTest {
     }
 
     private static ReplaySplit split(String mission) {
-        return new ReplaySplit(mission + ".0a1b2c3d", update(mission, 1).desired(), PlaybackState.before(3, 77));
+        return new ReplaySplit(mission + ".0a1b2c3d", update(mission, 1).desired(), new PlaybackState(3, 77));
     }
 
     @Test

@@ -60,7 +60,7 @@ class ReplayReaderTest {
     }
 
     private void start(DesiredReplay desired) {
-        reader.addSplits(List.of(new ReplaySplit(desired.replay(), desired.toBytes(), PlaybackState.fresh())));
+        reader.addSplits(List.of(new ReplaySplit(desired.replay(), desired.toBytes(), new PlaybackState())));
     }
 
     private void update(DesiredReplay desired) {
@@ -130,7 +130,7 @@ class ReplayReaderTest {
         start(desired("stuck", 1, State.RUNNING, 1));
         start(desired("unknown", 1, State.RUNNING, 1));
         reader.addSplits(List.of(
-                new ReplaySplit("bad.0a1b2c3d", "no JSON".getBytes(StandardCharsets.UTF_8), PlaybackState.fresh())));
+                new ReplaySplit("bad.0a1b2c3d", "no JSON".getBytes(StandardCharsets.UTF_8), new PlaybackState())));
         start(desired("m", 1, State.RUNNING, 1));
 
         playUntil(() -> !played("m", "end").isEmpty()
@@ -342,7 +342,7 @@ class ReplayReaderTest {
         missions.with("m", TIME, TIME + 10);
         topics.end = new TopicEnd(6, TIME + 900_000);
         DesiredReplay desired = desired("m", ReplayCommand.MAX, State.RUNNING, 1);
-        PlaybackState told = PlaybackState.before(5, TIME + 400_000);
+        PlaybackState told = new PlaybackState(5, TIME + 400_000);
         reader.addSplits(List.of(new ReplaySplit(desired.replay(), desired.toBytes(), told)));
 
         play("m", "end", 1);
@@ -371,7 +371,7 @@ class ReplayReaderTest {
     @Test
     void appliesARecordThatItCannotReadAsAFailure() throws Exception {
         byte[] later = "{\"sequence\": 7, \"replay\": 1}".getBytes(StandardCharsets.UTF_8);
-        reader.addSplits(List.of(new ReplaySplit("bad.0a1b2c3d", later, PlaybackState.fresh())));
+        reader.addSplits(List.of(new ReplaySplit("bad.0a1b2c3d", later, new PlaybackState())));
         missions.with("m", TIME, TIME + 100_000);
         start(desired("m", 1, State.RUNNING, 1));
         play("m", "event", 1);

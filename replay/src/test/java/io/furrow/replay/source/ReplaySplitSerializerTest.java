@@ -11,6 +11,7 @@ import org.junit.jupiter.params.provider.EnumSource;
 
 import io.furrow.mission.Cursor;
 import io.furrow.replay.playback.PlaybackState;
+import io.furrow.replay.playback.PlaybackStates;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -26,11 +27,7 @@ class ReplaySplitSerializerTest {
     }
 
     private static ReplaySplit split(PlaybackState.Phase phase, String reason, Long start, Cursor goal) {
-        return new ReplaySplit(
-                "m.0a1b2c3d",
-                new byte[] {1, 2},
-                new PlaybackState(
-                        1, phase, reason, 2, 3, 4, 5, start, 6, new Cursor(7, "ñ"), 8, 9, 10, 11, 12, 13, 14, goal));
+        return new ReplaySplit("m.0a1b2c3d", new byte[] {1, 2}, PlaybackStates.of(phase, reason, start, goal));
     }
 
     @ParameterizedTest

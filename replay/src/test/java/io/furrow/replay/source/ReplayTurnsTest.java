@@ -57,7 +57,7 @@ class ReplayTurnsTest {
     /** Paused, with its first page read. */
     private DesiredReplay ready(String mission, double speed) throws Exception {
         DesiredReplay paused = ReplayReaderTest.desired(mission, speed, State.PAUSED, 1);
-        reader.addSplits(List.of(new ReplaySplit(paused.replay(), paused.toBytes(), PlaybackState.fresh())));
+        reader.addSplits(List.of(new ReplaySplit(paused.replay(), paused.toBytes(), new PlaybackState())));
         await().until(() -> {
             while (reader.pollNext(output) == InputStatus.MORE_AVAILABLE) {
                 assertThat(played()).isEmpty();

@@ -1,9 +1,9 @@
 package io.furrow.analytics.collision.encounter;
 
 import java.nio.charset.StandardCharsets;
-import java.security.MessageDigest;
-import java.security.NoSuchAlgorithmException;
 import java.util.HexFormat;
+
+import io.furrow.model.text.Sha256;
 
 /** The first 128 bits of a SHA-256 over two identities, in lower-case hexadecimal. */
 public final class PairId {
@@ -13,11 +13,6 @@ public final class PairId {
 
     public static String of(String first, String second) {
         String text = first.length() + ":" + first + second;
-        try {
-            byte[] digest = MessageDigest.getInstance("SHA-256").digest(text.getBytes(StandardCharsets.UTF_8));
-            return HexFormat.of().formatHex(digest, 0, BYTES);
-        } catch (NoSuchAlgorithmException e) {
-            throw new IllegalStateException("every Java platform has SHA-256", e);
-        }
+        return HexFormat.of().formatHex(Sha256.of(text.getBytes(StandardCharsets.UTF_8)), 0, BYTES);
     }
 }

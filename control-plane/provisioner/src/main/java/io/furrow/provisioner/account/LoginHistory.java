@@ -1,9 +1,10 @@
 package io.furrow.provisioner.account;
 
-import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Set;
 import java.util.function.UnaryOperator;
+
+import io.furrow.kafka.BoundedMap;
 
 /**
  * Remembers what happened at logins, of a limited number of users: those of whom nothing was heard for longest are forgotten.
@@ -16,14 +17,7 @@ final class LoginHistory {
     private final Map<String, LoginReport> byUser;
 
     LoginHistory(int max) {
-        byUser = new LinkedHashMap<>(16, 0.75f, true) {
-            private static final long serialVersionUID = 1L;
-
-            @Override
-            protected boolean removeEldestEntry(Map.Entry<String, LoginReport> eldest) {
-                return size() > max;
-            }
-        };
+        byUser = BoundedMap.byAccess(max);
     }
 
     void loggedIn(String user, long now) {

@@ -6,7 +6,6 @@ import java.time.Instant;
 import java.time.LocalDateTime;
 import java.time.ZoneId;
 import java.time.format.DateTimeParseException;
-import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.function.LongSupplier;
 import java.util.regex.Matcher;
@@ -15,6 +14,7 @@ import java.util.regex.Pattern;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.kafka.BoundedMap;
 import io.furrow.model.device.FarmSecret;
 
 /**
@@ -40,14 +40,7 @@ public final class MosquittoLog implements LoginReports {
     private final LogTail tail;
     private final LongSupplier clock;
     private final LoginHistory users = new LoginHistory(MAX_CLIENTS);
-    private final Map<String, String> userByClient = new LinkedHashMap<>(16, 0.75f, true) {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        protected boolean removeEldestEntry(Map.Entry<String, String> eldest) {
-            return size() > MAX_CLIENTS;
-        }
-    };
+    private final Map<String, String> userByClient = BoundedMap.byAccess(MAX_CLIENTS);
     private String failure = "";
 
     /** @param file of option {@code log_dest file}; it need not be there yet */

@@ -3,7 +3,6 @@ package io.furrow.control.alarm;
 import java.util.List;
 import java.util.Locale;
 
-import com.fasterxml.jackson.annotation.JsonCreator;
 import com.fasterxml.jackson.annotation.JsonUnwrapped;
 import com.fasterxml.jackson.annotation.JsonValue;
 
@@ -103,11 +102,6 @@ public record Alarm(
         public String code() {
             return name().toLowerCase(Locale.ROOT);
         }
-
-        @JsonCreator
-        static Change of(String code) {
-            return valueOf(code.toUpperCase(Locale.ROOT));
-        }
     }
 
     /** @param mutedUntil null if it is not muted */
@@ -158,39 +152,37 @@ public record Alarm(
         return cause.extent() == null || description.devices.equals(cause.devices()) && extent.equals(Extent.of(cause));
     }
 
-    public Alarm numbered(long newSequence) {
+    public Alarm numbered(long number) {
         return new Alarm(
-                head,
-                state,
-                change,
-                description,
-                period,
-                handling,
-                newSequence,
-                group,
-                extent,
-                seen,
-                inhibitedBy,
-                identity);
+                head, state, change, description, period, handling, number, group, extent, seen, inhibitedBy, identity);
     }
 
     /** Returns the alarm in another state; the reason is null unless it is closed. */
     public Alarm become(AlarmState newState, String by, String why, long now) {
         boolean closes = newState == AlarmState.CLOSED;
-        Change what = closes ? Change.CLOSED : Change.ACKNOWLEDGED;
-        Period then = closes ? period.changedAt(now).until(null) : period.changedAt(now);
-        Handling handled = new Handling(handling.mutedUntil, by, why);
-        return new Alarm(
-                head, newState, what, description, then, handled, sequence, group, extent, seen, inhibitedBy, identity);
+        return changed(
+                newState,
+                closes ? Change.CLOSED : Change.ACKNOWLEDGED,
+                closes ? period.until(null) : period,
+                new Handling(handling.mutedUntil, by, why),
+                now);
     }
 
     /** @param newMutedUntil null to unmute */
     public Alarm muted(Long newMutedUntil, long now) {
-        Handling muted = new Handling(newMutedUntil, handling.acknowledgedBy, handling.reason);
         Change what = newMutedUntil == null ? Change.UNMUTED : Change.MUTED;
-        Period then = period.changedAt(now);
+        Handling muted = new Handling(newMutedUntil, handling.acknowledgedBy, handling.reason);
+        return changed(state, what, period, muted, now);
+    }
+
+    private Alarm updated(long now) {
+        return changed(state, Change.UPDATED, period, handling, now);
+    }
+
+    private Alarm changed(AlarmState next, Change what, Period then, Handling handled, long now) {
+        Period lasts = then.changedAt(now);
         return new Alarm(
-                head, state, what, description, then, muted, sequence, group, extent, seen, inhibitedBy, identity);
+                head, next, what, description, lasts, handled, sequence, group, extent, seen, inhibitedBy, identity);
     }
 
     /** Counts another observation of the cause; text and extent stay unchanged. */
@@ -209,43 +201,30 @@ public record Alarm(
         return lasting(period.until(newUntil), seen);
     }
 
-    private Alarm lasting(Period then, Long newSeen) {
+    private Alarm lasting(Period then, Long at) {
         return new Alarm(
-                head,
-                state,
-                change,
-                description,
-                then,
-                handling,
-                sequence,
-                group,
-                extent,
-                newSeen,
-                inhibitedBy,
-                identity);
+                head, state, change, description, then, handling, sequence, group, extent, at, inhibitedBy, identity);
     }
 
     /** Copies text, devices and extent from the cause. */
     Alarm updated(Cause cause, long now) {
-        Description what = new Description(cause.text(), cause.devices());
-        Period then = period.changedAt(now);
-        Extent size = Extent.of(cause);
-        return new Alarm(
-                head, state, Change.UPDATED, what, then, handling, sequence, group, size, seen, inhibitedBy, identity);
+        return described(new Description(cause.text(), cause.devices()), Extent.of(cause))
+                .updated(now);
     }
 
     /** Copies the text alone from the cause: that is no change, so nobody is notified of it. */
     Alarm reworded(Cause cause) {
-        Description what = new Description(cause.text(), description.devices);
+        return described(new Description(cause.text(), description.devices), extent);
+    }
+
+    private Alarm described(Description what, Extent size) {
         return new Alarm(
-                head, state, change, what, period, handling, sequence, group, extent, seen, inhibitedBy, identity);
+                head, state, change, what, period, handling, sequence, group, size, seen, inhibitedBy, identity);
     }
 
     /** @param by id of the inhibiting alarm; null if no longer inhibited */
     public Alarm inhibited(String by, long now) {
-        Period then = period.changedAt(now);
-        return new Alarm(
-                head, state, Change.UPDATED, description, then, handling, sequence, group, extent, seen, by, identity);
+        return inhibitedFromStart(by).updated(now);
     }
 
     /** Returns the alarm as inhibited when it was raised, without a further change. */

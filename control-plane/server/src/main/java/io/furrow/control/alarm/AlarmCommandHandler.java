@@ -1,12 +1,10 @@
 package io.furrow.control.alarm;
 
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
-import java.util.concurrent.atomic.AtomicInteger;
 import java.util.function.Predicate;
 
 import io.furrow.control.manager.CommandHandler;
@@ -55,7 +53,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     public void raise(Cause cause, long now) {
         Alarm existing = current(cause.kind(), cause.identity());
         if (existing != null) {
-            tables.alarms().put(existing.alarm(), sure(existing, new AlarmEvent.Repeated(cause.until(now)), now));
+            tables.alarms().put(existing.alarm(), sure(existing, AlarmStateMachine.repeated(cause.until(now)), now));
         } else if (!limit.take(cause, now)) {
             store(Alarm.raised(cause, mutedUntil(cause, now), sequence.next(), now));
         }
@@ -84,7 +82,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     public void end(AlarmKind kind, String identity, String reason, long now) {
         Alarm existing = current(kind, identity);
         if (existing != null) {
-            change(existing, new AlarmEvent.Ended(reason), now);
+            change(existing, AlarmStateMachine.ended(reason), now);
         } else {
             limit.end(kind, identity);
         }
@@ -123,7 +121,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
             Alarm raised = Alarm.raised(cause, muted, sequence.next(), now);
             store(by == null ? raised : raised.inhibitedFromStart(by));
         } else {
-            change(reworded(existing, cause), new AlarmEvent.Reported(cause, by), now);
+            change(reworded(existing, cause), AlarmStateMachine.reported(cause, by), now);
         }
     }
 
@@ -146,7 +144,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         causes.forEach(cause -> lasting.add(cause.key()));
         for (Alarm alarm : current()) {
             if (some.test(alarm) && !lasting.contains(alarm.key())) {
-                change(alarm, new AlarmEvent.Ended(reason), now);
+                change(alarm, AlarmStateMachine.ended(reason), now);
             }
         }
     }
@@ -165,7 +163,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     @Override
     public CommandResult answer(AlarmCommand command, long now) throws RejectedException {
         if (command instanceof AlarmCommand.Acknowledge acknowledge) {
-            return answer(acknowledge.alarm(), new AlarmEvent.Acknowledged(acknowledge.user()), "acknowledged", now);
+            return answer(acknowledge.alarm(), AlarmStateMachine.acknowledged(acknowledge.user()), "acknowledged", now);
         } else if (command instanceof AlarmCommand.Close close) {
             return answer(close.alarm(), dismissal(close, now), "closed", now);
         } else if (command instanceof AlarmCommand.Mute mute) {
@@ -175,23 +173,24 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         return muted(((AlarmCommand.Unmute) command).target(), null, now);
     }
 
-    private AlarmEvent dismissal(AlarmCommand.Close close, long now) {
+    private AlarmStateMachine.Event dismissal(AlarmCommand.Close close, long now) {
         Alarm alarm = tables.alarms().get(close.alarm());
         boolean isOver = alarm != null
                 && alarm.isOfGroup()
                 && alarm.state() != AlarmState.CLOSED
                 && AlarmLimit.KINDS.contains(alarm.kind())
                 && limit.clear(alarm.kind(), alarm.subject(), now);
-        return new AlarmEvent.ManuallyClosed(close.user(), isOver);
+        return AlarmStateMachine.closedManually(close.user(), isOver);
     }
 
-    private CommandResult answer(String id, AlarmEvent event, String status, long now) throws RejectedException {
+    private CommandResult answer(String id, AlarmStateMachine.Event event, String status, long now)
+            throws RejectedException {
         Alarm alarm = tables.alarms().get(id);
         if (alarm == null) {
             throw new RejectedException(
                     ErrorCode.UNKNOWN_ALARM, "there is no alarm '%s', or it was closed long ago".formatted(id));
         }
-        Alarm next = AlarmStateMachine.next(alarm, event, now);
+        Alarm next = event.next(alarm, now);
         if (next != alarm) {
             store(next.numbered(sequence.next()));
         }
@@ -200,7 +199,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
 
     /** @param until null to unmute */
     private CommandResult muted(AlarmCommand.Target target, Long until, long now) throws RejectedException {
-        AlarmEvent event = until == null ? new AlarmEvent.Unmuted() : new AlarmEvent.Muted(until);
+        AlarmStateMachine.Event event = AlarmStateMachine.muted(until);
         String status = until == null ? "unmuted" : "muted";
         if (target instanceof AlarmCommand.OfAlarm of) {
             return answer(of.alarm(), event, status, now);
@@ -224,9 +223,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         if (until == null || tables.mutes().contains(key)) {
             return;
         }
-        AtomicInteger count = new AtomicInteger();
-        tables.mutes().forEach(mute -> count.incrementAndGet());
-        if (count.get() >= Limits.MUTES) {
+        if (tables.mutes().all().size() >= Limits.MUTES) {
             throw new RejectedException(
                     ErrorCode.QUOTA_EXCEEDED,
                     "%d subjects are muted already; unmute some, or mute all of a kind".formatted(Limits.MUTES));
@@ -247,7 +244,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     @Override
     public void passTime(long now) {
         for (Alarm alarm : current()) {
-            change(alarm, new AlarmEvent.TimePassed(), now);
+            change(alarm, AlarmStateMachine::afterTime, now);
         }
         List<Cause> beyondLimit = limit.causes(now);
         beyondLimit.forEach(cause -> report(cause, null, now));
@@ -263,12 +260,7 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     }
 
     private void clear(long now) {
-        List<Alarm> closed = new ArrayList<>();
-        tables.alarms().forEach(alarm -> {
-            if (alarm.state() == AlarmState.CLOSED) {
-                closed.add(alarm);
-            }
-        });
+        List<Alarm> closed = tables.alarms().where(alarm -> alarm.state() == AlarmState.CLOSED);
         closed.sort(Comparator.comparingLong((Alarm alarm) -> alarm.period().changed())
                 .reversed());
         for (int i = 0; i < closed.size(); i++) {
@@ -277,13 +269,9 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
                 publisher.put(Topics.ALARMS, closed.get(i).alarm(), null);
             }
         }
-        List<String> passed = new ArrayList<>();
-        tables.mutes().forEach(mute -> {
-            if (mute.until() <= now) {
-                passed.add(mute.key());
-            }
-        });
-        passed.forEach(key -> tables.mutes().put(key, null));
+        tables.mutes()
+                .where(mute -> mute.until() <= now)
+                .forEach(mute -> tables.mutes().put(mute.key(), null));
     }
 
     /** Returns the alarm that is not closed; null if none. */
@@ -294,21 +282,19 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
 
     /** Returns a copy, because the store changes during the iteration. */
     private List<Alarm> current() {
-        List<Alarm> current = new ArrayList<>();
-        tables.current().forEach(id -> current.add(tables.alarms().get(id)));
-        return current;
+        return tables.current().all().stream().map(tables.alarms()::get).toList();
     }
 
-    private void change(Alarm alarm, AlarmEvent event, long now) {
+    private void change(Alarm alarm, AlarmStateMachine.Event event, long now) {
         Alarm next = sure(alarm, event, now);
         if (next != alarm) {
             store(next.numbered(sequence.next()));
         }
     }
 
-    private static Alarm sure(Alarm alarm, AlarmEvent event, long now) {
+    private static Alarm sure(Alarm alarm, AlarmStateMachine.Event event, long now) {
         try {
-            return AlarmStateMachine.next(alarm, event, now);
+            return event.next(alarm, now);
         } catch (RejectedException e) {
             throw new IllegalStateException(
                     "an alarm that is not closed accepts every event except commands of users", e);

@@ -1,14 +1,13 @@
 package io.furrow.control.alarm;
 
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.EnumSet;
 import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Objects;
 import java.util.Set;
-import java.util.TreeMap;
+import java.util.stream.Collectors;
 
 import io.furrow.control.manager.Table;
 import io.furrow.model.control.AlarmKind;
@@ -127,18 +126,12 @@ final class AlarmLimit {
      * @return whether they were removed
      */
     boolean clear(AlarmKind kind, String group, long now) {
-        List<String> members = new ArrayList<>();
-        boolean[] lasts = new boolean[1];
-        counted.forEach(each -> {
-            if (each.kind() == kind && each.group().equals(group)) {
-                members.add(each.key());
-                lasts[0] |= now - each.seen() < AlarmStateMachine.CAUSE_LASTS.toMillis();
-            }
-        });
-        if (lasts[0]) {
+        List<Overflow> members =
+                counted.where(each -> each.kind() == kind && each.group().equals(group));
+        if (members.stream().anyMatch(each -> now - each.seen() < AlarmStateMachine.CAUSE_LASTS.toMillis())) {
             return false;
         }
-        members.forEach(key -> counted.put(key, null));
+        members.forEach(each -> counted.put(each.key(), null));
         store(group(kind, group).with(group(kind, group).alarms(), 0));
         return true;
     }
@@ -177,35 +170,22 @@ final class AlarmLimit {
             recounted = now;
             recount(now);
         }
-        List<Cause> causes = new ArrayList<>();
-        groups.forEach(group -> {
-            if (group.counted() > 0) {
-                causes.add(Cause.ofMany(
+        return groups.where(group -> group.counted() > 0).stream()
+                .map(group -> Cause.ofMany(
                         group.kind(),
                         group.group(),
                         text(group),
                         group.devices(),
-                        new Cause.Extent(group.counted(), null)));
-            }
-        });
-        return causes;
+                        new Cause.Extent(group.counted(), null)))
+                .toList();
     }
 
     private void recount(long now) {
-        List<String> over = new ArrayList<>();
-        Map<String, List<Overflow>> lasting = new TreeMap<>();
-        counted.forEach(each -> {
-            if (each.until() != null && each.until() <= now) {
-                over.add(each.key());
-            } else {
-                lasting.computeIfAbsent(Cause.key(each.kind(), each.group()), any -> new ArrayList<>())
-                        .add(each);
-            }
-        });
-        over.forEach(key -> counted.put(key, null));
-        List<Group> all = new ArrayList<>();
-        groups.forEach(all::add);
-        for (Group group : all) {
+        counted.where(each -> each.until() != null && each.until() <= now)
+                .forEach(each -> counted.put(each.key(), null));
+        Map<String, List<Overflow>> lasting =
+                counted.all().stream().collect(Collectors.groupingBy(each -> Cause.key(each.kind(), each.group())));
+        for (Group group : groups.all()) {
             List<Overflow> members = lasting.getOrDefault(group.key(), List.of());
             List<Cause.AffectedDevice> devices = List.of();
             for (Overflow each : members) {

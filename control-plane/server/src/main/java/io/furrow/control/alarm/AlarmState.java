@@ -2,7 +2,6 @@ package io.furrow.control.alarm;
 
 import java.util.Locale;
 
-import com.fasterxml.jackson.annotation.JsonCreator;
 import com.fasterxml.jackson.annotation.JsonValue;
 
 /** State in the life cycle of an alarm. */
@@ -22,10 +21,5 @@ public enum AlarmState {
     @JsonValue
     public String code() {
         return name().toLowerCase(Locale.ROOT);
-    }
-
-    @JsonCreator
-    static AlarmState of(String code) {
-        return valueOf(code.toUpperCase(Locale.ROOT));
     }
 }

@@ -16,73 +16,99 @@ final class AlarmStateMachine {
 
     private AlarmStateMachine() {}
 
+    /** What happens to an alarm. */
+    interface Event {
+        /**
+         * Returns the next state of the alarm, or the same instance if nothing changes.
+         *
+         * @throws RejectedException if it is not allowed in the alarm's state
+         */
+        Alarm next(Alarm alarm, long now) throws RejectedException;
+    }
+
+    /** The cause was observed again. @param until new end of validity, epoch ms; null if it lasts until it is ended explicitly */
+    static Event repeated(Long until) {
+        return ofOpen((alarm, now) -> alarm.repeated(until, now));
+    }
+
+    /** The current extent of a group alarm. @param inhibitedBy id of the inhibiting alarm; null if none */
+    static Event reported(Cause cause, String inhibitedBy) {
+        return ofOpen((alarm, now) -> {
+            boolean inhibition = !Objects.equals(alarm.inhibitedBy(), inhibitedBy);
+            boolean extent = !alarm.concerns(cause) && now - alarm.period().changed() >= UPDATE_INTERVAL.toMillis();
+            if (!inhibition && !extent) {
+                return alarm;
+            }
+            Alarm updated = alarm.updated(cause, now);
+            return inhibition ? updated.inhibited(inhibitedBy, now) : updated;
+        });
+    }
+
+    static Event ended(String reason) {
+        return ofOpen((alarm, now) -> closed(alarm, reason, now));
+    }
+
     /**
-     * Returns the next state of the alarm, or the same instance if nothing changes.
+     * A user closes it.
      *
-     * @throws RejectedException if the event is not allowed in the alarm's state
+     * @param user null if not named
+     * @param isOver of a group alarm, whether none of its causes was reported lately
      */
-    static Alarm next(Alarm alarm, AlarmEvent event, long now) throws RejectedException {
-        if (event instanceof AlarmEvent.TimePassed) {
-            return afterTime(alarm, now);
-        }
-        if (alarm.state() == AlarmState.CLOSED) {
-            throw wrongState(alarm);
-        }
-        if (event instanceof AlarmEvent.Repeated repeated) {
-            return alarm.repeated(repeated.until(), now);
-        } else if (event instanceof AlarmEvent.Reported reported) {
-            return reported(alarm, reported, now);
-        } else if (event instanceof AlarmEvent.Ended ended) {
-            return alarm.become(AlarmState.CLOSED, alarm.handling().acknowledgedBy(), ended.reason(), now);
-        } else if (event instanceof AlarmEvent.ManuallyClosed by) {
-            return closedManually(alarm, by, now);
-        } else if (event instanceof AlarmEvent.Acknowledged by) {
+    static Event closedManually(String user, boolean isOver) {
+        return ofOpen((alarm, now) -> {
+            Duration ago = alarm.seen() == null ? null : Duration.ofMillis(now - alarm.seen());
+            boolean lasts = alarm.isOfGroup() ? !isOver : ago != null && ago.compareTo(CAUSE_LASTS) < 0;
+            if (lasts) {
+                String seen = alarm.isOfGroup() ? "" : " (seen %d s ago)".formatted(ago.toSeconds());
+                throw new RejectedException(
+                        ErrorCode.WRONG_STATE,
+                        "alarm '%s' closes when its cause is over: %s%s. Acknowledge it, or mute it for a while."
+                                .formatted(alarm.alarm(), alarm.description().text(), seen));
+            }
+            return closed(alarm, "closed by " + (user == null ? "somebody" : user), now);
+        });
+    }
+
+    /** @param user null if not named */
+    static Event acknowledged(String user) {
+        return ofOpen((alarm, now) -> {
             if (!alarm.state().canBecome(AlarmState.ACKNOWLEDGED)) {
                 throw wrongState(alarm);
             }
-            return alarm.become(AlarmState.ACKNOWLEDGED, by.user(), null, now);
-        } else if (event instanceof AlarmEvent.Muted muted) {
-            return alarm.muted(muted.until(), now);
-        }
-        return alarm.handling().mutedUntil() == null ? alarm : alarm.muted(null, now);
+            return alarm.become(AlarmState.ACKNOWLEDGED, user, null, now);
+        });
     }
 
-    private static Alarm reported(Alarm alarm, AlarmEvent.Reported reported, long now) {
-        boolean inhibition = !Objects.equals(alarm.inhibitedBy(), reported.inhibitedBy());
-        boolean extent =
-                !alarm.concerns(reported.cause()) && now - alarm.period().changed() >= UPDATE_INTERVAL.toMillis();
-        if (!inhibition && !extent) {
-            return alarm;
-        }
-        Alarm updated = alarm.updated(reported.cause(), now);
-        return inhibition ? updated.inhibited(reported.inhibitedBy(), now) : updated;
+    /** @param until end of the mute, epoch ms; null to unmute */
+    static Event muted(Long until) {
+        return ofOpen((alarm, now) ->
+                until == null && alarm.handling().mutedUntil() == null ? alarm : alarm.muted(until, now));
     }
 
-    private static Alarm closedManually(Alarm alarm, AlarmEvent.ManuallyClosed event, long now)
-            throws RejectedException {
-        Duration ago = alarm.seen() == null ? null : Duration.ofMillis(now - alarm.seen());
-        boolean lasts = alarm.isOfGroup() ? !event.isOver() : ago != null && ago.compareTo(CAUSE_LASTS) < 0;
-        if (lasts) {
-            String seen = alarm.isOfGroup() ? "" : " (seen %d s ago)".formatted(ago.toSeconds());
-            throw new RejectedException(
-                    ErrorCode.WRONG_STATE,
-                    "alarm '%s' closes when its cause is over: %s%s. Acknowledge it, or mute it for a while."
-                            .formatted(alarm.alarm(), alarm.description().text(), seen));
-        }
-        String by = event.user() == null ? "somebody" : event.user();
-        return alarm.become(AlarmState.CLOSED, alarm.handling().acknowledgedBy(), "closed by " + by, now);
-    }
-
-    private static Alarm afterTime(Alarm alarm, long now) {
+    /** Time has passed without any other event. */
+    static Alarm afterTime(Alarm alarm, long now) {
         if (alarm.state() == AlarmState.CLOSED) {
             return alarm;
         }
         if (alarm.period().until() != null && alarm.period().until() <= now) {
-            return alarm.become(AlarmState.CLOSED, alarm.handling().acknowledgedBy(), expired(alarm), now);
+            return closed(alarm, expired(alarm), now);
         }
         return alarm.handling().mutedUntil() != null && alarm.handling().mutedUntil() <= now
                 ? alarm.muted(null, now)
                 : alarm;
+    }
+
+    private static Event ofOpen(Event event) {
+        return (alarm, now) -> {
+            if (alarm.state() == AlarmState.CLOSED) {
+                throw wrongState(alarm);
+            }
+            return event.next(alarm, now);
+        };
+    }
+
+    private static Alarm closed(Alarm alarm, String reason, long now) {
+        return alarm.become(AlarmState.CLOSED, alarm.handling().acknowledgedBy(), reason, now);
     }
 
     /** The report of its end lets a collision expire at another time than its other reports. */

@@ -2,7 +2,6 @@ package io.furrow.control.alarm;
 
 import java.util.Locale;
 
-import com.fasterxml.jackson.annotation.JsonCreator;
 import com.fasterxml.jackson.annotation.JsonValue;
 
 import io.furrow.model.control.AlarmKind;
@@ -27,10 +26,5 @@ public enum Severity {
     @JsonValue
     public String code() {
         return name().toLowerCase(Locale.ROOT);
-    }
-
-    @JsonCreator
-    static Severity ofCode(String code) {
-        return valueOf(code.toUpperCase(Locale.ROOT));
     }
 }

@@ -1,12 +1,10 @@
 package io.furrow.control.context;
 
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Objects;
 import java.util.TreeSet;
-import java.util.concurrent.atomic.AtomicInteger;
 
 import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.control.alarm.watch.FieldWindow;
@@ -100,8 +98,7 @@ final class ContextProjection {
             fieldsReadAt = now;
             forgetOldFields(now);
         }
-        List<String> outdated = new ArrayList<>();
-        tables.outdated().forEach(outdated::add);
+        List<String> outdated = tables.outdated().all();
         if (outdated.isEmpty()) {
             return;
         }
@@ -123,32 +120,17 @@ final class ContextProjection {
     }
 
     private void forgetOldFields(long now) {
-        List<FieldState> old = new ArrayList<>();
-        tables.fields().forEach(field -> {
-            if (field.known() + FIELD_HOLDS.toMillis() <= now) {
-                old.add(field);
-            }
-        });
-        for (FieldState field : old) {
+        for (FieldState field : tables.fields().where(each -> each.known() + FIELD_HOLDS.toMillis() <= now)) {
             tables.fields().put(field.field(), null);
             outdateDomainsOf(field);
         }
     }
 
     private EntityBuilder entity(Domain domain) {
-        AtomicInteger missions = new AtomicInteger();
-        tables.missions().forEach(mission -> {
-            if (mission.domain().equals(domain.domain())) {
-                missions.incrementAndGet();
-            }
-        });
-        List<FieldState> fields = new ArrayList<>();
-        tables.fields().forEach(field -> {
-            if (isOf(field, domain)) {
-                fields.add(field);
-            }
-        });
-        return ContextEntity.of(domain, missions.get(), fields);
+        int missions = tables.missions()
+                .where(mission -> mission.domain().equals(domain.domain()))
+                .size();
+        return ContextEntity.of(domain, missions, tables.fields().where(field -> isOf(field, domain)));
     }
 
     /** Whether the domain lists the field or the field names the domain. */
@@ -159,11 +141,9 @@ final class ContextProjection {
     }
 
     private void outdateDomainsOf(FieldState field) {
-        tables.domains().forEach(domain -> {
-            if (isOf(field, domain)) {
-                outdate(ContextEntity.domainId(domain.domain()));
-            }
-        });
+        tables.domains()
+                .where(domain -> isOf(field, domain))
+                .forEach(domain -> outdate(ContextEntity.domainId(domain.domain())));
     }
 
     private void outdate(String entityId) {

@@ -17,10 +17,10 @@ import io.furrow.control.domain.Domain;
 import io.furrow.control.manager.ManagerTopology;
 import io.furrow.control.manager.Observer;
 import io.furrow.control.manager.OutputRecord;
-import io.furrow.control.manager.RecordScope;
 import io.furrow.control.manager.UnitOfWork;
 import io.furrow.control.mission.Mission;
 import io.furrow.control.mission.MissionStatus;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
@@ -84,7 +84,7 @@ public final class ContextTopology {
 
         watch.observeShared("encounters", shared.collisions(), projection -> (record, now) -> {
             if (record.value() != null) {
-                projection.encounter(EncounterReport.read(record.value(), RecordScope.of(record)));
+                projection.encounter(EncounterReport.read(record.value(), KafkaClients.scope(record.headers())));
             }
         });
 

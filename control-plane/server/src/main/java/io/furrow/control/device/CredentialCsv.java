@@ -12,18 +12,8 @@ public final class CredentialCsv {
     /** Media type of the answer. */
     public static final String TYPE = "text/csv";
 
-    private static final List<String> COLUMNS = List.of(
-            "device",
-            "deviceId",
-            "host",
-            "port",
-            "tls",
-            "user",
-            "password",
-            "apiKey",
-            "measures",
-            "commands",
-            "results");
+    private static final List<String> COLUMNS =
+            List.of("device deviceId host port tls user password apiKey measures commands results".split(" "));
 
     private CredentialCsv() {}
 

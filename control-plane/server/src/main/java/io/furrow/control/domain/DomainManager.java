@@ -1,7 +1,7 @@
 package io.furrow.control.domain;
 
-import java.util.ArrayList;
 import java.util.List;
+import java.util.Objects;
 import java.util.function.Function;
 import java.util.stream.Stream;
 
@@ -31,19 +31,9 @@ public final class DomainManager {
     /** Creates a handler on the stores of a processor. */
     public static DomainCommandHandler handler(UnitOfWork unitOfWork, DomainMissions missions) {
         Table<FieldVersion> fields = unitOfWork.table(FIELDS, FieldVersion::toBytes, DomainManager::readable);
-        DomainCommandHandler.Dependencies dependencies =
-                new DomainCommandHandler.Dependencies(sequence(unitOfWork), quota(unitOfWork), () -> all(fields));
+        DomainCommandHandler.Dependencies dependencies = new DomainCommandHandler.Dependencies(
+                sequence(unitOfWork), quota(unitOfWork), () -> fields.where(Objects::nonNull));
         return new DomainCommandHandler(domains(unitOfWork), missions, dependencies, unitOfWork);
-    }
-
-    private static List<FieldVersion> all(Table<FieldVersion> fields) {
-        List<FieldVersion> all = new ArrayList<>();
-        fields.forEach(field -> {
-            if (field != null) {
-                all.add(field);
-            }
-        });
-        return all;
     }
 
     /** Null of what is not a version of a field; the jobs report it. */

@@ -1,9 +1,7 @@
 package io.furrow.control.health;
 
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.HashSet;
-import java.util.List;
 import java.util.Optional;
 import java.util.Set;
 
@@ -104,13 +102,7 @@ final class DeviceHealthTracker {
     }
 
     private void forgetAllBut(Set<String> running) {
-        List<DeviceHealth> removed = new ArrayList<>();
-        health.forEach(each -> {
-            if (!running.contains(each.key())) {
-                removed.add(each);
-            }
-        });
-        for (DeviceHealth each : removed) {
+        for (DeviceHealth each : health.where(some -> !running.contains(some.key()))) {
             health.put(each.key(), null);
             publisher.put(Topics.DEVICES_HEALTH, each.key(), null);
             silence.remove(each.key());

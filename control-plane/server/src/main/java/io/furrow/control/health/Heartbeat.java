@@ -33,6 +33,11 @@ record Heartbeat(
         return new Heartbeat("", null, false, heard, heard, null, null, false);
     }
 
+    /** Says that nothing has come since. */
+    Heartbeat silenced() {
+        return new Heartbeat(id, type, true, heard, reported, deviceTime, battery, off);
+    }
+
     boolean isPulse() {
         return id.isEmpty();
     }

@@ -9,7 +9,7 @@ import org.apache.kafka.streams.processor.api.Record;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.control.manager.RecordScope;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
@@ -47,11 +47,11 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
 
     @Override
     public void process(Record<String, byte[]> record) {
-        boolean repaired = Origin.REPAIR.code().equals(RecordScope.header(record, HeaderNames.ORIGIN));
+        boolean repaired = Origin.REPAIR.code().equals(KafkaClients.text(record.headers(), HeaderNames.ORIGIN));
         if (record.key() == null || record.value() == null || repaired) {
             return;
         }
-        String key = RecordScope.of(record).identity(record.key());
+        String key = KafkaClients.scope(record.headers()).identity(record.key());
         if (!detector.isMonitored(key)) {
             return;
         }

@@ -10,16 +10,13 @@ import io.furrow.control.manager.Table;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** The devices of {@code service.devices} that are desired to run now. Unreadable records are skipped. */
-final class MonitoredDevices {
+/**
+ * The devices of {@code service.devices} that are desired to run now. Unreadable records are skipped.
+ *
+ * @param records the values of the topic by their keys
+ */
+record MonitoredDevices(Table<byte[]> records) {
     private static final Logger LOG = LoggerFactory.getLogger(MonitoredDevices.class);
-
-    private final Table<byte[]> records;
-
-    /** @param records the values of the topic by their keys */
-    MonitoredDevices(Table<byte[]> records) {
-        this.records = records;
-    }
 
     /** Returns the device of a key; empty if none is desired or no longer. */
     Optional<DesiredDevice> of(String key) {

@@ -172,7 +172,7 @@ final class SilenceDetector {
                     && now - tracked.newest.heard() > tracked.silentAfter) {
                 tracked.silent = true;
                 tracked.pending = false;
-                listener.emit(key, silence(tracked.newest));
+                listener.emit(key, tracked.newest.silenced());
             } else if (tracked.pending && tracked.isDue(now)) { // the next report may be hours away
                 emit(key, tracked, now);
             }
@@ -183,17 +183,5 @@ final class SilenceDetector {
         Optional<DesiredDevice> device = desired.of(key);
         device.ifPresent(found -> tracked.take(found, options.silentAfter(found)));
         return device.isPresent();
-    }
-
-    private static Heartbeat silence(Heartbeat last) {
-        return new Heartbeat(
-                last.id(),
-                last.type(),
-                true,
-                last.heard(),
-                last.reported(),
-                last.deviceTime(),
-                last.battery(),
-                last.off());
     }
 }

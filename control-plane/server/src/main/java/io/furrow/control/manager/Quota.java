@@ -3,32 +3,27 @@ package io.furrow.control.manager;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RejectedException;
 
-/** Room for all definitions together, which are held in memory: how many bytes are used is remembered. */
-public final class Quota {
+/**
+ * Room for all definitions together, which are held in memory: how many bytes are used is remembered.
+ *
+ * @param used where it is remembered how much is used, under a key of its own
+ */
+public record Quota(Table<Long> used, long bytes) {
     private static final String USED = "used-bytes";
-
-    private final Table<Long> used;
-    private final long bytes;
-
-    /** @param used where it is remembered how much is used, under a key of its own */
-    public Quota(Table<Long> used, long bytes) {
-        this.used = used;
-        this.bytes = bytes;
-    }
 
     /** @throws RejectedException where there is not so much room left */
     public void require(long further) throws RejectedException {
-        if (further > 0 && used() + further > bytes) {
+        if (further > 0 && inUse() + further > bytes) {
             throw new RejectedException(
                     ErrorCode.QUOTA_EXCEEDED,
                     "all definitions may have %d bytes together, and would have %d; delete what is not needed any more"
-                            .formatted(bytes, used() + further));
+                            .formatted(bytes, inUse() + further));
         }
     }
 
     /** Uses more, or less where it is negative. */
     public void use(long further) {
-        used.put(USED, Math.max(0, used() + further));
+        used.put(USED, Math.max(0, inUse() + further));
     }
 
     /**
@@ -42,7 +37,7 @@ public final class Quota {
         use(further);
     }
 
-    private long used() {
+    private long inUse() {
         Long existing = used.get(USED);
         return existing == null ? 0 : existing;
     }

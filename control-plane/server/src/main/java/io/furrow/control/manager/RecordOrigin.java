@@ -3,11 +3,12 @@ package io.furrow.control.manager;
 import java.nio.charset.StandardCharsets;
 import java.util.Optional;
 
-import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.header.Headers;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 import org.apache.kafka.streams.processor.api.Record;
 import org.apache.kafka.streams.processor.api.RecordMetadata;
+
+import io.furrow.kafka.KafkaClients;
 
 /** Where a record stood before it was repartitioned: a header that stays with it. */
 record RecordOrigin(String topic, int partition, long offset) {
@@ -25,10 +26,7 @@ record RecordOrigin(String topic, int partition, long offset) {
     }
 
     static Optional<RecordOrigin> of(Headers headers) {
-        Header header = headers.lastHeader(HEADER);
-        return header == null
-                ? Optional.empty()
-                : Optional.of(parse(new String(header.value(), StandardCharsets.UTF_8)));
+        return Optional.ofNullable(KafkaClients.text(headers, HEADER)).map(RecordOrigin::parse);
     }
 
     private static RecordOrigin parse(String text) {

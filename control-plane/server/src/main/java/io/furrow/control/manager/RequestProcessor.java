@@ -2,10 +2,10 @@ package io.furrow.control.manager;
 
 import java.nio.charset.StandardCharsets;
 
-import org.apache.kafka.common.header.Header;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.Record;
 
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.ParsedRequest;
 import io.furrow.model.control.RequestSummary;
@@ -26,8 +26,8 @@ final class RequestProcessor extends ContextualProcessor<String, byte[], String,
 
     /** How many bytes an oversized request had; 0 for one that was not. */
     static long oversizedBytes(Record<?, ?> record) {
-        Header header = record.headers().lastHeader(OVERSIZED);
-        return header == null ? 0 : Long.parseLong(new String(header.value(), StandardCharsets.UTF_8));
+        String bytes = KafkaClients.text(record.headers(), OVERSIZED);
+        return bytes == null ? 0 : Long.parseLong(bytes);
     }
 
     @Override

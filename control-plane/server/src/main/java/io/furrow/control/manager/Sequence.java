@@ -1,15 +1,12 @@
 package io.furrow.control.manager;
 
-/** Sequence numbers that grow with each desired state, over restarts too, so that a host can tell old from new. */
-public final class Sequence {
+/**
+ * Sequence numbers that grow with each desired state, over restarts too, so that a host can tell old from new.
+ *
+ * @param last where the last number is remembered; not shared with others
+ */
+public record Sequence(Table<Long> last) {
     private static final String LAST = "last";
-
-    private final Table<Long> last;
-
-    /** @param last where the last number is remembered; not shared with others */
-    public Sequence(Table<Long> last) {
-        this.last = last;
-    }
 
     public long next() {
         Long before = last.get(LAST);

@@ -1,6 +1,9 @@
 package io.furrow.control.manager;
 
+import java.util.ArrayList;
+import java.util.List;
 import java.util.function.Consumer;
+import java.util.function.Predicate;
 
 /**
  * What a manager remembers, by key.
@@ -19,4 +22,20 @@ public interface Table<T> {
 
     /** In the order of the keys. What is put or removed meanwhile may be seen or not. */
     void forEach(Consumer<T> each);
+
+    /** A copy, so that those may be put or removed meanwhile. */
+    default List<T> where(Predicate<T> some) {
+        List<T> found = new ArrayList<>();
+        forEach(each -> {
+            if (some.test(each)) {
+                found.add(each);
+            }
+        });
+        return found;
+    }
+
+    /** As {@link #where}. */
+    default List<T> all() {
+        return where(each -> true);
+    }
 }

@@ -17,26 +17,12 @@ import io.furrow.model.topic.Topics;
  * Writes the devices of missions to {@code service.devices}, a bounded number at a time: what is left is a {@link PendingAssignment}. A device is
  * on one mission at a time, also while that is still being written.
  */
-final class DeviceAssignments {
-    private final MissionTables tables;
-    private final DeviceListStore lists;
-    private final MissionSettings options;
-    private final SharedStores farm;
-    private final EventPublisher publisher;
-
-    DeviceAssignments(
-            MissionTables tables,
-            DeviceListStore lists,
-            MissionSettings options,
-            SharedStores farm,
-            EventPublisher publisher) {
-        this.tables = tables;
-        this.lists = lists;
-        this.options = options;
-        this.farm = farm;
-        this.publisher = publisher;
-    }
-
+record DeviceAssignments(
+        MissionTables tables,
+        DeviceListStore lists,
+        MissionSettings options,
+        SharedStores farm,
+        EventPublisher publisher) {
     /** Begins to ask for all devices of a mission, or for none of them where one is another's. Answers how many there are. */
     int assign(Mission mission, long now) throws RejectedException {
         List<DesiredDevice> planned = planned(mission, now);

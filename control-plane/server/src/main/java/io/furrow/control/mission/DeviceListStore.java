@@ -19,21 +19,12 @@ import io.furrow.model.device.GroupRef;
 import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.topic.Topics;
 
-/** The device lists of missions, part by part as they were requested: remembered, and on {@code service.missions.devices}. */
-final class DeviceListStore {
-    private final Table<byte[]> parts;
-    private final Sequence sequence;
-    private final Quota quota;
-    private final EventPublisher publisher;
-
-    /** @param parts records of the topic by their keys */
-    DeviceListStore(Table<byte[]> parts, Sequence sequence, Quota quota, EventPublisher publisher) {
-        this.parts = parts;
-        this.sequence = sequence;
-        this.quota = quota;
-        this.publisher = publisher;
-    }
-
+/**
+ * The device lists of missions, part by part as they were requested: remembered, and on {@code service.missions.devices}.
+ *
+ * @param parts records of the topic by their keys
+ */
+record DeviceListStore(Table<byte[]> parts, Sequence sequence, Quota quota, EventPublisher publisher) {
     MissionDevices of(Mission mission) {
         ArrayNode all = JsonNodeFactory.instance.arrayNode();
         for (MissionDeviceList part : parts(mission)) {

@@ -90,11 +90,8 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
     private CommandResult start(MissionCommand.Start start, long now) throws RejectedException {
         Mission existing = tables.missions().get(start.mission());
         MissionStatus status = tables.statuses().get(start.mission());
-        if (status != null && status.state().isActive()) {
-            throw new RejectedException(
-                    ErrorCode.MISSION_RUNNING,
-                    "mission '%s' is %s already"
-                            .formatted(start.mission(), status.state().code()));
+        if (status != null) {
+            requireIdle(status, " already");
         }
         String domain = start.domain() == null && existing != null ? existing.domain() : start.domain();
         Mission planned = planner.plan(existing, start.mission(), domain, start.plan(), now);
@@ -109,26 +106,15 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
     }
 
     private CommandResult addDevices(MissionCommand.AddDevices add) throws RejectedException {
-        MissionStatus status = tables.statuses().get(add.mission());
-        if (status == null) {
-            throw unknown(add.mission());
-        }
-        if (status.state().isActive()) {
-            throw new RejectedException(
-                    ErrorCode.MISSION_RUNNING,
-                    "mission '%s' is %s; stop it before devices are added"
-                            .formatted(add.mission(), status.state().code()));
-        }
+        MissionStatus status = existing(add.mission());
+        requireIdle(status, "; stop it before devices are added");
         Mission mission = lists.append(tables.missions().get(add.mission()), add.devices());
         store(mission);
         return CommandResult.of("changed").with("mission", mission.mission()).with("devices", mission.deviceCount());
     }
 
     private CommandResult stop(MissionCommand.Stop stop, long now) throws RejectedException {
-        MissionStatus status = tables.statuses().get(stop.mission());
-        if (status == null) {
-            throw unknown(stop.mission());
-        }
+        MissionStatus status = existing(stop.mission());
         boolean scheduled = status.state() == MissionState.CREATED && status.due() != null;
         boolean runs = status.state() == MissionState.STARTING || status.state() == MissionState.RUNNING;
         if (!scheduled && !runs) {
@@ -162,26 +148,14 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
     }
 
     private List<String> missions(Predicate<MissionStatus> which) {
-        List<String> missions = new ArrayList<>();
-        tables.statuses().forEach(status -> {
-            if (which.test(status)) {
-                missions.add(status.mission());
-            }
-        });
-        return missions;
+        return tables.statuses().where(which).stream()
+                .map(MissionStatus::mission)
+                .toList();
     }
 
     private CommandResult delete(MissionCommand.Delete delete) throws RejectedException {
-        MissionStatus status = tables.statuses().get(delete.mission());
-        if (status == null) {
-            throw unknown(delete.mission());
-        }
-        if (status.state().isActive()) {
-            throw new RejectedException(
-                    ErrorCode.MISSION_RUNNING,
-                    "mission '%s' is %s; stop it first"
-                            .formatted(delete.mission(), status.state().code()));
-        }
+        MissionStatus status = existing(delete.mission());
+        requireIdle(status, "; stop it first");
         remove(delete.mission());
         return CommandResult.of("deleted").with("mission", delete.mission());
     }
@@ -276,9 +250,9 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
     /** The next devices of each mission of which some are still to be written. */
     @Override
     public List<Runnable> pending(long now) {
-        List<Runnable> steps = new ArrayList<>();
-        tables.pending().forEach(pending -> steps.add(() -> advance(pending, now)));
-        return steps;
+        return tables.pending().all().stream()
+                .<Runnable>map(pending -> () -> advance(pending, now))
+                .toList();
     }
 
     /** The time for coming up or going counts from the last device on. */
@@ -343,7 +317,20 @@ final class MissionCommandHandler implements CommandHandler<MissionCommand>, Dom
                 .with("mission_topic", Topics.realtime(mission.domain(), mission.mission()));
     }
 
-    private static RejectedException unknown(String mission) {
-        return new RejectedException(ErrorCode.UNKNOWN_MISSION, "there is no mission '" + mission + "'");
+    private MissionStatus existing(String mission) throws RejectedException {
+        MissionStatus status = tables.statuses().get(mission);
+        if (status == null) {
+            throw new RejectedException(ErrorCode.UNKNOWN_MISSION, "there is no mission '" + mission + "'");
+        }
+        return status;
+    }
+
+    private static void requireIdle(MissionStatus status, String otherwise) throws RejectedException {
+        if (status.state().isActive()) {
+            throw new RejectedException(
+                    ErrorCode.MISSION_RUNNING,
+                    "mission '%s' is %s%s"
+                            .formatted(status.mission(), status.state().code(), otherwise));
+        }
     }
 }

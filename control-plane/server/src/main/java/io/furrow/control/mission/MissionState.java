@@ -2,7 +2,6 @@ package io.furrow.control.mission;
 
 import java.util.Locale;
 
-import com.fasterxml.jackson.annotation.JsonCreator;
 import com.fasterxml.jackson.annotation.JsonValue;
 
 /** Where a mission is in its life. */
@@ -38,10 +37,5 @@ public enum MissionState {
     @JsonValue
     public String code() {
         return name().toLowerCase(Locale.ROOT);
-    }
-
-    @JsonCreator
-    static MissionState of(String code) {
-        return valueOf(code.toUpperCase(Locale.ROOT));
     }
 }

@@ -14,15 +14,17 @@ import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
-/** The templates, version by version. A version never changes, and its number is never given again. */
-final class TemplateStore {
+/**
+ * The templates, version by version. A version never changes, and its number is never given again.
+ *
+ * @param templates by {@link MissionTemplate#key()}
+ * @param versions by name
+ * @param quota room for all definitions
+ */
+record TemplateStore(
+        Table<MissionTemplate> templates, Table<Versions> versions, Quota quota, EventPublisher publisher) {
     /** The mission of the thesis: one moving camera, three thermometers and one robot. */
     static final String DEMO = "thesis-demo";
-
-    private final Table<MissionTemplate> templates;
-    private final Table<Versions> versions;
-    private final Quota quota;
-    private final EventPublisher publisher;
 
     /**
      * What there is of a template.
@@ -31,18 +33,6 @@ final class TemplateStore {
      * @param kept those that were not deleted, ascending
      */
     record Versions(int last, List<Integer> kept) {}
-
-    /**
-     * @param templates by {@link MissionTemplate#key()}
-     * @param versions by name
-     * @param quota room for all definitions
-     */
-    TemplateStore(Table<MissionTemplate> templates, Table<Versions> versions, Quota quota, EventPublisher publisher) {
-        this.templates = templates;
-        this.versions = versions;
-        this.quota = quota;
-        this.publisher = publisher;
-    }
 
     /** Puts {@link #DEMO} there where it never was. */
     void installBuiltIn() {

@@ -16,13 +16,11 @@ import java.util.Properties;
 import java.util.TreeMap;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.Producer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 
 import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.control.Fault;
 import io.furrow.model.ngsi.NgsiJson;
@@ -69,10 +67,7 @@ public final class ConnectorWatch implements AutoCloseable {
      * @param client settings of Kafka clients
      */
     public static ConnectorWatch start(URI connect, Properties client) {
-        ConnectorWatch watch = new ConnectorWatch(
-                connect,
-                new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer()),
-                Clock.systemUTC());
+        ConnectorWatch watch = new ConnectorWatch(connect, KafkaClients.producer(client), Clock.systemUTC());
         watch.worker.start(watch::watch, () -> "");
         return watch;
     }

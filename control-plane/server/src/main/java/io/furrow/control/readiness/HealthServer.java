@@ -24,6 +24,7 @@ import io.furrow.http.AccessRule;
 import io.furrow.http.AllowedNames;
 import io.furrow.http.OptionNames;
 import io.furrow.http.jetty.AccessHandler;
+import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
 
@@ -35,7 +36,6 @@ import io.furrow.model.text.FailureText;
 public final class HealthServer implements AutoCloseable {
     private static final int THREADS = 6;
     private static final long IDLE_TIMEOUT_MS = 10_000;
-    private static final OptionNames OPTIONS = new OptionNames("--allowed-hosts", "--allowed-origins");
 
     private final Server server;
     private final ServerConnector connector;
@@ -55,7 +55,8 @@ public final class HealthServer implements AutoCloseable {
         connector.setPort(port);
         connector.setIdleTimeout(IDLE_TIMEOUT_MS);
         server.addConnector(connector);
-        AccessRule rule = AccessRule.allowing(allowed, OPTIONS).servedAs(host).withProbes("/health", "/ready");
+        AccessRule rule =
+                AccessRule.allowing(allowed, OptionNames.FLAGS).servedAs(host).withProbes("/health", "/ready");
         server.setHandler(new AccessHandler(
                 rule, refused -> NgsiJson.write(error(refused.error(), refused.reason())), new Answering(pages)));
     }

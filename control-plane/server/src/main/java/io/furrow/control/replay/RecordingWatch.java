@@ -6,16 +6,14 @@ import java.util.List;
 import java.util.Optional;
 import java.util.Properties;
 
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.Producer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.SupervisedWorker;
 import io.furrow.mission.mongo.MissionCatalog;
 import io.furrow.mission.mongo.MongoAccess;
@@ -67,8 +65,7 @@ public final class RecordingWatch implements AutoCloseable {
         RecordingList list = new RecordingList();
         try (MissionCatalog catalog = MissionCatalog.open(settings.mongo(), settings.database());
                 CommittedReader<String> topic = CommittedReader.open(client, Topics.RECORDINGS);
-                Producer<String, byte[]> producer =
-                        new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
+                Producer<String, byte[]> producer = KafkaClients.producer(client)) {
             boolean unavailable = false;
             while (!running.isClosing()) {
                 // before the names are asked for, which are newer then

@@ -6,7 +6,6 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Objects;
 import java.util.UUID;
-import java.util.concurrent.atomic.AtomicInteger;
 import java.util.function.Supplier;
 
 import io.furrow.control.manager.CommandHandler;
@@ -97,13 +96,12 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
 
     /** Each replay that is not over takes a topic, and of its job heap and connections. */
     private void requireRoom(int further) throws RejectedException {
-        AtomicInteger playing = new AtomicInteger();
-        replays.forEach(each -> playing.addAndGet(reports.state(each).isOver() ? 0 : 1));
-        if (playing.get() + further > settings.max()) {
+        int playing = replays.where(each -> !reports.state(each).isOver()).size();
+        if (playing + further > settings.max()) {
             throw new RejectedException(
                     ErrorCode.QUOTA_EXCEEDED,
                     "%s not over, of at most %d (--max-replays); stop one that is not needed any more"
-                            .formatted(Counts.are(playing.get(), "replay"), settings.max()));
+                            .formatted(Counts.are(playing, "replay"), settings.max()));
         }
     }
 
@@ -201,13 +199,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     }
 
     private List<DesiredReplay> members(String group) {
-        List<DesiredReplay> members = new ArrayList<>();
-        replays.forEach(each -> {
-            if (group.equals(each.group())) {
-                members.add(each);
-            }
-        });
-        return members;
+        return replays.where(each -> group.equals(each.group()));
     }
 
     private static CommandResult about(CommandResult answer, String group, List<DesiredReplay> members) {

@@ -11,16 +11,8 @@ import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 /** Gives new replays names and topics that no wanted replay has. */
-final class ReplayNames {
+record ReplayNames(Table<DesiredReplay> replays, Supplier<UUID> ids) {
     private static final int ID_DIGITS = 8;
-
-    private final Table<DesiredReplay> replays;
-    private final Supplier<UUID> ids;
-
-    ReplayNames(Table<DesiredReplay> replays, Supplier<UUID> ids) {
-        this.replays = replays;
-        this.ids = ids;
-    }
 
     /** Eight digits that no replay of the missions, no topic of them and no group has. */
     String newId(List<String> missions) {
@@ -32,12 +24,11 @@ final class ReplayNames {
     }
 
     private boolean isTaken(List<String> missions, String id) {
-        boolean[] taken = new boolean[1];
-        replays.forEach(each -> taken[0] |= id.equals(each.group())
-                || missions.stream()
-                        .anyMatch(mission -> each.replay().equals(mission + "." + id)
-                                || each.topic().equals(Topics.replay(mission, id))));
-        return taken[0];
+        return replays.all().stream()
+                .anyMatch(each -> id.equals(each.group())
+                        || missions.stream()
+                                .anyMatch(mission -> each.replay().equals(mission + "." + id)
+                                        || each.topic().equals(Topics.replay(mission, id))));
     }
 
     /** @throws RejectedException where another replay has the name or the topic of a new one */
@@ -48,13 +39,12 @@ final class ReplayNames {
                     "there is a replay '%s' already; choose a topic of other digits, or stop it first"
                             .formatted(fresh.replay()));
         }
-        DesiredReplay[] owner = new DesiredReplay[1];
-        replays.forEach(each -> owner[0] = each.topic().equals(fresh.topic()) ? each : owner[0]);
-        if (owner[0] != null) {
+        List<DesiredReplay> owners = replays.where(each -> each.topic().equals(fresh.topic()));
+        if (!owners.isEmpty()) {
             throw new RejectedException(
                     ErrorCode.REPLAY_EXISTS,
                     "replay '%s' is played on topic '%s'; choose another topic, or stop it first"
-                            .formatted(owner[0].replay(), fresh.topic()));
+                            .formatted(owners.get(0).replay(), fresh.topic()));
         }
     }
 }

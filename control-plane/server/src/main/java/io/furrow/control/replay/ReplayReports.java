@@ -1,6 +1,5 @@
 package io.furrow.control.replay;
 
-import java.util.ArrayList;
 import java.util.List;
 
 import io.furrow.control.manager.Table;
@@ -12,13 +11,7 @@ import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;
 
 /** The actual state of desired replays, as reported, and what of a command fits it. */
-final class ReplayReports {
-    private final Table<ReportedReplay> reports;
-
-    ReplayReports(Table<ReportedReplay> reports) {
-        this.reports = reports;
-    }
-
+record ReplayReports(Table<ReportedReplay> reports) {
     /** Stores what is different from the report before. @param now epoch ms */
     void take(String replay, ReplayStatus report, long now) {
         ReportedReplay before = reports.get(replay);
@@ -53,13 +46,9 @@ final class ReplayReports {
 
     /** Names of those that had come to their ends by a moment. @param moment epoch ms */
     List<String> endedBy(long moment) {
-        List<String> names = new ArrayList<>();
-        reports.forEach(each -> {
-            if (each.ended() != null && each.ended() <= moment) {
-                names.add(each.replay());
-            }
-        });
-        return names;
+        return reports.where(each -> each.ended() != null && each.ended() <= moment).stream()
+                .map(ReportedReplay::replay)
+                .toList();
     }
 
     /** @throws RejectedException where a command cannot change what is in this state */

@@ -13,21 +13,19 @@ import java.util.stream.Stream;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.ListOffsetsResult.ListOffsetsResultInfo;
 import org.apache.kafka.clients.admin.OffsetSpec;
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.Producer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.KafkaFuture;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.CommittedReader.RecordAction;
 import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
@@ -89,8 +87,7 @@ public final class TopicCleanup implements AutoCloseable {
         try (Admin admin = Admin.create(client);
                 CommittedReader<String> topics = CommittedReader.open(
                         client, Topics.REPLAYS, Topics.REPLAYS_STATUS, Topics.MISSIONS, Topics.DOMAINS);
-                Producer<String, byte[]> producer =
-                        new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
+                Producer<String, byte[]> producer = KafkaClients.producer(client)) {
             while (!running.isClosing()) {
                 topics.readToEnd(taking);
                 for (FinishedReplays.Remains due : remains.overBy(clock.millis() - grace.toMillis())) {

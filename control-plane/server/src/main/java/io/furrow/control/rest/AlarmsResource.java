@@ -25,7 +25,6 @@ import jakarta.ws.rs.core.Response;
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.alarm.Severity;
 import io.furrow.control.rest.access.ProblemException;
-import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
@@ -43,11 +42,11 @@ public final class AlarmsResource {
             .thenComparing(alarm -> alarm.path("raised").asLong(), Comparator.reverseOrder());
 
     private final StateView view;
-    private final CommandClient managers;
+    private final Manager manager;
 
     AlarmsResource(StateView view, CommandClient managers) {
         this.view = view;
-        this.managers = managers;
+        this.manager = new Manager(managers, Topics.ALARM_MANAGER);
     }
 
     /**
@@ -111,7 +110,7 @@ public final class AlarmsResource {
             @PathParam("command") String command,
             InputStream body)
             throws IOException {
-        return request(command, JsonBodyReader.read(body).put("alarm", alarm), request);
+        return manager.command(request, command, JsonBodyReader.read(body).put("alarm", alarm));
     }
 
     /** Alarms by {@code kind} and {@code subject}, those to come too. */
@@ -120,13 +119,6 @@ public final class AlarmsResource {
     public CompletionStage<Response> commandKind(
             @Context ContainerRequestContext request, @PathParam("command") String command, InputStream body)
             throws IOException {
-        return request(command, JsonBodyReader.read(body), request);
-    }
-
-    private CompletionStage<Response> request(String command, ObjectNode members, ContainerRequestContext request) {
-        CommandClient.CommandRequest question =
-                new CommandClient.CommandRequest(Topics.ALARM_MANAGER, command, members);
-        return managers.request(question, RequestContext.of(request))
-                .thenApply(answer -> JsonResponses.of(answer, 200));
+        return manager.command(request, command, JsonBodyReader.read(body));
     }
 }

@@ -10,8 +10,8 @@ import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.rest.access.ApiToken;
 import io.furrow.control.rest.access.RequestContext;
-import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.access.TokenFilter;
+import io.furrow.model.control.Role;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code /api/me}. */

@@ -33,12 +33,13 @@ import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.device.RejectedCommandException;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.RequestContext;
-import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.DeviceName;
 import io.furrow.control.rest.view.DeviceView;
 import io.furrow.control.rest.view.StateView;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Role;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
@@ -100,8 +101,7 @@ public final class DevicesResource {
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
     public Response credentials(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
-        DesiredDevice device = provisioned(name);
-        audit(RequestContext.user(request), "credentials", about(name), null);
+        DesiredDevice device = audited(request, name);
         return secret(dependencies.credentials().of(device));
     }
 
@@ -111,8 +111,7 @@ public final class DevicesResource {
     @Path("{device}/credentials")
     @Produces(CSV)
     public Response credentialsAsCsv(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
-        DesiredDevice device = provisioned(name);
-        audit(RequestContext.user(request), "credentials", about(name), null);
+        DesiredDevice device = audited(request, name);
         return csv(List.of(dependencies.credentials().of(device)));
     }
 
@@ -122,8 +121,7 @@ public final class DevicesResource {
     @Path("{device}/credentials/qr")
     @Produces("image/svg+xml")
     public Response qr(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
-        DesiredDevice device = provisioned(name);
-        audit(RequestContext.user(request), "credentials", about(name), null);
+        DesiredDevice device = audited(request, name);
         return Response.ok(dependencies.credentials().qr(device))
                 .header("Cache-Control", "no-store")
                 .build();
@@ -135,11 +133,10 @@ public final class DevicesResource {
     @Path("{device}/credentials")
     public CompletionStage<Response> rotate(@Context ContainerRequestContext request, @BeanParam DeviceName name) {
         DesiredDevice device = provisioned(name);
-        return managers.request(
-                        new CommandClient.CommandRequest(Topics.MISSION_MANAGER, "rotate-credentials", about(name)),
-                        RequestContext.of(request))
+        return new Manager(managers, Topics.MISSION_MANAGER)
+                .request(request, "rotate-credentials", about(name))
                 .thenApply(answer -> answer.error().isPresent()
-                        ? JsonResponses.of(answer, 0)
+                        ? JsonResponses.of(answer)
                         : secret(dependencies
                                 .credentials()
                                 .of(device.withGeneration(
@@ -177,6 +174,13 @@ public final class DevicesResource {
                             .formatted(name.id()));
         }
         requireSecret(dependencies.credentials());
+        return device;
+    }
+
+    /** As {@link #provisioned}, and that its credentials are shown is audited. */
+    private DesiredDevice audited(ContainerRequestContext request, DeviceName name) {
+        DesiredDevice device = provisioned(name);
+        audit(RequestContext.user(request), "credentials", about(name), null);
         return device;
     }
 
@@ -225,7 +229,7 @@ public final class DevicesResource {
     private Response answer(Throwable failure, Commanded commanded) {
         if (failure == null) {
             audit(commanded.user(), commanded.command(), commanded.about(), null);
-            ObjectNode answer = io.furrow.model.control.CommandResult.of("sent").json();
+            ObjectNode answer = CommandResult.of("sent").json();
             return JsonResponses.json(
                             202, answer.put(DEVICE, commanded.device()).put("command", commanded.command()))
                     .build();

@@ -22,11 +22,10 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.rest.access.ProblemException;
-import io.furrow.control.rest.access.RequestContext;
-import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Role;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/domains}. */
@@ -37,11 +36,11 @@ public final class DomainsResource {
     private static final String DOMAIN = "domain";
 
     private final StateView view;
-    private final CommandClient managers;
+    private final Manager manager;
 
     DomainsResource(StateView view, CommandClient managers) {
         this.view = view;
-        this.managers = managers;
+        this.manager = new Manager(managers, Topics.DOMAIN_MANAGER);
     }
 
     @GET
@@ -52,7 +51,7 @@ public final class DomainsResource {
     @POST
     public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return request("create", JsonBodyReader.read(body), request)
+        return manager.request(request, "create", JsonBodyReader.read(body))
                 .thenApply(answer -> JsonResponses.created(answer, "/api/domains", DOMAIN));
     }
 
@@ -69,8 +68,7 @@ public final class DomainsResource {
     public CompletionStage<Response> change(
             @Context ContainerRequestContext request, @PathParam(DOMAIN) String domain, InputStream body)
             throws IOException {
-        return request("change", JsonBodyReader.read(body).put(DOMAIN, domain), request)
-                .thenApply(answer -> JsonResponses.of(answer, 200));
+        return manager.command(request, "change", JsonBodyReader.read(body).put(DOMAIN, domain));
     }
 
     /** @param force whether missions that run in it are stopped */
@@ -82,13 +80,6 @@ public final class DomainsResource {
             @PathParam(DOMAIN) String domain,
             @QueryParam("force") boolean force) {
         ObjectNode members = JsonNodeFactory.instance.objectNode();
-        return request("delete", members.put(DOMAIN, domain).put("force", force), request)
-                .thenApply(answer -> JsonResponses.of(answer, 200));
-    }
-
-    private CompletionStage<io.furrow.model.control.CommandResult> request(
-            String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.request(
-                new CommandClient.CommandRequest(Topics.DOMAIN_MANAGER, command, members), RequestContext.of(request));
+        return manager.command(request, "delete", members.put(DOMAIN, domain).put("force", force));
     }
 }

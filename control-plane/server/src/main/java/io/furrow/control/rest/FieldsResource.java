@@ -33,7 +33,6 @@ import jakarta.ws.rs.core.Response;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.RequestContext;
-import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.kafka.field.FieldChange;
 import io.furrow.kafka.field.FieldEdit;
@@ -42,6 +41,7 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.JsonObjectReader;
 import io.furrow.model.control.RejectedException;
+import io.furrow.model.control.Role;
 import io.furrow.model.field.FieldFile;
 import io.furrow.model.field.FieldReader;
 import io.furrow.model.field.FieldVersion;
@@ -161,9 +161,10 @@ public final class FieldsResource {
             });
         }
         return edit(RequestContext.of(request), "rename-field", about, () -> {
-            if (members.size() != 1 || members.path(NAME).asText("").isBlank()) {
-                throw JsonObjectReader.wrong("body", "either {\"name\": a text} or {\"validTo\": a time}");
-            }
+            JsonObjectReader.refuseIf(
+                    members.size() != 1 || members.path(NAME).asText("").isBlank(),
+                    "body",
+                    "either {\"name\": a text} or {\"validTo\": a time}");
             JsonObjectReader.checkReadable(members);
             String name = new JsonObjectReader(members).text(NAME);
             about.put(NAME, name);

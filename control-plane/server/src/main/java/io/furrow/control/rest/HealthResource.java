@@ -11,7 +11,8 @@ import jakarta.ws.rs.Produces;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
-import io.furrow.control.readiness.Readiness;
+import io.furrow.http.prometheus.MetricsPage;
+import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** What reports the API itself, without a token: its description, whether it is ready, its numbers. */
@@ -62,6 +63,6 @@ public final class HealthResource {
     @Path("metrics")
     @Produces(MediaType.TEXT_PLAIN)
     public Response metrics() {
-        return Response.ok(metrics.page(), RestMetrics.CONTENT_TYPE).build();
+        return Response.ok(metrics.page(), MetricsPage.CONTENT_TYPE).build();
     }
 }

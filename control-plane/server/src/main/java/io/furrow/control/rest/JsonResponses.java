@@ -11,6 +11,7 @@ import jakarta.ws.rs.core.Response;
 import jakarta.ws.rs.core.UriBuilder;
 
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Answers in JSON. */
@@ -31,17 +32,17 @@ final class JsonResponses {
         return Response.status(status).type(MediaType.APPLICATION_JSON_TYPE).entity(NgsiJson.write(json));
     }
 
-    /** What a manager answered. @param success the status in HTTP of what is not an error */
-    static Response of(io.furrow.model.control.CommandResult answer, int success) {
+    /** What a manager answered. */
+    static Response of(CommandResult answer) {
         return answer.error()
                 .map(error -> ProblemException.response(error, answer.json()))
-                .orElseGet(() -> json(success, answer.json()).build());
+                .orElseGet(() -> json(200, answer.json()).build());
     }
 
     /** What a manager answered, and where that is now. @param path before the name @param member with the name */
-    static Response created(io.furrow.model.control.CommandResult answer, String path, String member) {
+    static Response created(CommandResult answer, String path, String member) {
         if (answer.error().isPresent()) {
-            return of(answer, 0);
+            return of(answer);
         }
         URI location = UriBuilder.fromPath(path)
                 .segment(answer.json().path(member).asText())

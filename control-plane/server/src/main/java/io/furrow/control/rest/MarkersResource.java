@@ -34,6 +34,7 @@ import io.furrow.mission.RecordingException;
 import io.furrow.mission.marker.Marker;
 import io.furrow.mission.marker.Markers;
 import io.furrow.mission.marker.RejectedMarkerException;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 
 /** {@code /api/missions/{mission}/markers}: moments of a mission with a note, kept with what is stored of it. */
@@ -111,7 +112,7 @@ public final class MarkersResource {
                 })
                 .handle((removed, failure) -> {
                     audit(change, "deleted", failure);
-                    return JsonResponses.ok(io.furrow.model.control.CommandResult.of("deleted")
+                    return JsonResponses.ok(CommandResult.of("deleted")
                             .with(MISSION, mission)
                             .with(MARKER, id)
                             .json());
@@ -135,7 +136,7 @@ public final class MarkersResource {
                 MARKER,
                 change.command(),
                 about,
-                failure == null ? result : io.furrow.model.control.CommandResult.ERROR,
+                failure == null ? result : CommandResult.ERROR,
                 failure == null ? null : problem == null ? "internal-error" : problem.error(),
                 failure == null ? null : cause.getMessage(),
                 change.caller().requestId()));

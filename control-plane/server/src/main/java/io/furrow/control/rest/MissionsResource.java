@@ -26,11 +26,11 @@ import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.rest.access.ProblemException;
 import io.furrow.control.rest.access.RequestContext;
-import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.DeviceView;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Role;
 import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.topic.Topics;
 
@@ -44,12 +44,14 @@ public final class MissionsResource {
 
     private final StateView view;
     private final CommandClient managers;
+    private final Manager manager;
     private final DeviceCredentials credentials;
 
     /** @param credentials null if none are given out */
     MissionsResource(StateView view, CommandClient managers, DeviceCredentials credentials) {
         this.view = view;
         this.managers = managers;
+        this.manager = new Manager(managers, Topics.MISSION_MANAGER);
         this.credentials = credentials;
     }
 
@@ -65,7 +67,7 @@ public final class MissionsResource {
     @POST
     public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return request("create", JsonBodyReader.read(body), request)
+        return manager.request(request, "create", JsonBodyReader.read(body))
                 .thenApply(answer -> JsonResponses.created(answer, "/api/missions", MISSION));
     }
 
@@ -113,15 +115,14 @@ public final class MissionsResource {
     public CompletionStage<Response> addDevices(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
-        return request("add-devices", JsonBodyReader.read(body).put(MISSION, mission), request)
-                .thenApply(answer -> JsonResponses.of(answer, 200));
+        return manager.command(request, "add-devices", JsonBodyReader.read(body).put(MISSION, mission));
     }
 
     @DELETE
     @Path("{mission}")
     public CompletionStage<Response> delete(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
-        return request("delete", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return manager.command(request, "delete", named(mission));
     }
 
     /** Makes it if there is none. */
@@ -130,15 +131,14 @@ public final class MissionsResource {
     public CompletionStage<Response> start(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
-        return request("start", JsonBodyReader.read(body).put(MISSION, mission), request)
-                .thenApply(answer -> JsonResponses.of(answer, 200));
+        return manager.command(request, "start", JsonBodyReader.read(body).put(MISSION, mission));
     }
 
     @POST
     @Path("{mission}/stop")
     public CompletionStage<Response> stop(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
-        return request("stop", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return manager.command(request, "stop", named(mission));
     }
 
     /** The mission as it is requested, and how far it is. */
@@ -164,11 +164,5 @@ public final class MissionsResource {
 
     private static ObjectNode named(String mission) {
         return JsonNodeFactory.instance.objectNode().put(MISSION, mission);
-    }
-
-    private CompletionStage<io.furrow.model.control.CommandResult> request(
-            String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.request(
-                new CommandClient.CommandRequest(Topics.MISSION_MANAGER, command, members), RequestContext.of(request));
     }
 }

@@ -18,7 +18,6 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
-import io.furrow.control.rest.access.RequestContext;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.ReplayStatusView;
 import io.furrow.model.topic.Topics;
@@ -33,11 +32,11 @@ public final class ReplaysResource {
     private static final String COMMANDS = "/{command: pause|resume|seek|speed|step|loop}";
 
     private final ReplayStatusView replays;
-    private final CommandClient managers;
+    private final Manager manager;
 
     ReplaysResource(ReplayStatusView replays, CommandClient managers) {
         this.replays = replays;
-        this.managers = managers;
+        this.manager = new Manager(managers, Topics.REPLAY_MANAGER);
     }
 
     @GET
@@ -48,7 +47,7 @@ public final class ReplaysResource {
     @POST
     public CompletionStage<Response> start(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return request("start", JsonBodyReader.read(body), request)
+        return manager.request(request, "start", JsonBodyReader.read(body))
                 .thenApply(answer -> answer.json().has(GROUP)
                         ? JsonResponses.created(answer, "/api/replays/groups", GROUP)
                         : JsonResponses.created(answer, "/api/replays", REPLAY));
@@ -63,7 +62,7 @@ public final class ReplaysResource {
     @DELETE
     @Path("{replay}")
     public CompletionStage<Response> stop(@Context ContainerRequestContext request, @PathParam(REPLAY) String replay) {
-        return steer("stop", none().put(REPLAY, replay), request);
+        return manager.command(request, "stop", none().put(REPLAY, replay));
     }
 
     /**
@@ -78,7 +77,7 @@ public final class ReplaysResource {
             @PathParam("command") String command,
             InputStream body)
             throws IOException {
-        return steer(command, JsonBodyReader.read(body).put(REPLAY, replay), request);
+        return manager.command(request, command, JsonBodyReader.read(body).put(REPLAY, replay));
     }
 
     @GET
@@ -91,7 +90,7 @@ public final class ReplaysResource {
     @Path("groups/{group}")
     public CompletionStage<Response> stopGroup(
             @Context ContainerRequestContext request, @PathParam(GROUP) String group) {
-        return steer("stop", none().put(GROUP, group), request);
+        return manager.command(request, "stop", none().put(GROUP, group));
     }
 
     /** @param command as of a single replay, but no {@code step} */
@@ -103,20 +102,10 @@ public final class ReplaysResource {
             @PathParam("command") String command,
             InputStream body)
             throws IOException {
-        return steer(command, JsonBodyReader.read(body).put(GROUP, group), request);
-    }
-
-    private CompletionStage<Response> steer(String command, ObjectNode members, ContainerRequestContext request) {
-        return request(command, members, request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return manager.command(request, command, JsonBodyReader.read(body).put(GROUP, group));
     }
 
     private static ObjectNode none() {
         return JsonNodeFactory.instance.objectNode();
-    }
-
-    private CompletionStage<io.furrow.model.control.CommandResult> request(
-            String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.request(
-                new CommandClient.CommandRequest(Topics.REPLAY_MANAGER, command, members), RequestContext.of(request));
     }
 }

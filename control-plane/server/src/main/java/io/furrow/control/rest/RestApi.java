@@ -32,7 +32,6 @@ import io.furrow.control.ControlSettings;
 import io.furrow.control.ServiceTopics;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
-import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.access.FileWarnings;
 import io.furrow.control.rest.access.RoleFilter;
 import io.furrow.control.rest.access.TlsListener;
@@ -45,6 +44,11 @@ import io.furrow.control.rest.view.ReplayFeeds;
 import io.furrow.control.rest.view.ReplayStatusView;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.control.rest.view.StateViewUpdater;
+import io.furrow.http.AccessRule;
+import io.furrow.http.OptionNames;
+import io.furrow.http.jetty.AccessHandler;
+import io.furrow.kafka.Readiness;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.field.FieldReader;
 import io.furrow.model.text.FailureText;
 
@@ -197,7 +201,15 @@ public final class RestApi implements AutoCloseable {
         context.addServlet(servlet, "/*");
         context.setErrorHandler(RestApi::refuse);
         server.setErrorHandler(RestApi::refuse);
-        server.setHandler(ApiAccess.guard(rest, context));
+        AccessRule rule = AccessRule.allowing(rest.allowed(), OptionNames.FLAGS)
+                .servedAs(rest.host())
+                .withProbes("/health", "/ready");
+        // Tokens are no exemption: a page may know one that its reader typed.
+        server.setHandler(new AccessHandler(
+                rule,
+                refused ->
+                        CommandResult.ofError(refused.error(), refused.reason()).toBytes(),
+                context));
         try {
             server.start();
         } catch (Exception e) { // Jetty declares no narrower type
@@ -214,10 +226,10 @@ public final class RestApi implements AutoCloseable {
     /** What comes no further than to the HTTP server, as a path that has two readings. */
     private static boolean refuse(Request request, Response response, Callback callback) {
         String reason = HttpStatus.getMessage(response.getStatus());
-        byte[] json = ApiAccess.problem(
+        CommandResult refusal = CommandResult.ofError(
                 reason.toLowerCase(Locale.ROOT).replace(' ', '-'), "the HTTP server refuses the request: " + reason);
         response.getHeaders().put(HttpHeader.CONTENT_TYPE, MediaType.APPLICATION_JSON);
-        response.write(true, ByteBuffer.wrap(json), callback);
+        response.write(true, ByteBuffer.wrap(refusal.toBytes()), callback);
         return true;
     }
 

@@ -40,6 +40,8 @@ public record RestSettings(
         SecretSource secret,
         URI mqtt,
         AllowedNames allowed) {
+    private static final Duration TIMEOUT = Duration.ofSeconds(15);
+
     public RestSettings {
         Objects.requireNonNull(host);
         Objects.requireNonNull(timeout);
@@ -49,17 +51,7 @@ public record RestSettings(
     /** On 127.0.0.1, over plain HTTP, without tokens, commands to devices and credentials. */
     public static RestSettings on(int port) {
         return new RestSettings(
-                "127.0.0.1",
-                port,
-                Duration.ofSeconds(15),
-                null,
-                null,
-                false,
-                null,
-                AccessToken.NONE,
-                null,
-                null,
-                AllowedNames.NONE);
+                "127.0.0.1", port, TIMEOUT, null, null, false, null, AccessToken.NONE, null, null, AllowedNames.NONE);
     }
 
     public RestSettings withHost(String newHost) {

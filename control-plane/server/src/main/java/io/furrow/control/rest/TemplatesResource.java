@@ -24,11 +24,10 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.rest.access.ProblemException;
-import io.furrow.control.rest.access.RequestContext;
-import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Role;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/templates}; what it gives of one can be given to it again. */
@@ -41,11 +40,11 @@ public final class TemplatesResource {
     private static final Pattern NAME = Pattern.compile("([^@]+)(?:@([1-9][0-9]{0,8}))?");
 
     private final StateView view;
-    private final CommandClient managers;
+    private final Manager manager;
 
     TemplatesResource(StateView view, CommandClient managers) {
         this.view = view;
-        this.managers = managers;
+        this.manager = new Manager(managers, Topics.MISSION_MANAGER);
     }
 
     /** All versions. */
@@ -58,7 +57,7 @@ public final class TemplatesResource {
     @POST
     public CompletionStage<Response> save(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
-        return request("save-template", JsonBodyReader.read(body), request)
+        return manager.request(request, "save-template", JsonBodyReader.read(body))
                 .thenApply(answer -> JsonResponses.created(answer, "/api/templates", TEMPLATE));
     }
 
@@ -88,16 +87,10 @@ public final class TemplatesResource {
         if (parts.group(2) != null) {
             members.put(VERSION, Integer.parseInt(parts.group(2)));
         }
-        return request("delete-template", members, request).thenApply(answer -> JsonResponses.of(answer, 200));
+        return manager.command(request, "delete-template", members);
     }
 
     private static ProblemException unknown(String name) {
         return new ProblemException(ErrorCode.UNKNOWN_TEMPLATE, "there is no template '%s'".formatted(name));
-    }
-
-    private CompletionStage<io.furrow.model.control.CommandResult> request(
-            String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.request(
-                new CommandClient.CommandRequest(Topics.MISSION_MANAGER, command, members), RequestContext.of(request));
     }
 }

@@ -19,6 +19,8 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.Probe;
+import io.furrow.kafka.Readiness;
 import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.control.Fault;
 import io.furrow.model.topic.Topics;

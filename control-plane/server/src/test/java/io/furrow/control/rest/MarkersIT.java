@@ -12,9 +12,9 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.control.readiness.Readiness;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.kafka.Readiness;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;

@@ -17,9 +17,9 @@ import org.glassfish.jersey.server.model.Resource;
 import org.glassfish.jersey.server.model.ResourceMethod;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.access.RoleFilter;
 import io.furrow.model.control.AdminCommands;
+import io.furrow.model.control.Role;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -24,11 +24,11 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.readiness.HealthServer;
-import io.furrow.control.readiness.Probe;
-import io.furrow.control.readiness.Readiness;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
 import io.furrow.http.AllowedNames;
+import io.furrow.kafka.Probe;
+import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -10,7 +10,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.control.readiness.Readiness;
+import io.furrow.kafka.Readiness;
 import io.furrow.model.control.Limits;
 
 import static org.assertj.core.api.Assertions.assertThat;

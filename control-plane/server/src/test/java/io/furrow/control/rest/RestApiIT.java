@@ -17,8 +17,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.control.readiness.Readiness;
 import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.Readiness;
 import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceConnection.UnreadablePayload;

@@ -21,9 +21,9 @@ import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.FarmWatch;
 import io.furrow.control.WatchOptions;
-import io.furrow.control.readiness.Readiness;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
+import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 

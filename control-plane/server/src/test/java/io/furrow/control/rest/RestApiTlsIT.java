@@ -32,10 +32,10 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.control.ControlSettings;
-import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.access.CertificateFiles;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.SelfSignedCertificate;
+import io.furrow.kafka.Readiness;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;

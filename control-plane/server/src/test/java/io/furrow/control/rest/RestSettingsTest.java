@@ -7,8 +7,8 @@ import java.time.Clock;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.ControlSettings;
-import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.access.CertificateFiles;
+import io.furrow.kafka.Readiness;
 
 import static org.assertj.core.api.Assertions.assertThatCode;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;

@@ -23,9 +23,9 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
-import io.furrow.control.readiness.Readiness;
-import io.furrow.control.rest.access.Role;
+import io.furrow.kafka.Readiness;
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.control.Role;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;

@@ -14,9 +14,9 @@ import org.apache.kafka.common.serialization.StringSerializer;
 
 import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlSettings;
-import io.furrow.control.readiness.Readiness;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.fields.FieldFiles;
+import io.furrow.kafka.Readiness;
 import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.FarmSecret;
 

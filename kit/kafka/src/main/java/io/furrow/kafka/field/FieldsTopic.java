@@ -25,10 +25,9 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.clients.producer.RecordMetadata;
 import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.errors.TopicExistsException;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 
 import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.field.FieldArea;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.UnreadableException;
@@ -135,8 +134,7 @@ public final class FieldsTopic {
         properties.setProperty("max.in.flight.requests.per.connection", "1"); // the topic may have just been created
         properties.setProperty("delivery.timeout.ms", "30000");
         properties.setProperty("max.block.ms", Long.toString(TIMEOUT.toMillis()));
-        try (KafkaProducer<String, byte[]> producer =
-                new KafkaProducer<>(properties, new StringSerializer(), new ByteArraySerializer())) {
+        try (KafkaProducer<String, byte[]> producer = KafkaClients.producer(properties)) {
             List<Future<RecordMetadata>> sent = new ArrayList<>();
             records.forEach((key, value) -> sent.add(producer.send(new ProducerRecord<>(Topics.FIELDS, key, value))));
             for (Future<RecordMetadata> one : sent) {

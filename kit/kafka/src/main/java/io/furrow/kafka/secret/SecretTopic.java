@@ -11,12 +11,11 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.errors.AuthorizationException;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.SecretFingerprints;
 import io.furrow.model.ngsi.UnreadableException;
@@ -119,8 +118,7 @@ public final class SecretTopic {
         settings.put("transactional.id", TRANSACTIONS);
         settings.put("enable.idempotence", "true");
         settings.put("acks", "all");
-        try (KafkaProducer<String, byte[]> producer =
-                new KafkaProducer<>(settings, new StringSerializer(), new ByteArraySerializer())) {
+        try (KafkaProducer<String, byte[]> producer = KafkaClients.producer(settings)) {
             // From here on nobody who began before can write any more, and what somebody wrote can be read.
             producer.initTransactions();
             if (isAgreed(own, read())) {

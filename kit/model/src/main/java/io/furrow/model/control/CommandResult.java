@@ -29,7 +29,12 @@ public record CommandResult(ObjectNode json) {
     }
 
     static CommandResult refused(RejectedException refusal) {
-        return of(ERROR).with("error", refusal.code().code()).with("reason", refusal.getMessage());
+        return ofError(refusal.code().code(), refusal.getMessage());
+    }
+
+    /** @param error a code */
+    public static CommandResult ofError(String error, String reason) {
+        return of(ERROR).with("error", error).with("reason", reason);
     }
 
     /** With one more member; of null the same. */

@@ -9,6 +9,7 @@ import com.fasterxml.jackson.databind.annotation.JsonSerialize;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.util.StdConverter;
 
+import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.StateJson;
@@ -44,7 +45,7 @@ public record DesiredReplay(
         Range range,
 
         @JsonProperty("wanted") @JsonSerialize(converter = StateToText.class)
-        ReplayStatus.State desired,
+        State desired,
 
         Seek seek,
         Step step,
@@ -62,9 +63,7 @@ public record DesiredReplay(
         static Range read(JsonObjectReader members) throws RejectedException {
             long from = members.time("from").toEpochMilli();
             long to = members.time("to").toEpochMilli();
-            if (from >= to) {
-                throw JsonObjectReader.wrong("to", "after 'from'");
-            }
+            JsonObjectReader.refuseIf(from >= to, "to", "after 'from'");
             return new Range(from, to);
         }
     }
@@ -99,9 +98,9 @@ public record DesiredReplay(
         }
     }
 
-    private static final class StateToText extends StdConverter<ReplayStatus.State, String> {
+    private static final class StateToText extends StdConverter<State, String> {
         @Override
-        public String convert(ReplayStatus.State state) {
+        public String convert(State state) {
             return state.code();
         }
     }
@@ -116,42 +115,30 @@ public record DesiredReplay(
             String mission, String topic, ReplayPlan plan, double speed, long created, long sequence) {
         String replay = mission + topic.substring(topic.lastIndexOf('.'));
         return new DesiredReplay(
-                replay,
-                mission,
-                topic,
-                null,
-                plan,
-                speed,
-                null,
-                ReplayStatus.State.RUNNING,
-                null,
-                null,
-                null,
-                created,
-                sequence);
+                replay, mission, topic, null, plan, speed, null, State.RUNNING, null, null, null, created, sequence);
     }
 
-    public DesiredReplay desired(ReplayStatus.State next, long newSequence) {
-        return changed(speed, range, next, seek, step, clock, newSequence);
+    public DesiredReplay desired(State next, long newSequence) {
+        return changed(speed, range, next, seek, step, newSequence);
     }
 
     public DesiredReplay at(double newSpeed, long newSequence) {
-        return changed(newSpeed, range, desired, seek, step, clock, newSequence);
+        return changed(newSpeed, range, desired, seek, step, newSequence);
     }
 
     /** @param newRange null for all */
     public DesiredReplay within(Range newRange, long newSequence) {
-        return changed(speed, newRange, desired, seek, step, clock, newSequence);
+        return changed(speed, newRange, desired, seek, step, newSequence);
     }
 
     public DesiredReplay seeking(long time, long newSequence) {
-        return changed(speed, range, desired, new Seek(time, newSequence), step, clock, newSequence);
+        return changed(speed, range, desired, new Seek(time, newSequence), step, newSequence);
     }
 
     /** @param count events; negative to go back */
     public DesiredReplay stepping(int count, long newSequence) {
         long total = (step == null ? 0 : step.total) + count;
-        return changed(speed, range, desired, seek, new Step(total, newSequence), clock, newSequence);
+        return changed(speed, range, desired, seek, new Step(total, newSequence), newSequence);
     }
 
     /** In a group, by its clock. */
@@ -160,28 +147,9 @@ public record DesiredReplay(
                 replay, mission, topic, newGroup, plan, speed, range, desired, seek, step, newClock, created, sequence);
     }
 
-    private DesiredReplay changed(
-            double newSpeed,
-            Range newRange,
-            ReplayStatus.State newDesired,
-            Seek newSeek,
-            Step newStep,
-            Clock newClock,
-            long newSequence) {
+    private DesiredReplay changed(double pace, Range part, State next, Seek jump, Step by, long number) {
         return new DesiredReplay(
-                replay,
-                mission,
-                topic,
-                group,
-                plan,
-                newSpeed,
-                newRange,
-                newDesired,
-                newSeek,
-                newStep,
-                newClock,
-                created,
-                newSequence);
+                replay, mission, topic, group, plan, pace, part, next, jump, by, clock, created, number);
     }
 
     /** The first event time that is played, epoch ms, of a recording that begins at a time. */
@@ -198,7 +166,7 @@ public record DesiredReplay(
 
     /** Of a replay in a group: the event time that the clock shows, epoch ms, within what the group plays. */
     public long position(long now) {
-        if (desired != ReplayStatus.State.RUNNING) {
+        if (desired != State.RUNNING) {
             return clock.shows;
         }
         Range all = new Range(from(plan.from()), to());
@@ -268,11 +236,11 @@ public record DesiredReplay(
                 members.number("sequence"));
     }
 
-    private static ReplayStatus.State desired(JsonObjectReader members) throws RejectedException {
+    private static State desired(JsonObjectReader members) throws RejectedException {
         return switch (members.text("wanted")) {
-            case "running" -> ReplayStatus.State.RUNNING;
-            case "paused" -> ReplayStatus.State.PAUSED;
-            case "stopped" -> ReplayStatus.State.STOPPED;
+            case "running" -> State.RUNNING;
+            case "paused" -> State.PAUSED;
+            case "stopped" -> State.STOPPED;
             default -> throw JsonObjectReader.wrong("wanted", "running, paused or stopped");
         };
     }

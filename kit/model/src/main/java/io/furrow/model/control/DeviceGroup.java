@@ -73,13 +73,10 @@ public record DeviceGroup(
         JsonObjectReader members = new JsonObjectReader(object);
         String id = members.has("id") ? entityId(members.text("id")) : null;
         String type = members.text("type");
-        if (!TYPE.matcher(type).matches()) {
-            throw JsonObjectReader.wrong("type", "1 to 64 letters and digits that begin with a letter");
-        }
+        JsonObjectReader.refuseIf(
+                !TYPE.matcher(type).matches(), "type", "1 to 64 letters and digits that begin with a letter");
         int count = members.wholeNumber("count", 1, MAX, 1);
-        if (id != null && count > 1) {
-            throw JsonObjectReader.wrong("count", "1 where the device has an 'id'");
-        }
+        JsonObjectReader.refuseIf(id != null && count > 1, "count", "1 where the device has an 'id'");
         check(members);
         MeasuredAttribute.check(members);
         checkPlaces(object.path(AT), count);
@@ -115,9 +112,8 @@ public record DeviceGroup(
     }
 
     private static String entityId(String id) throws RejectedException {
-        if (!ENTITY_ID.matcher(id).matches()) {
-            throw JsonObjectReader.wrong("id", "1 to 200 characters that are allowed in an entity id");
-        }
+        JsonObjectReader.refuseIf(
+                !ENTITY_ID.matcher(id).matches(), "id", "1 to 200 characters that are allowed in an entity id");
         return id;
     }
 
@@ -126,20 +122,23 @@ public record DeviceGroup(
         members.objectOrNull("parameters");
         JsonNode area = members.json().path("area");
         boolean field = area.isTextual() && ENTITY_ID.matcher(area.textValue()).matches();
-        if (members.has("area") && !field && !isArea(area)) {
-            throw JsonObjectReader.wrong("area", "the id of a field, or a GeoJSON Polygon or MultiPolygon");
-        }
+        JsonObjectReader.refuseIf(
+                members.has("area") && !field && !isArea(area),
+                "area",
+                "the id of a field, or a GeoJSON Polygon or MultiPolygon");
         ArrayNode path = members.arrayOrNull("path", MAX);
         for (JsonNode point : path == null ? List.<JsonNode>of() : path) {
-            if (point.size() != 2 || !isDegrees(point.get(0), 180) || !isDegrees(point.get(1), 90)) {
-                throw JsonObjectReader.wrong("path", "a list of [longitude, latitude]");
-            }
+            JsonObjectReader.refuseIf(
+                    point.size() != 2 || !isDegrees(point.get(0), 180) || !isDegrees(point.get(1), 90),
+                    "path",
+                    "a list of [longitude, latitude]");
         }
         ArrayNode faults = members.arrayOrNull("faults", MAX);
         for (JsonNode fault : faults == null ? List.<JsonNode>of() : faults) {
-            if (!FAULTS.contains(fault.path("kind").asText())) {
-                throw JsonObjectReader.wrong("faults", "a list of objects with 'kind' stuck, drift, spikes or silent");
-            }
+            JsonObjectReader.refuseIf(
+                    !FAULTS.contains(fault.path("kind").asText()),
+                    "faults",
+                    "a list of objects with 'kind' stuck, drift, spikes or silent");
         }
     }
 
@@ -151,11 +150,10 @@ public record DeviceGroup(
                 fits &= isPlace(each);
             }
         }
-        if (!fits) {
-            throw JsonObjectReader.wrong(
-                    AT,
-                    "an object with 'latitude' and 'longitude' in degrees, or a list of one for each of the devices");
-        }
+        JsonObjectReader.refuseIf(
+                !fits,
+                AT,
+                "an object with 'latitude' and 'longitude' in degrees, or a list of one for each of the devices");
     }
 
     private static boolean isPlace(JsonNode at) {

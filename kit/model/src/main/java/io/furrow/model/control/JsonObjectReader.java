@@ -69,9 +69,10 @@ public final class JsonObjectReader {
             return null;
         }
         JsonNode value = json.get(member);
-        if (!value.isTextual() || value.textValue().length() > MAX_TEXT_LENGTH) {
-            throw wrong(member, "a text of at most " + MAX_TEXT_LENGTH + " characters");
-        }
+        refuseIf(
+                !value.isTextual() || value.textValue().length() > MAX_TEXT_LENGTH,
+                member,
+                "a text of at most " + MAX_TEXT_LENGTH + " characters");
         return value.textValue();
     }
 
@@ -80,9 +81,7 @@ public final class JsonObjectReader {
         if (!has(member)) {
             return false;
         }
-        if (!json.get(member).isBoolean()) {
-            throw wrong(member, "true or false");
-        }
+        refuseIf(!json.get(member).isBoolean(), member, "true or false");
         return json.get(member).booleanValue();
     }
 
@@ -91,20 +90,19 @@ public final class JsonObjectReader {
             return missing;
         }
         JsonNode value = json.get(member);
-        if (!value.isIntegralNumber()
-                || !value.canConvertToInt()
-                || value.intValue() < least
-                || value.intValue() > most) {
-            throw wrong(member, "a whole number from " + least + " to " + most);
-        }
+        refuseIf(
+                !value.isIntegralNumber()
+                        || !value.canConvertToInt()
+                        || value.intValue() < least
+                        || value.intValue() > most,
+                member,
+                "a whole number from " + least + " to " + most);
         return value.intValue();
     }
 
     long number(String member) throws RejectedException {
         JsonNode value = json.path(member);
-        if (!value.isIntegralNumber() || !value.canConvertToLong()) {
-            throw wrong(member, "a whole number");
-        }
+        refuseIf(!value.isIntegralNumber() || !value.canConvertToLong(), member, "a whole number");
         return value.longValue();
     }
 
@@ -148,9 +146,10 @@ public final class JsonObjectReader {
 
     /** Years of four digits only, so that every later sum of times stays within a long. */
     private static Instant checked(String member, Instant time) throws RejectedException {
-        if (time.isBefore(Instant.EPOCH) || time.isAfter(Instant.parse("9999-12-31T23:59:59Z"))) {
-            throw wrong(member, "a time from 1970 to 9999");
-        }
+        refuseIf(
+                time.isBefore(Instant.EPOCH) || time.isAfter(Instant.parse("9999-12-31T23:59:59Z")),
+                member,
+                "a time from 1970 to 9999");
         return Instant.ofEpochMilli(time.toEpochMilli());
     }
 
@@ -173,9 +172,7 @@ public final class JsonObjectReader {
 
     /** Null if it is missing. */
     ObjectNode objectOrNull(String member) throws RejectedException {
-        if (has(member) && !(json.get(member) instanceof ObjectNode)) {
-            throw wrong(member, "an object");
-        }
+        refuseIf(has(member) && !(json.get(member) instanceof ObjectNode), member, "an object");
         return has(member) ? (ObjectNode) json.get(member) : null;
     }
 
@@ -205,9 +202,10 @@ public final class JsonObjectReader {
 
     /** Null if it is missing. */
     ArrayNode arrayOrNull(String member, int most) throws RejectedException {
-        if (has(member) && !(json.get(member) instanceof ArrayNode array && array.size() <= most)) {
-            throw wrong(member, "a list of at most " + most);
-        }
+        refuseIf(
+                has(member) && !(json.get(member) instanceof ArrayNode array && array.size() <= most),
+                member,
+                "a list of at most " + most);
         return has(member) ? (ArrayNode) json.get(member) : null;
     }
 
@@ -216,9 +214,7 @@ public final class JsonObjectReader {
         List<String> texts = new ArrayList<>();
         ArrayNode array = arrayOrNull(member, 10_000);
         for (JsonNode each : array == null ? List.<JsonNode>of() : array) {
-            if (!each.isTextual() || !form.matcher(each.textValue()).matches()) {
-                throw wrong(member, "a list of " + said);
-            }
+            refuseIf(!each.isTextual() || !form.matcher(each.textValue()).matches(), member, "a list of " + said);
             texts.add(each.textValue());
         }
         return List.copyOf(texts);
@@ -230,6 +226,12 @@ public final class JsonObjectReader {
 
     public static RejectedException wrong(String member, String rightForm) {
         return new RejectedException(ErrorCode.WRONG_MEMBER, "'%s' must be %s".formatted(member, rightForm));
+    }
+
+    public static void refuseIf(boolean isWrong, String member, String rightForm) throws RejectedException {
+        if (isWrong) {
+            throw wrong(member, rightForm);
+        }
     }
 
     /** As it may stand in a sentence: printable ASCII, not too long. */

@@ -111,12 +111,11 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
                     && NAME.matcher(attribute.type()).matches()
                     && (attribute.unit() == null
                             || UNIT.matcher(attribute.unit()).matches());
-            if (!fits) {
-                throw JsonObjectReader.wrong(
-                        "attributes",
-                        "a list of objects with 'object_id' (the member of a message), 'name' (of the attribute), and perhaps 'type' (Number)"
-                                + " and 'unit' (a code of UN/CEFACT, as CEL)");
-            }
+            JsonObjectReader.refuseIf(
+                    !fits,
+                    "attributes",
+                    "a list of objects with 'object_id' (the member of a message), 'name' (of the attribute), and perhaps 'type' (Number)"
+                            + " and 'unit' (a code of UN/CEFACT, as CEL)");
         }
     }
 }

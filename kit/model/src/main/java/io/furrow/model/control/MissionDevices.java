@@ -112,17 +112,18 @@ public record MissionDevices(List<DeviceGroup> groups) {
         Set<String> ids = new HashSet<>();
         for (DeviceGroup group : groups) {
             boolean known = group.label() != null && named.put(group.label(), group) != null;
-            if (known || group.id() != null && !ids.add(group.id())) {
-                throw JsonObjectReader.wrong("devices", "a list in which no name and no id comes twice");
-            }
+            JsonObjectReader.refuseIf(
+                    known || group.id() != null && !ids.add(group.id()),
+                    "devices",
+                    "a list in which no name and no id comes twice");
         }
         for (DeviceGroup group : groups) {
             Set<String> seen = new HashSet<>();
             for (DeviceGroup at = group; at != null && at.carriedBy() != null; at = named.get(at.carriedBy())) {
-                if (!named.containsKey(at.carriedBy()) || !seen.add(at.carriedBy())) {
-                    throw JsonObjectReader.wrong(
-                            "carriedBy", "the name of another group of the list, and not in a circle");
-                }
+                JsonObjectReader.refuseIf(
+                        !named.containsKey(at.carriedBy()) || !seen.add(at.carriedBy()),
+                        "carriedBy",
+                        "the name of another group of the list, and not in a circle");
             }
         }
         return this;

@@ -19,9 +19,8 @@ public sealed interface MissionPlan {
     Pattern TEMPLATE = Pattern.compile("([A-Za-z0-9_-]{1,64})(?:@([1-9][0-9]{0,8}))?");
 
     static MissionPlan read(JsonObjectReader members) throws RejectedException {
-        if (members.has("template") && members.has("devices")) {
-            throw JsonObjectReader.wrong("devices", "missing where there is a 'template'");
-        }
+        JsonObjectReader.refuseIf(
+                members.has("template") && members.has("devices"), "devices", "missing where there is a 'template'");
         if (members.has("template")) {
             Matcher template = TEMPLATE.matcher(members.text("template"));
             if (!template.matches()) {

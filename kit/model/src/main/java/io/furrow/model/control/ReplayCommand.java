@@ -70,15 +70,17 @@ public sealed interface ReplayCommand extends Command {
         private static Start read(JsonObjectReader members) throws RejectedException {
             List<String> missions = missions(members);
             String topic = members.textOrNull("topic");
-            if (topic != null && (missions.size() > 1 || !TOPIC.matcher(topic).matches())) {
-                throw JsonObjectReader.wrong(
-                        "topic", "data.<name>.replay.<eight hexadecimal digits>, and is for one mission only");
-            }
+            JsonObjectReader.refuseIf(
+                    topic != null
+                            && (missions.size() > 1 || !TOPIC.matcher(topic).matches()),
+                    "topic",
+                    "data.<name>.replay.<eight hexadecimal digits>, and is for one mission only");
             ReplayPlan plan = ReplayPlan.read(members);
             double speed = ReplayCommand.speed(members, false);
-            if (missions.size() > 1 && (speed == MAX || plan.maxGap() != null || plan.source() != null)) {
-                throw JsonObjectReader.wrong("missions", "one where 'speed' is max, or 'maxGap' or 'source' is given");
-            }
+            JsonObjectReader.refuseIf(
+                    missions.size() > 1 && (speed == MAX || plan.maxGap() != null || plan.source() != null),
+                    "missions",
+                    "one where 'speed' is max, or 'maxGap' or 'source' is given");
             return new Start(missions, topic, speed, members.partOrNull("range", DesiredReplay.Range::read), plan);
         }
 
@@ -89,14 +91,16 @@ public sealed interface ReplayCommand extends Command {
             ArrayNode names = members.arrayOrNull("missions", MAX_OF_GROUP);
             List<String> missions = new ArrayList<>();
             for (JsonNode name : names) {
-                if (!TopicName.isLegal(name.asText()) || missions.contains(name.asText())) {
-                    throw JsonObjectReader.wrong("missions", "a list of different names of missions");
-                }
+                JsonObjectReader.refuseIf(
+                        !TopicName.isLegal(name.asText()) || missions.contains(name.asText()),
+                        "missions",
+                        "a list of different names of missions");
                 missions.add(name.asText());
             }
-            if (missions.isEmpty() || members.has("mission")) {
-                throw JsonObjectReader.wrong("missions", "a list of missions, without 'mission' beside it");
-            }
+            JsonObjectReader.refuseIf(
+                    missions.isEmpty() || members.has("mission"),
+                    "missions",
+                    "a list of missions, without 'mission' beside it");
             return missions;
         }
     }
@@ -126,9 +130,7 @@ public sealed interface ReplayCommand extends Command {
             if (group == null) {
                 return of(named(members.text("replay")));
             }
-            if (members.has("replay")) {
-                throw JsonObjectReader.wrong("group", "without 'replay' beside it");
-            }
+            JsonObjectReader.refuseIf(members.has("replay"), "group", "without 'replay' beside it");
             if (!GROUP.matcher(group).matches()) {
                 throw new RejectedException(
                         ErrorCode.ILLEGAL_NAME,
@@ -202,9 +204,7 @@ public sealed interface ReplayCommand extends Command {
 
     private static int steps(JsonObjectReader members) throws RejectedException {
         int count = members.wholeNumber("count", -1_000_000, 1_000_000, 1);
-        if (count == 0) {
-            throw JsonObjectReader.wrong("count", "a whole number from -1000000 to 1000000, and not 0");
-        }
+        JsonObjectReader.refuseIf(count == 0, "count", "a whole number from -1000000 to 1000000, and not 0");
         return count;
     }
 
@@ -224,9 +224,7 @@ public sealed interface ReplayCommand extends Command {
             return MAX;
         }
         double number = speed.isNumber() ? speed.doubleValue() : Double.NaN;
-        if (!(number >= 0.1 && number <= 1000)) {
-            throw JsonObjectReader.wrong("speed", "a number from 0.1 to 1000, or max");
-        }
+        JsonObjectReader.refuseIf(!(number >= 0.1 && number <= 1000), "speed", "a number from 0.1 to 1000, or max");
         return number;
     }
 

@@ -51,15 +51,18 @@ public record ReplayPlan(
         private static Source read(ObjectNode json) throws RejectedException {
             JsonObjectReader members = new JsonObjectReader(json);
             Source source = new Source(members.textOrNull("topic"), members.textOrNull("file"));
-            if ((source.topic == null) == (source.file == null)) {
-                throw JsonObjectReader.wrong("source", "an object with either 'topic' or 'file'");
-            }
-            if (source.topic != null && !TOPIC.matcher(source.topic).matches()) {
-                throw JsonObjectReader.wrong("topic", "a topic that begins with data.");
-            }
-            if (source.file != null && !FILE.matcher(source.file).matches()) {
-                throw JsonObjectReader.wrong("file", "the name of a file in the job's --recordings, without a folder");
-            }
+            JsonObjectReader.refuseIf(
+                    (source.topic == null) == (source.file == null),
+                    "source",
+                    "an object with either 'topic' or 'file'");
+            JsonObjectReader.refuseIf(
+                    source.topic != null && !TOPIC.matcher(source.topic).matches(),
+                    "topic",
+                    "a topic that begins with data.");
+            JsonObjectReader.refuseIf(
+                    source.file != null && !FILE.matcher(source.file).matches(),
+                    "file",
+                    "the name of a file in the job's --recordings, without a folder");
             return source;
         }
     }
@@ -99,15 +102,14 @@ public record ReplayPlan(
     static ReplayPlan read(JsonObjectReader members) throws RejectedException {
         Instant from = members.timeOrNull("from");
         Instant to = members.timeOrNull("to");
-        if (from != null && to != null && !from.isBefore(to)) {
-            throw JsonObjectReader.wrong("to", "after 'from'");
-        }
+        JsonObjectReader.refuseIf(from != null && to != null && !from.isBefore(to), "to", "after 'from'");
         ObjectNode source = members.objectOrNull("source");
         Duration maxGap = members.durationOrNull("maxGap");
         List<String> analytics = members.texts("analytics", Pattern.compile("[a-z]{1,20}"), "analytics jobs");
-        if (!AnalyticsKind.jobNames().containsAll(analytics)) {
-            throw JsonObjectReader.wrong("analytics", "a list of " + String.join(", ", AnalyticsKind.jobNames()));
-        }
+        JsonObjectReader.refuseIf(
+                !AnalyticsKind.jobNames().containsAll(analytics),
+                "analytics",
+                "a list of " + String.join(", ", AnalyticsKind.jobNames()));
         return new ReplayPlan(
                 source == null ? null : Source.read(source),
                 millis(from),

@@ -3,8 +3,6 @@ package io.furrow.model.control;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.charset.StandardCharsets;
-import java.security.MessageDigest;
-import java.security.NoSuchAlgorithmException;
 import java.util.HexFormat;
 
 import com.fasterxml.jackson.databind.ObjectMapper;
@@ -13,6 +11,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.Sha256;
 
 /**
  * Determines whether two requests of one id ask for the same: 32 hexadecimal digits of the SHA-256 of all members but
@@ -43,10 +42,7 @@ public final class RequestFingerprint {
             String members = SORTED.writeValueAsString(request.deepCopy().without("requestId"));
             // UTF-16, because a text may hold half of a surrogate pair: such a request is refused, but has an id all
             // the same.
-            byte[] digest = MessageDigest.getInstance("SHA-256").digest(members.getBytes(StandardCharsets.UTF_16BE));
-            return HexFormat.of().formatHex(digest, 0, BYTES);
-        } catch (NoSuchAlgorithmException e) {
-            throw new IllegalStateException("every JDK has SHA-256", e);
+            return HexFormat.of().formatHex(Sha256.of(members.getBytes(StandardCharsets.UTF_16BE)), 0, BYTES);
         } catch (IOException e) {
             throw new UncheckedIOException("a request could not be written as JSON", e);
         }

@@ -98,9 +98,8 @@ public final class Requests {
 
     private static String requestId(JsonObjectReader members) throws RejectedException {
         String id = members.textOrNull("requestId");
-        if (id != null && !isRequestId(id)) {
-            throw JsonObjectReader.wrong("requestId", "1 to 200 printable ASCII characters without spaces");
-        }
+        JsonObjectReader.refuseIf(
+                id != null && !isRequestId(id), "requestId", "1 to 200 printable ASCII characters without spaces");
         return id;
     }
 

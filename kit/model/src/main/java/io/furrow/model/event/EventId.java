@@ -1,8 +1,6 @@
 package io.furrow.model.event;
 
 import java.nio.charset.StandardCharsets;
-import java.security.MessageDigest;
-import java.security.NoSuchAlgorithmException;
 import java.time.Instant;
 import java.util.Comparator;
 import java.util.HexFormat;
@@ -14,6 +12,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.text.Sha256;
 import io.furrow.model.time.Instants;
 
 /**
@@ -26,7 +25,6 @@ import io.furrow.model.time.Instants;
 public final class EventId {
     private static final int BYTES = 16;
     private static final int TYPICAL_LENGTH = 1024;
-    private static final MessageDigest SHA_256 = newSha256();
 
     private EventId() {}
 
@@ -139,25 +137,8 @@ public final class EventId {
         }
 
         String digest() {
-            byte[] digest = sha256().digest(text.append(modified).toString().getBytes(StandardCharsets.UTF_8));
+            byte[] digest = Sha256.of(text.append(modified).toString().getBytes(StandardCharsets.UTF_8));
             return HexFormat.of().formatHex(digest, 0, BYTES);
-        }
-    }
-
-    /** A copy costs a fraction of the search for the algorithm's provider. */
-    private static MessageDigest sha256() {
-        try {
-            return (MessageDigest) SHA_256.clone();
-        } catch (CloneNotSupportedException e) {
-            throw new IllegalStateException("the platform's SHA-256 can be copied", e);
-        }
-    }
-
-    private static MessageDigest newSha256() {
-        try {
-            return MessageDigest.getInstance("SHA-256");
-        } catch (NoSuchAlgorithmException e) {
-            throw new IllegalStateException("every Java platform has SHA-256", e);
         }
     }
 }

@@ -1,5 +1,7 @@
 package io.furrow.model.event;
 
+import java.util.Map;
+
 /**
  * Where an entity lives in the context broker: its tenant and service path. The same id in two scopes, or with two types in one, is
  * two entities.
@@ -15,6 +17,11 @@ public record FiwareScope(String service, String servicePath) {
         String tenant = service == null ? "" : service.trim().toLowerCase(java.util.Locale.ROOT);
         String path = servicePath == null || servicePath.isBlank() ? "/" : servicePath.trim();
         return new FiwareScope(tenant, path);
+    }
+
+    /** The scope that the headers of a record name. */
+    public static FiwareScope of(Map<String, String> headers) {
+        return of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH));
     }
 
     /** Tenant, service path and id in one text: the key of a device on {@code service.devices}, whatever its type. */

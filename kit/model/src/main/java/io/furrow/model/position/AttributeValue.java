@@ -139,9 +139,4 @@ class AttributeValue {
             default -> Double.NaN;
         };
     }
-
-    /** The number, finite or not; NaN for everything else. */
-    double numberOrNaN() {
-        return kind == Kind.NUMBER ? number : Double.NaN;
-    }
 }

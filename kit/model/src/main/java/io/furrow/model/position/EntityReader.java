@@ -1,7 +1,6 @@
 package io.furrow.model.position;
 
 import java.io.IOException;
-import java.time.Instant;
 import java.util.HashMap;
 import java.util.Map;
 import java.util.Optional;
@@ -14,7 +13,6 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Quantity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.text.Utf8;
-import io.furrow.model.time.Instants;
 
 /**
  * Reads id, type, position and the requested attributes from the bytes of a normalized entity, without a tree and
@@ -181,15 +179,6 @@ public final class EntityReader {
         return tree == null
                 ? quantity.read(value(attribute).finite(), value(attribute).unit())
                 : quantity.of(tree, attribute).orElse(Double.NaN);
-    }
-
-    /** The value of a wanted attribute as an instant; empty if it names none. */
-    public Optional<Instant> instant(String attribute) {
-        if (tree != null) {
-            return tree.value(attribute).flatMap(Instants::of);
-        }
-        String text = value(attribute).textOrNull();
-        return text == null ? Instants.ofNumber(value(attribute).numberOrNaN()) : Instants.ofText(text);
     }
 
     private AttributeValue value(String attribute) {

@@ -2,10 +2,9 @@ package io.furrow.model.topic;
 
 import java.io.ByteArrayOutputStream;
 import java.nio.charset.StandardCharsets;
-import java.security.MessageDigest;
-import java.security.NoSuchAlgorithmException;
-import java.util.HexFormat;
 import java.util.Optional;
+
+import io.furrow.model.text.Sha256;
 
 /**
  * The part of a topic's name that a domain or mission becomes. Names of 1 to 64 of {@code A-Z a-z 0-9 _ -} stand as they
@@ -78,15 +77,6 @@ public final class TopicName {
         for (byte b : name.getBytes(StandardCharsets.UTF_8)) {
             encoded.append(isAlphanumeric(b) ? String.valueOf((char) b) : String.format("-%02X", b));
         }
-        return encoded.length() <= MAX_LENGTH ? encoded.toString() : "_h-" + sha256(name);
-    }
-
-    private static String sha256(String name) {
-        try {
-            byte[] digest = MessageDigest.getInstance("SHA-256").digest(name.getBytes(StandardCharsets.UTF_8));
-            return HexFormat.of().formatHex(digest);
-        } catch (NoSuchAlgorithmException e) {
-            throw new IllegalStateException("every Java platform has SHA-256", e);
-        }
+        return encoded.length() <= MAX_LENGTH ? encoded.toString() : "_h-" + Sha256.hex(name);
     }
 }

@@ -3,7 +3,6 @@ package io.furrow.model.position;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Optional;
@@ -24,7 +23,6 @@ import io.furrow.model.ngsi.Quantity;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.RecordedNotification;
 import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.model.time.Instants;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatIllegalArgumentException;
@@ -183,7 +181,6 @@ class EntityReaderTest {
                 reader.has(name),
                 reader.text(name),
                 Double.isNaN(number) ? Optional.empty() : Optional.of(number),
-                reader.instant(name),
                 reader.number(name, Quantity.SPEED));
     }
 
@@ -204,13 +201,11 @@ class EntityReaderTest {
     }
 
     private static List<Object> ofTree(Entity entity, String name) {
-        Optional<Instant> instant = entity.value(name).flatMap(Instants::of);
         return List.of(
                 name,
                 entity.value(name).isPresent(),
                 entity.text(name),
                 entity.number(name),
-                instant,
                 Quantity.SPEED.of(entity, name).orElse(Double.NaN));
     }
 

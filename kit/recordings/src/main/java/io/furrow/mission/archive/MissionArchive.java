@@ -25,16 +25,8 @@ import io.furrow.model.ngsi.UnreadableException;
  * of the event time in UTC. Archiving again adds what has come since, in further files; nothing that is there is ever changed
  * or removed, so that documents may expire in MongoDB.
  */
-public final class MissionArchive {
+public record MissionArchive(StoredMissions missions, Path root) {
     private static final int DIGITS = 4;
-
-    private final StoredMissions missions;
-    private final Path root;
-
-    public MissionArchive(StoredMissions missions, Path root) {
-        this.missions = missions;
-        this.root = root;
-    }
 
     /** Where the files of a mission are. */
     public Path folder(String mission) {

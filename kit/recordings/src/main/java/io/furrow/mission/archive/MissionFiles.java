@@ -35,12 +35,6 @@ public final class MissionFiles {
         long writeTo(OutputStream out) throws IOException;
     }
 
-    /** Writes a mission into one file; another of that name is replaced when the new one is whole, and stays else. */
-    public static long export(StoredMissions missions, String mission, Path file, LongConsumer told)
-            throws IOException {
-        return write(file, out -> missions.export(mission, out, told));
-    }
-
     /** Reads a file, or every {@code .ndjson} and {@code .ndjson.gz} of a folder, into a mission. */
     public static long importFrom(StoredMissions missions, String mission, Path path, LongConsumer told)
             throws IOException, InterruptedException {

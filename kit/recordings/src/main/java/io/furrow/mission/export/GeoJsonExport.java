@@ -13,7 +13,6 @@ import com.fasterxml.jackson.core.JsonGenerator;
 import io.furrow.mission.StoredEvent;
 import io.furrow.mission.marker.Marker;
 import io.furrow.model.event.FiwareScope;
-import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.position.Position;
@@ -74,8 +73,7 @@ public final class GeoJsonExport implements MissionExport {
         }
         Optional<Position> position = reading.usable();
         if (position.isPresent()) {
-            FiwareScope scope = FiwareScope.of(
-                    event.headers().get(HeaderNames.SERVICE), event.headers().get(HeaderNames.SERVICE_PATH));
+            FiwareScope scope = FiwareScope.of(event.headers());
             String type = event.entity().path("type").asText("Thing");
             tracks.computeIfAbsent(
                             scope.identity(type, event.entityId()), ignored -> new Track(event.entityId(), scope))

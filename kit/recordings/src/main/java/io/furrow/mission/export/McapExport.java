@@ -72,8 +72,7 @@ public final class McapExport implements MissionExport {
             if (event.time() < 0 || event.time() > LAST_MILLIS) {
                 return Optional.of(NO_TIME);
             }
-            FiwareScope scope = FiwareScope.of(
-                    event.headers().get(HeaderNames.SERVICE), event.headers().get(HeaderNames.SERVICE_PATH));
+            FiwareScope scope = FiwareScope.of(event.headers());
             String identity = scope.identity(event.entityId());
             String type = event.entity() == null
                     ? event.headers().getOrDefault(HeaderNames.ENTITY_TYPE, types.getOrDefault(identity, "Thing"))

@@ -24,10 +24,4 @@ public interface MissionExport {
      * @param progress takes the number of events so far now and then
      */
     ExportResult write(Source mission, OutputStream out, LongConsumer progress) throws IOException;
-
-    /** Writes a mission that has no markers. */
-    default ExportResult write(String mission, Recording recording, OutputStream out, LongConsumer progress)
-            throws IOException {
-        return write(new Source(mission, recording, List.of()), out, progress);
-    }
 }

@@ -7,6 +7,7 @@ import java.time.format.DateTimeFormatter;
 import java.util.Locale;
 
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.text.Sha256;
 
 /**
  * Where an image is kept below the root: {@code <domain>/<mission>/<entity id>/<entity id>_<yyyyMMddHHmmssSSS>.<ext>}, event
@@ -76,6 +77,6 @@ public record ImageName(String folder, String file) {
             boolean plain = alphanumeric || b == '_' || b == '-' || b == '.' && safe.length() > 0;
             safe.append(plain ? String.valueOf((char) b) : String.format("~%02X", b));
         }
-        return safe.length() <= MAX_LENGTH ? safe.toString() : "~h" + Sha256.hex(name.getBytes(StandardCharsets.UTF_8));
+        return safe.length() <= MAX_LENGTH ? safe.toString() : "~h" + Sha256.hex(name);
     }
 }

@@ -1,7 +1,5 @@
 package io.furrow.mission.marker;
 
-import java.util.UUID;
-
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
@@ -16,11 +14,6 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  * @param created when it was written, epoch ms
  */
 public record Marker(String id, String mission, long time, String note, String author, long created) {
-    /** Of a random id. */
-    public static Marker of(String mission, long time, String note, String author, long created) {
-        return new Marker(UUID.randomUUID().toString(), mission, time, note, author, created);
-    }
-
     /** {@code {"id", "mission", "time", "note", "author", "created"}}, with times in epoch ms. */
     public ObjectNode toJson() {
         return JsonNodeFactory.instance

@@ -20,24 +20,15 @@ import io.furrow.mission.RecordingException;
 import io.furrow.mission.RecordingExtent;
 import io.furrow.mission.SkippedRecords;
 
-/** The events of a topic in a file of this recording's own, which goes with it. */
-final class TopicRecording implements Recording {
+/**
+ * The events of a topic in a file of this recording's own, which goes with it.
+ *
+ * @param lines of the file
+ * @param folder of the file
+ * @param skipped records of the topic that hold no event
+ */
+record TopicRecording(Recording lines, Path folder, List<SkippedRecords> skipped) implements Recording {
     private static final Logger LOG = LoggerFactory.getLogger(TopicRecording.class);
-
-    private final Recording lines;
-    private final Path folder;
-    private final List<SkippedRecords> skipped;
-
-    /**
-     * @param lines of the file
-     * @param folder of the file
-     * @param skipped records of the topic that hold no event
-     */
-    TopicRecording(Recording lines, Path folder, List<SkippedRecords> skipped) {
-        this.lines = lines;
-        this.folder = folder;
-        this.skipped = skipped;
-    }
 
     @Override
     public Optional<RecordingExtent> span() throws RecordingException {

@@ -31,7 +31,8 @@ class GeoJsonExportTest {
         try (Recording recording = new FileRecordings("src/test/resources/export/mission.ndjson")
                 .open("hoeing")
                 .orElseThrow()) {
-            assertThat(new GeoJsonExport().write("hoeing", recording, out, ignored -> {}))
+            assertThat(new GeoJsonExport()
+                            .write(new MissionExport.Source("hoeing", recording, List.of()), out, ignored -> {}))
                     .isEqualTo(new ExportResult(
                             9, 1, Optional.of("event e06: 0,0 is what a receiver without a fix reports")));
         }

@@ -13,14 +13,14 @@ import picocli.CommandLine.ParameterException;
 
 import io.furrow.dashboard.auth.AddressRange;
 import io.furrow.dashboard.auth.TrustedProxy;
-import io.furrow.dashboard.auth.UserRole;
 import io.furrow.dashboard.page.PageSettings;
+import io.furrow.model.control.Role;
 import io.furrow.model.file.FileProblem;
 
 /** Options that say which proxy in front of the dashboard signs users in, and what it says of them. */
 public final class TrustedProxyFlags {
-    private static final Map<String, UserRole> GROUPS =
-            Map.of("viewer", UserRole.VIEWER, "operator", UserRole.OPERATOR, "admin", UserRole.ADMIN);
+    private static final Map<String, Role> GROUPS =
+            Map.of("viewer", Role.VIEWER, "operator", Role.OPERATOR, "admin", Role.ADMIN);
 
     @Option(
             names = "--trusted-proxy",
@@ -124,13 +124,13 @@ public final class TrustedProxyFlags {
         }
     }
 
-    private Map<String, UserRole> roles() {
+    private Map<String, Role> roles() {
         if (groupRoles == null) {
             return GROUPS;
         }
-        Map<String, UserRole> roles = new HashMap<>();
+        Map<String, Role> roles = new HashMap<>();
         groupRoles.forEach((group, code) -> {
-            UserRole role = GROUPS.get(code);
+            Role role = GROUPS.get(code);
             if (role == null) {
                 throw new IllegalArgumentException(
                         "'%s' is not a role for the group '%s'; it is viewer, operator or admin"

@@ -13,6 +13,7 @@ import java.util.concurrent.TimeUnit;
 import io.furrow.control.alarm.watch.DeviceTypeCache;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.DaemonThreads;
 import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.text.Counts;
 
@@ -96,13 +97,7 @@ public final class AlarmActions implements AutoCloseable {
         workers.forEach(SupervisedWorker::close);
         if (stops != null) {
             stops.shutdown();
-            try {
-                if (!stops.awaitTermination(CLOSE_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS)) {
-                    stops.shutdownNow();
-                }
-            } catch (InterruptedException e) {
-                Thread.currentThread().interrupt();
-            }
+            DaemonThreads.await(stops, CLOSE_TIMEOUT);
             audit.close();
         }
     }

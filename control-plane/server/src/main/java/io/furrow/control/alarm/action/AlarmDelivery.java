@@ -21,16 +21,13 @@ import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.ngsi.StateJson;
 import io.furrow.model.text.FailureText;
@@ -89,10 +86,8 @@ final class AlarmDelivery implements SupervisedWorker.Work, ConsumerRebalanceLis
     public void run(SupervisedWorker worker) throws InterruptedException {
         Properties group = CommittedReader.settings(client);
         group.put("group.id", GROUP);
-        try (KafkaProducer<String, byte[]> opened =
-                        new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer());
-                KafkaConsumer<String, byte[]> subscribed =
-                        new KafkaConsumer<>(group, new StringDeserializer(), new ByteArrayDeserializer())) {
+        try (KafkaProducer<String, byte[]> opened = KafkaClients.producer(client);
+                KafkaConsumer<String, byte[]> subscribed = KafkaClients.consumer(group)) {
             producer = opened;
             consumer = subscribed;
             consumer.subscribe(List.of(Topics.ALARMS), this);

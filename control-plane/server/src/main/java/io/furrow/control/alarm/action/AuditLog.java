@@ -11,12 +11,12 @@ import java.util.function.Consumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.KafkaException;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.control.audit.AuditEntry;
+import io.furrow.kafka.DaemonThreads;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -38,7 +38,7 @@ final class AuditLog implements Consumer<AuditEntry>, AutoCloseable {
             task -> new Thread(task, "furrow-stop-audit"));
 
     AuditLog(Properties client) {
-        producer = new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer());
+        producer = KafkaClients.producer(client);
     }
 
     @Override
@@ -74,13 +74,7 @@ final class AuditLog implements Consumer<AuditEntry>, AutoCloseable {
     @Override
     public void close() {
         writer.shutdown();
-        try {
-            if (!writer.awaitTermination(CLOSE_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS)) {
-                writer.shutdownNow();
-            }
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-        }
+        DaemonThreads.await(writer, CLOSE_TIMEOUT);
         producer.close(CLOSE_TIMEOUT);
     }
 }

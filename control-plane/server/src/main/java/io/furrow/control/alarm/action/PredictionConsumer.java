@@ -15,18 +15,14 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.consumer.OffsetAndTimestamp;
 import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.header.Header;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.control.alarm.watch.DeviceTypeCache;
 import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.kafka.SupervisedWorker;
-import io.furrow.model.event.FiwareScope;
-import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -68,8 +64,7 @@ final class PredictionConsumer implements SupervisedWorker.Work, ConsumerRebalan
             }
             TimeUnit.MILLISECONDS.sleep(POLL.toMillis());
         }
-        try (KafkaConsumer<String, byte[]> subscribed =
-                new KafkaConsumer<>(settings(), new StringDeserializer(), new ByteArrayDeserializer())) {
+        try (KafkaConsumer<String, byte[]> subscribed = KafkaClients.consumer(settings())) {
             consumer = subscribed;
             consumer.subscribe(List.of(Topics.COLLISION), this);
             while (!worker.isClosing()) {
@@ -97,7 +92,7 @@ final class PredictionConsumer implements SupervisedWorker.Work, ConsumerRebalan
             return;
         }
         try {
-            robots.take(EncounterReport.read(record.value(), scope(record)), record.timestamp());
+            robots.take(EncounterReport.read(record.value(), KafkaClients.scope(record.headers())), record.timestamp());
         } catch (UnreadableException e) {
             LOG.warn(
                     "record {}-{}@{} is not an encounter and is skipped",
@@ -106,15 +101,6 @@ final class PredictionConsumer implements SupervisedWorker.Work, ConsumerRebalan
                     record.offset(),
                     e);
         }
-    }
-
-    private static FiwareScope scope(ConsumerRecord<?, ?> record) {
-        return FiwareScope.of(header(record, HeaderNames.SERVICE), header(record, HeaderNames.SERVICE_PATH));
-    }
-
-    private static String header(ConsumerRecord<?, ?> record, String name) {
-        Header header = record.headers().lastHeader(name);
-        return header == null || header.value() == null ? null : new String(header.value(), StandardCharsets.UTF_8);
     }
 
     @Override

@@ -3,7 +3,6 @@ package io.furrow.control.alarm.action;
 import java.io.IOException;
 import java.time.Clock;
 import java.time.Duration;
-import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.Executor;
@@ -18,6 +17,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.control.alarm.watch.EncounterReport;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CommandSender;
+import io.furrow.kafka.BoundedMap;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -47,14 +47,7 @@ public final class StopRobots {
     private final Executor executor;
     private final Clock clock;
     /** Result, or reason for not sending, by encounter and device; the eldest entry is evicted. */
-    private final Map<String, String> handled = new LinkedHashMap<>() {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        protected boolean removeEldestEntry(Map.Entry<String, String> eldest) {
-            return size() > MAX_REMEMBERED;
-        }
-    };
+    private final Map<String, String> handled = BoundedMap.byInsertion(MAX_REMEMBERED);
 
     /**
      * Which robots are stopped, and how.

@@ -11,7 +11,7 @@ import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
 import io.furrow.control.manager.Observer;
-import io.furrow.control.manager.RecordScope;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
@@ -23,23 +23,15 @@ import io.furrow.model.result.ClockResult;
  * Raises alarms for devices whose reports arrive too late and are dropped by all analyses. A job reports such a
  * device once a minute; the alarm ends after three minutes without a report.
  */
-final class ClockAlarmProcessor implements Observer {
+record ClockAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types) implements Observer {
     private static final Duration HOLDS = Duration.ofMinutes(3);
-
-    private final AlarmCommandHandler alarms;
-    private final Function<String, String> types;
-
-    ClockAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types) {
-        this.alarms = alarms;
-        this.types = types;
-    }
 
     @Override
     public void take(Record<String, byte[]> record, long now) throws UnreadableException {
         if (record.value() == null) {
             return;
         }
-        FiwareScope scope = RecordScope.of(record);
+        FiwareScope scope = KafkaClients.scope(record.headers());
         Entity entity = Entity.parse(record.value());
         if (!entity.type().equals(ClockResult.BEHIND_TYPE)) {
             return;

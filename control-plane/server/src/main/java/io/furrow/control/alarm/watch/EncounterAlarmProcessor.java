@@ -10,7 +10,7 @@ import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
 import io.furrow.control.manager.Observer;
-import io.furrow.control.manager.RecordScope;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -20,12 +20,11 @@ import io.furrow.model.ngsi.UnreadableException;
  * it too, if it was closed manually or began before the processor started. No record reports the end of a prediction:
  * it ends when it is not repeated for a while, or when the encounter starts, and there is none while there is a collision. A
  * collision that is not repeated for {@link AlarmCommandHandler#COLLISION_HOLDS} has ended, too: its last record was lost.
+ *
+ * @param types returns the type of a device's entity by tenant, service path and id
  */
-public final class EncounterAlarmProcessor implements Observer {
-    private final AlarmCommandHandler alarms;
-    private final Function<String, String> types;
-    private final AlarmDurations holds;
-
+public record EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations holds)
+        implements Observer {
     /**
      * How long alarms last without a record of their encounter.
      *
@@ -34,19 +33,12 @@ public final class EncounterAlarmProcessor implements Observer {
      */
     public record AlarmDurations(Duration prediction, Duration collision) {}
 
-    /** @param types returns the type of a device's entity by tenant, service path and id */
-    EncounterAlarmProcessor(AlarmCommandHandler alarms, Function<String, String> types, AlarmDurations holds) {
-        this.alarms = alarms;
-        this.types = types;
-        this.holds = holds;
-    }
-
     @Override
     public void take(Record<String, byte[]> record, long now) throws UnreadableException {
         if (record.value() == null) {
             return;
         }
-        EncounterReport encounter = EncounterReport.read(record.value(), RecordScope.of(record));
+        EncounterReport encounter = EncounterReport.read(record.value(), KafkaClients.scope(record.headers()));
         String pair = encounter.identity();
         switch (encounter.phase()) {
             case "started" -> {

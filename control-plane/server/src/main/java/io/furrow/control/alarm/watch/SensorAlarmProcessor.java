@@ -1,7 +1,6 @@
 package io.furrow.control.alarm.watch;
 
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.function.Function;
@@ -12,8 +11,8 @@ import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
 import io.furrow.control.manager.Observer;
-import io.furrow.control.manager.RecordScope;
 import io.furrow.control.manager.Table;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
@@ -48,7 +47,7 @@ final class SensorAlarmProcessor implements Observer {
         if (window == null) {
             return;
         }
-        FiwareScope scope = RecordScope.of(record);
+        FiwareScope scope = KafkaClients.scope(record.headers());
         SuspectStreaks existing = runsOf(scope.identity(window.field()), window.windowEnd());
         SuspectStreaks run = existing.after(window);
         if (run == existing) {
@@ -78,13 +77,7 @@ final class SensorAlarmProcessor implements Observer {
             return;
         }
         nextClearing = now + CLEARING_INTERVAL;
-        List<String> passed = new ArrayList<>();
-        runs.forEach(run -> {
-            if (run.windowEnd() + REMEMBERED.toMillis() <= now) {
-                passed.add(run.field());
-            }
-        });
-        passed.forEach(field -> runs.put(field, null));
+        runs.where(run -> run.windowEnd() + REMEMBERED.toMillis() <= now).forEach(run -> runs.put(run.field(), null));
     }
 
     private SuspectStreaks runsOf(String field, long time) {

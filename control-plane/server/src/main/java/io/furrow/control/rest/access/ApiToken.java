@@ -16,6 +16,7 @@ import java.util.regex.Pattern;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.control.Role;
 import io.furrow.model.file.FileProblem;
 import io.furrow.model.file.PrivateFile;
 

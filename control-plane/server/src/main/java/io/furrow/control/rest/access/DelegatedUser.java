@@ -5,6 +5,8 @@ import java.util.regex.Pattern;
 
 import jakarta.ws.rs.container.ContainerRequestContext;
 
+import io.furrow.model.control.Role;
+
 /**
  * For whom a request is sent with a token that speaks for users: the headers {@value #USER} and {@value #ROLE}. The dashboard sends
  * them for users whom a proxy in front of it has signed in.

@@ -72,12 +72,7 @@ public final class ProblemException extends RuntimeException {
     }
 
     public Response response() {
-        return response(
-                status,
-                CommandResult.of(CommandResult.ERROR)
-                        .with("error", error)
-                        .with("reason", getMessage())
-                        .json());
+        return response(status, CommandResult.ofError(error, getMessage()).json());
     }
 
     /** What a manager refused. @param error its code @param json with {@code error} and {@code reason} */

@@ -11,6 +11,8 @@ import jakarta.ws.rs.container.ContainerRequestFilter;
 import jakarta.ws.rs.container.ResourceInfo;
 import jakarta.ws.rs.core.Context;
 
+import io.furrow.model.control.Role;
+
 /**
  * Refuses what the role of a caller does not allow. A viewer may read, an operator may do everything else too, but for operations
  * with {@link RolesAllowed}. Where no tokens are asked for, a caller is an admin.

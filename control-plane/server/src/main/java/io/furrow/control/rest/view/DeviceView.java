@@ -18,13 +18,7 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /** Reads desired devices with the settings of their groups, and how they are connected. */
-public final class DeviceView {
-    private final StateView view;
-
-    public DeviceView(StateView view) {
-        this.view = view;
-    }
-
+public record DeviceView(StateView view) {
     /** @param identity tenant, service path and id of the entity */
     public Optional<DesiredDevice> find(String identity) {
         return view.find(Topics.DEVICES, identity).flatMap(device -> read(device, new MissionDeviceLists()));

@@ -1,21 +1,18 @@
 package io.furrow.control.rest.view;
 
 import java.time.Clock;
+import java.time.Duration;
 import java.util.HashMap;
-import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Optional;
-import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.RejectedExecutionException;
 import java.util.concurrent.ThreadPoolExecutor;
-import java.util.concurrent.TimeUnit;
-
-import org.slf4j.Logger;
-import org.slf4j.LoggerFactory;
 
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.kafka.BoundedMap;
+import io.furrow.kafka.DaemonThreads;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.mongo.EventDensity;
 import io.furrow.model.control.ErrorCode;
@@ -28,7 +25,6 @@ public final class EventTiles implements AutoCloseable {
     /** Of a tile. */
     static final int BUCKETS = 256;
 
-    private static final Logger LOG = LoggerFactory.getLogger(EventTiles.class);
     private static final int MAX_WAITING = 64;
     private static final int MAX_CACHED = 2_000;
     private static final long FRESH_MS = 600_000;
@@ -38,20 +34,8 @@ public final class EventTiles implements AutoCloseable {
     private final Counter counter;
     private final Clock clock;
     private final Map<Tile, CompletableFuture<Counted>> waiting = new HashMap<>();
-    private final Map<Tile, Counted> cached = new LinkedHashMap<>(64, 0.75f, true) {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        protected boolean removeEldestEntry(Map.Entry<Tile, Counted> eldest) {
-            return size() > MAX_CACHED;
-        }
-    };
-    private final ThreadPoolExecutor counting =
-            new ThreadPoolExecutor(1, 1, 0, TimeUnit.SECONDS, new ArrayBlockingQueue<>(MAX_WAITING), task -> {
-                Thread thread = new Thread(task, "control-plane-timelines");
-                thread.setDaemon(true);
-                return thread;
-            });
+    private final Map<Tile, Counted> cached = BoundedMap.byAccess(MAX_CACHED);
+    private final ThreadPoolExecutor counting = DaemonThreads.single("control-plane-timelines", MAX_WAITING);
 
     /** @param index the tile begins at the event time {@code index * BUCKETS * width} */
     record Tile(String mission, long width, long index) {
@@ -171,13 +155,7 @@ public final class EventTiles implements AutoCloseable {
     @Override
     public void close() {
         counting.shutdownNow();
-        try {
-            if (!counting.awaitTermination(1, TimeUnit.SECONDS)) {
-                LOG.debug("events are still counted");
-            }
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-        }
+        DaemonThreads.await(counting, Duration.ofSeconds(1));
         counter.close();
     }
 }

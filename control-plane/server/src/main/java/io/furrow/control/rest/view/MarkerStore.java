@@ -1,18 +1,17 @@
 package io.furrow.control.rest.view;
 
-import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionStage;
 import java.util.concurrent.Executor;
 import java.util.concurrent.RejectedExecutionException;
 import java.util.concurrent.ThreadPoolExecutor;
-import java.util.concurrent.TimeUnit;
 
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.kafka.DaemonThreads;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.marker.Markers;
 import io.furrow.mission.marker.RejectedMarkerException;
@@ -25,12 +24,7 @@ public final class MarkerStore implements AutoCloseable {
 
     private final ReplaySettings settings;
     private final Executor answering;
-    private final ThreadPoolExecutor executor =
-            new ThreadPoolExecutor(1, 1, 0, TimeUnit.SECONDS, new ArrayBlockingQueue<>(MAX_WAITING), task -> {
-                Thread thread = new Thread(task, "control-plane-markers");
-                thread.setDaemon(true);
-                return thread;
-            });
+    private final ThreadPoolExecutor executor = DaemonThreads.single("control-plane-markers", MAX_WAITING);
     /** Of the thread that asks. */
     private Markers markers;
 

@@ -1,6 +1,5 @@
 package io.furrow.control.rest.view;
 
-import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
@@ -8,6 +7,7 @@ import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.atomic.LongAdder;
 
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.kafka.BoundedMap;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.ngsi.UnreadableException;
@@ -23,15 +23,6 @@ public final class PendingReplies {
     private final Map<Kind, LongAdder> counts = new ConcurrentHashMap<>();
     /** By topic: at the start one is read before the other, and the answers of a busy one would push those of the rest out. */
     private final Map<String, Map<Key, Remembered>> remembered = new ConcurrentHashMap<>();
-
-    private static final class Newest extends LinkedHashMap<Key, Remembered> {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        protected boolean removeEldestEntry(Map.Entry<Key, Remembered> eldest) {
-            return size() > REMEMBERED;
-        }
-    }
 
     /** @param topic of the manager @param status of the answer */
     public record Kind(String topic, String status) {}
@@ -102,7 +93,7 @@ public final class PendingReplies {
     }
 
     private Map<Key, Remembered> newest(Key key) {
-        return remembered.computeIfAbsent(key.topic(), any -> new Newest());
+        return remembered.computeIfAbsent(key.topic(), any -> BoundedMap.byInsertion(REMEMBERED));
     }
 
     /** An answer that was read, of whomever. */

@@ -2,22 +2,19 @@ package io.furrow.control.rest.view;
 
 import java.time.Duration;
 import java.util.Properties;
-import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.RejectedExecutionException;
 import java.util.concurrent.Semaphore;
 import java.util.concurrent.ThreadPoolExecutor;
-import java.util.concurrent.TimeUnit;
 import java.util.function.BooleanSupplier;
 
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.Producer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.KafkaException;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
 
 import io.furrow.control.rest.access.ProblemException;
+import io.furrow.kafka.DaemonThreads;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.Limits;
 
 /**
@@ -32,12 +29,7 @@ final class RecordSender implements AutoCloseable {
 
     private final Producer<String, byte[]> producer;
     private final Semaphore bytes = new Semaphore(MAX_BYTES);
-    private final ThreadPoolExecutor executor =
-            new ThreadPoolExecutor(1, 1, 0, TimeUnit.SECONDS, new ArrayBlockingQueue<>(MAX_RECORDS), task -> {
-                Thread thread = new Thread(task, "control-plane-rest-sender");
-                thread.setDaemon(true);
-                return thread;
-            });
+    private final ThreadPoolExecutor executor = DaemonThreads.single("control-plane-rest-sender", MAX_RECORDS);
 
     /** @param timeout after which a record that Kafka did not take has failed */
     RecordSender(Properties client, Duration timeout) {
@@ -48,7 +40,7 @@ final class RecordSender implements AutoCloseable {
         settings.put("delivery.timeout.ms", Long.toString(timeout.toMillis()));
         settings.put("linger.ms", "0");
         settings.put("max.request.size", Integer.toString(Limits.MESSAGE_BYTES));
-        this.producer = new KafkaProducer<>(settings, new StringSerializer(), new ByteArraySerializer());
+        this.producer = KafkaClients.producer(settings);
     }
 
     /**

@@ -11,15 +11,9 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.Topics;
 
 /** The replays that are requested, each with what its player says of it as the member {@code status}. */
-public final class ReplayStatusView {
+public record ReplayStatusView(StateView view) {
     public static final String REPLAY = "replay";
     public static final String GROUP = "group";
-
-    private final StateView view;
-
-    public ReplayStatusView(StateView view) {
-        this.view = view;
-    }
 
     boolean isComplete() {
         return view.isComplete();

@@ -1,6 +1,5 @@
 package io.furrow.control.rest.view;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -18,21 +17,18 @@ import org.apache.kafka.clients.admin.OffsetSpec;
 import org.apache.kafka.clients.consumer.Consumer;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.ConsumerRecords;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.consumer.OffsetAndTimestamp;
 import org.apache.kafka.common.IsolationLevel;
 import org.apache.kafka.common.PartitionInfo;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 import org.apache.kafka.common.errors.WakeupException;
-import org.apache.kafka.common.header.Header;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.ComponentStatus;
+import io.furrow.kafka.KafkaClients;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.RequestFingerprint;
 import io.furrow.model.ngsi.NgsiJson;
@@ -99,8 +95,7 @@ public final class StateViewUpdater implements AutoCloseable {
     private void follow() {
         while (closing.getCount() > 0) {
             try (Admin admin = Admin.create(settings);
-                    Consumer<String, byte[]> fresh =
-                            new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
+                    Consumer<String, byte[]> fresh = KafkaClients.consumer(settings)) {
                 consumer = fresh;
                 view.clear();
                 read(fresh, admin);
@@ -211,18 +206,13 @@ public final class StateViewUpdater implements AutoCloseable {
         }
         answer.requestId().ifPresent(id -> {
             PendingReplies.Key key = new PendingReplies.Key(record.topic(), id);
-            String fingerprint = fingerprint(record);
+            String fingerprint =
+                    KafkaClients.text(record.headers(), RequestFingerprint.HEADER); // null if it names none
             answers.remember(key, fingerprint, record.value(), answer);
             if (answers.isAwaited(key, fingerprint)) {
                 fresh.put(key, answer);
             }
         });
-    }
-
-    /** Of the request that a record answers; null if it does not say. */
-    private static String fingerprint(ConsumerRecord<String, byte[]> record) {
-        Header header = record.headers().lastHeader(RequestFingerprint.HEADER);
-        return header == null ? null : new String(header.value(), StandardCharsets.UTF_8);
     }
 
     private void takeValue(ConsumerRecord<String, byte[]> record) {

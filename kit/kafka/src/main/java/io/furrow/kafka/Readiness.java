@@ -1,4 +1,4 @@
-package io.furrow.control.readiness;
+package io.furrow.kafka;
 
 import java.time.Clock;
 import java.time.Duration;
@@ -9,8 +9,6 @@ import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-
-import io.furrow.kafka.ComponentStatus;
 
 /**
  * The parts of this control plane, and what they need. It is <b>alive</b> unless a part has ended that only a restart of the process

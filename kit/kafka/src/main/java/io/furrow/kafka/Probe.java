@@ -1,4 +1,4 @@
-package io.furrow.control.readiness;
+package io.furrow.kafka;
 
 import java.io.IOException;
 import java.net.URI;
@@ -17,7 +17,6 @@ import java.util.concurrent.TimeoutException;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.DescribeClusterOptions;
 
-import io.furrow.kafka.ComponentStatus;
 import io.furrow.model.text.FailureText;
 
 /**
@@ -26,7 +25,7 @@ import io.furrow.model.text.FailureText;
  */
 public final class Probe implements AutoCloseable {
     private static final Duration INTERVAL = Duration.ofSeconds(2);
-    private static final Duration TIMEOUT = Duration.ofSeconds(2);
+    public static final Duration TIMEOUT = Duration.ofSeconds(2);
     private static final Duration UNAVAILABLE_AFTER = Duration.ofSeconds(6);
     private static final int SERVER_ERROR = 500;
 
@@ -38,20 +37,16 @@ public final class Probe implements AutoCloseable {
     private volatile String failure = "not asked yet";
 
     /** Comes back where it is there. */
-    private interface Check {
+    public interface Check {
         void run() throws IOException, InterruptedException, ExecutionException, TimeoutException;
     }
 
     /** @param closing lets go of what the check uses */
-    private Probe(String name, Check check, Runnable closing) {
+    public Probe(String name, Check check, Runnable closing) {
         this.name = name;
         this.check = check;
         this.closing = closing;
-        this.executor = Executors.newSingleThreadScheduledExecutor(task -> {
-            Thread thread = new Thread(task, name + "-probe");
-            thread.setDaemon(true);
-            return thread;
-        });
+        this.executor = Executors.newSingleThreadScheduledExecutor(DaemonThreads.named(name + "-probe"));
         executor.scheduleWithFixedDelay(this::request, 0, INTERVAL.toMillis(), TimeUnit.MILLISECONDS);
     }
 

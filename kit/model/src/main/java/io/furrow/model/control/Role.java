@@ -1,9 +1,8 @@
-package io.furrow.control.rest.access;
+package io.furrow.model.control;
 
+import java.util.Arrays;
 import java.util.Locale;
 import java.util.Optional;
-
-import jakarta.annotation.security.RolesAllowed;
 
 /** What a caller may do; each may what those before it may. */
 public enum Role {
@@ -14,16 +13,11 @@ public enum Role {
     /** Reads and rotates credentials, and deletes what others build on. */
     ADMIN;
 
-    /** For {@link RolesAllowed}: operations that need more than the method of the request says, see {@link RoleFilter}. */
+    /** For annotations of operations that need more than the method of the request says. */
     public static final String ADMINS = "admin";
 
     public static Optional<Role> of(String code) {
-        for (Role role : values()) {
-            if (role.code().equals(code)) {
-                return Optional.of(role);
-            }
-        }
-        return Optional.empty();
+        return Arrays.stream(values()).filter(role -> role.code().equals(code)).findFirst();
     }
 
     /** As in the file of tokens. */

@@ -1,0 +1,2 @@
+/** Pages of metrics in the text format of Prometheus. */
+package io.furrow.http.prometheus;
