@@ -59,10 +59,9 @@ public final class ScenarioCommand implements Callable<Integer> {
     @Option(
             names = "--qos",
             paramLabel = "N",
-            defaultValue = "1",
             description =
                     "QoS of measures: 0, what is measured while the connection is broken is lost; or 1. Default: 1.")
-    private int qos;
+    private int qos = 1;
 
     @Option(
             names = "--for",

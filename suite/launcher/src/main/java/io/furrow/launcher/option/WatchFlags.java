@@ -33,10 +33,9 @@ public final class WatchFlags {
     @Option(
             names = "--silent-after",
             paramLabel = "N",
-            defaultValue = "3",
             description =
                     "Periods without a sign of life after which a device counts as silent. Default: ${DEFAULT-VALUE}.")
-    private int silentAfter;
+    private int silentAfter = 3;
 
     @Option(
             names = "--silent-share",
