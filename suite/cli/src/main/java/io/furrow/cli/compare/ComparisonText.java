@@ -6,6 +6,9 @@ import java.util.Collection;
 import java.util.Locale;
 import java.util.TreeSet;
 
+import io.furrow.cli.compare.AnalyticsResult.Average;
+import io.furrow.cli.compare.AnalyticsResult.Encounter;
+
 /** Values of results as people read them. */
 final class ComparisonText {
     private ComparisonText() {}
@@ -33,9 +36,9 @@ final class ComparisonText {
 
     /** What a result of one side says. */
     static String value(AnalyticsResult span) {
-        if (span instanceof EncounterResult one) {
+        if (span instanceof Encounter one) {
             return "closest " + number(one.closest()) + " m";
-        } else if (span instanceof AverageResult one) {
+        } else if (span instanceof Average one) {
             return "mean " + (one.isEmpty() ? "none" : number(one.mean()));
         }
         return "";
