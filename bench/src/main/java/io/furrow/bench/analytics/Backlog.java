@@ -1,11 +1,10 @@
 package io.furrow.bench.analytics;
 
-import java.lang.management.ManagementFactory;
-import java.lang.management.MemoryMXBean;
 import java.util.concurrent.ExecutionException;
 
 import io.furrow.bench.analytics.load.Fleet;
 import io.furrow.bench.frame.Figures;
+import io.furrow.bench.frame.ProcessStatus;
 
 /**
  * What a job has to catch up with: reports on two partitions, of which the second takes longer to read.
@@ -31,7 +30,6 @@ record Backlog(int devices, int seconds, int padding, String maxDrift) {
 
     /** What the job that reads it holds, and how far its partitions are apart. */
     static final class Reading {
-        private static final MemoryMXBean MEMORY = ManagementFactory.getMemoryMXBean();
 
         private final Backlog plan;
         private final double before = liveMebibytes();
@@ -75,8 +73,7 @@ record Backlog(int devices, int seconds, int padding, String maxDrift) {
 
         /** Of the heap, after a collection. */
         private static double liveMebibytes() {
-            MEMORY.gc();
-            return MEMORY.getHeapMemoryUsage().getUsed() / MEBIBYTE;
+            return ProcessStatus.heapAfterCollection() / MEBIBYTE;
         }
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.bench.analytics;
 
-import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -15,7 +14,6 @@ import io.furrow.bench.analytics.load.FleetTopic;
 import io.furrow.bench.frame.CpuReading;
 import io.furrow.bench.frame.Engines;
 import io.furrow.bench.frame.Figures;
-import io.furrow.flink.job.JobCommandLine;
 
 /** Runs the job {@code collision} on NGSI entities from a topic, with its results on another. */
 final class TopicMeasurement {
@@ -175,15 +173,13 @@ final class TopicMeasurement {
 
     /** Under a name of its own each reads from the beginning. */
     private Engines.Job start(FleetTopic topic, int parallelism, String... more) throws Exception {
-        List<String> args = new ArrayList<>(List.of(more));
-        args.addAll(List.of("--bootstrap-servers", engines.bootstrapServers()));
-        args.addAll(List.of("--input", topic.name(), "--output", topic.results()));
-        args.addAll(List.of("--parallelism", Integer.toString(parallelism)));
-        args.addAll(List.of("--checkpoint-interval", CHECKPOINTS_SECONDS + "s"));
-        Path checkpoints = engines.folder("checkpoints").resolve(jobName());
-        args.addAll(List.of("--checkpoint-dir", checkpoints.toUri().toString()));
-        CollisionOptions options = new CollisionOptions();
-        JobCommandLine.of(options).setCommandName(jobName()).parseArgs(args.toArray(String[]::new));
-        return engines.submit(jobName(), CollisionJob.assemble(options));
+        List<String> words = new ArrayList<>(List.of("--input", topic.name(), "--output", topic.results()));
+        words.addAll(List.of("--parallelism", Integer.toString(parallelism)));
+        words.addAll(List.of("--checkpoint-interval", CHECKPOINTS_SECONDS + "s"));
+        words.addAll(List.of(more));
+        return engines.submit(
+                jobName(),
+                CollisionJob.assemble(
+                        engines.options(jobName(), new CollisionOptions(), words.toArray(String[]::new))));
     }
 }

@@ -3,16 +3,13 @@ package io.furrow.bench.evaluation;
 import java.lang.management.ManagementFactory;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
-import java.util.List;
 import java.util.Locale;
-import java.util.Optional;
 import java.util.Properties;
 import java.util.SplittableRandom;
+import java.util.function.IntFunction;
 
 import com.sun.management.HotSpotDiagnosticMXBean;
-import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.common.header.internals.RecordHeaders;
-import org.apache.kafka.common.record.TimestampType;
+import org.apache.kafka.clients.producer.ProducerRecord;
 
 import io.furrow.bench.http.BaselineServer;
 import io.furrow.bench.http.HttpLoad;
@@ -40,7 +37,10 @@ record Calibration(double producer, double server, double bridge) {
                 EmbeddedKafka kafka = EmbeddedKafka.start(directory.resolve("kafka"))) {
             Properties client = new Properties();
             client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-            return new Calibration(producing(client), serving(), bridging(client));
+            return new Calibration(
+                    producing(client),
+                    answered(BaselineServer.start()),
+                    answered(BaselineServer.bridge(client, "calibration-bridge")));
         }
     }
 
@@ -48,41 +48,18 @@ record Calibration(double producer, double server, double bridge) {
         byte[] value = new byte[BYTES];
         new SplittableRandom(1).nextBytes(value);
         byte[] key = "device".getBytes(StandardCharsets.US_ASCII);
-        BaselineProducer producer = new BaselineProducer(client, "calibration");
-        List<ConsumerRecord<byte[], byte[]>> samples = List.of(new ConsumerRecord<>(
-                "calibration",
-                0,
-                0,
-                System.currentTimeMillis(),
-                TimestampType.CREATE_TIME,
-                key.length,
-                value.length,
-                key,
-                value,
-                new RecordHeaders(),
-                Optional.empty()));
-        producer.perSecond(samples, LASTING);
-        return producer.perSecond(samples, LASTING);
-    }
-
-    private static double serving() {
-        try (BaselineServer server = BaselineServer.start()) {
-            return answered(server);
-        }
-    }
-
-    private static double bridging(Properties client) {
-        try (BaselineServer server = BaselineServer.bridge(client, "calibration-bridge")) {
-            return answered(server);
-        }
+        IntFunction<ProducerRecord<byte[], byte[]>> records = number -> new ProducerRecord<>("calibration", key, value);
+        BaselineProducer.perSecond(client, records, LASTING);
+        return BaselineProducer.perSecond(client, records, LASTING);
     }
 
     /** Per second, of a second run. */
-    private static double answered(BaselineServer server) {
+    private static double answered(BaselineServer started) {
         HttpLoad.Plan plan = new HttpLoad.Plan(CONNECTIONS, false, 0, BYTES, ENTITIES, LASTING);
-        new HttpLoad(server.address(), plan, 0).run();
-        HttpLoad.Result load = new HttpLoad(server.address(), plan, 0).run();
-        return load.perSecond();
+        try (BaselineServer server = started) {
+            new HttpLoad(server.address(), plan, 0).run();
+            return new HttpLoad(server.address(), plan, 0).run().perSecond();
+        }
     }
 
     /** Of this JVM, MB, as it was started; what {@link Runtime#maxMemory} returns changes by the collector's arrangements. */

@@ -2,7 +2,9 @@ package io.furrow.bench.frame;
 
 import java.io.PrintWriter;
 import java.nio.file.Path;
+import java.util.ArrayList;
 import java.util.HashMap;
+import java.util.List;
 import java.util.Map;
 import java.util.Properties;
 import java.util.concurrent.Callable;
@@ -19,6 +21,8 @@ import org.apache.kafka.clients.admin.NewTopic;
 import io.furrow.embedded.EmbeddedConnect;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.job.JobOptions;
 import io.furrow.launcher.process.LogFile;
 import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.suite.Closeables;
@@ -98,6 +102,16 @@ public final class Engines implements AutoCloseable {
         Properties copy = new Properties();
         copy.putAll(client);
         return copy;
+    }
+
+    /** The options of a job at these engines, with its checkpoints in a folder of its name. @param more words of its command line */
+    public <T extends JobOptions> T options(String name, T options, String... more) {
+        String checkpoints = folder("checkpoints").resolve(name).toUri().toString();
+        List<String> words =
+                new ArrayList<>(List.of("--bootstrap-servers", bootstrapServers(), "--checkpoint-dir", checkpoints));
+        words.addAll(List.of(more));
+        JobCommandLine.of(options).setCommandName(name).parseArgs(words.toArray(String[]::new));
+        return options;
     }
 
     public Job submit(String name, StreamExecutionEnvironment job) {

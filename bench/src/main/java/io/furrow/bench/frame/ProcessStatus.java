@@ -4,7 +4,7 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
-/** What Linux says of a process. */
+/** What Linux says of a process, and the JVM of this one. */
 public final class ProcessStatus {
     private ProcessStatus() {}
 
@@ -16,5 +16,11 @@ public final class ProcessStatus {
                 .mapToLong(line -> Long.parseLong(line.replaceAll("\\D", "")))
                 .findFirst()
                 .orElseThrow(() -> new IOException(status + " has no line " + name));
+    }
+
+    /** Bytes of this JVM's heap in use, after a collection. */
+    public static long heapAfterCollection() {
+        System.gc();
+        return Runtime.getRuntime().totalMemory() - Runtime.getRuntime().freeMemory();
     }
 }

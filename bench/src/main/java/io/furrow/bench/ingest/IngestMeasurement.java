@@ -20,7 +20,6 @@ import org.apache.kafka.clients.admin.Admin;
 import io.furrow.bench.frame.Engines;
 import io.furrow.bench.frame.TopicReader;
 import io.furrow.flink.job.Delivery;
-import io.furrow.flink.job.JobCommandLine;
 import io.furrow.ingest.IngestJob;
 import io.furrow.ingest.IngestOptions;
 import io.furrow.model.topic.Topics;
@@ -154,17 +153,14 @@ final class IngestMeasurement {
 
     /** Under a name of its own each reads from the beginning and has its own transactions. */
     private StreamExecutionEnvironment job(String name, ComparedJob compared, Delivery delivery) {
-        List<String> args = new ArrayList<>(compared.options());
-        args.addAll(List.of("--bootstrap-servers", engines.bootstrapServers()));
-        args.addAll(List.of("--delivery", words(delivery)));
-        args.addAll(List.of("--parallelism", Integer.toString(plan.parallelism())));
-        args.addAll(List.of("--checkpoint-interval", plan.checkpointIntervalMillis() + "ms"));
-        args.addAll(List.of("--checkpoint-dir", checkpoints(name).toUri().toString()));
+        List<String> words = new ArrayList<>(compared.options());
+        words.addAll(List.of("--delivery", words(delivery)));
+        words.addAll(List.of("--parallelism", Integer.toString(plan.parallelism())));
+        words.addAll(List.of("--checkpoint-interval", plan.checkpointIntervalMillis() + "ms"));
         if (compared == ComparedJob.INGEST && mongo != null) {
-            args.addAll(List.of("--mongo", mongo));
+            words.addAll(List.of("--mongo", mongo));
         }
-        IngestOptions options = new IngestOptions();
-        JobCommandLine.of(options).setCommandName(name).parseArgs(args.toArray(String[]::new));
+        IngestOptions options = engines.options(name, new IngestOptions(), words.toArray(String[]::new));
         return switch (compared) {
             case COPY_ONCE -> CopyJob.assemble(options, Topics.realtime(ReportedEntities.DOMAIN), List.of());
             case COPY_TWICE -> CopyJob.assemble(options, Topics.realtime(ReportedEntities.DOMAIN), missionTopics());

@@ -65,36 +65,27 @@ final class ReportedEntities {
 
     /** Six measures with the time that the IoT Agent gives each, and a text that fills the rest. */
     private String json(int device, int number, Instant time) {
-        StringBuilder json = new StringBuilder(plan.bytes() + 100)
-                .append("{\"id\":\"urn:ngsi-ld:Thermometer:%05d\",\"type\":\"Thermometer\"".formatted(device));
-        attribute(json, "Domain", "String", '"' + DOMAIN + '"', null);
-        attribute(json, "Mission", "String", '"' + mission(device % plan.missions()) + '"', null);
-        attribute(json, "Time", "Integer", Long.toString(time.toEpochMilli()), null);
-        attribute(json, "Temperature", "Float", 15 + number % 200 / 10.0 + "", time);
-        attribute(json, "Latitude", "Float", "40.31%04d".formatted(number % 10_000), time);
-        attribute(json, "Longitude", "Float", "-3.48%04d".formatted(device % 10_000), time);
-        attribute(json, "Status", "Boolean", "true", time);
-        attribute(json, "Battery", "Float", "0.%02d".formatted(99 - number % 50), time);
-        String empty = attribute(new StringBuilder(), "Location", "String", "\"\"", null)
-                .toString();
-        int missing = plan.bytes() - json.length() - empty.length() - 1;
-        attribute(json, "Location", "String", '"' + "x".repeat(Math.max(0, missing)) + '"', null);
-        return json.append('}').toString();
-    }
-
-    private static StringBuilder attribute(StringBuilder json, String name, String type, String value, Instant time) {
-        json.append(",\"")
-                .append(name)
-                .append("\":{\"type\":\"")
-                .append(type)
-                .append("\",\"value\":")
-                .append(value);
-        json.append(",\"metadata\":{");
-        if (time != null) {
-            json.append("\"TimeInstant\":{\"type\":\"DateTime\",\"value\":\"")
-                    .append(time)
-                    .append("\"}");
-        }
-        return json.append("}}");
+        String instant = "{\"TimeInstant\":{\"type\":\"DateTime\",\"value\":\"" + time + "\"}}";
+        String json = """
+                {"id":"urn:ngsi-ld:Thermometer:%05d","type":"Thermometer",\
+                "Domain":{"type":"String","value":"%s","metadata":{}},\
+                "Mission":{"type":"String","value":"%s","metadata":{}},\
+                "Time":{"type":"Integer","value":%d,"metadata":{}},\
+                "Temperature":{"type":"Float","value":%s,"metadata":@},\
+                "Latitude":{"type":"Float","value":40.31%04d,"metadata":@},\
+                "Longitude":{"type":"Float","value":-3.48%04d,"metadata":@},\
+                "Status":{"type":"Boolean","value":true,"metadata":@},\
+                "Battery":{"type":"Float","value":0.%02d,"metadata":@},\
+                "Location":{"type":"String","value":"#","metadata":{}}}""".formatted(
+                        device,
+                        DOMAIN,
+                        mission(device % plan.missions()),
+                        time.toEpochMilli(),
+                        15 + number % 200 / 10.0,
+                        number % 10_000,
+                        device % 10_000,
+                        99 - number % 50)
+                .replace("@", instant);
+        return json.replace("#", "x".repeat(Math.max(0, plan.bytes() + 1 - json.length())));
     }
 }

@@ -1,79 +1,69 @@
 package io.furrow.bench.load;
 
 import java.nio.charset.StandardCharsets;
-import java.util.EnumMap;
+import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
+import java.util.TreeMap;
+import java.util.stream.LongStream;
+import java.util.stream.Stream;
 
 import org.HdrHistogram.Histogram;
 import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.header.Headers;
 
+import io.furrow.bench.frame.Figures;
 import io.furrow.model.event.HeaderNames;
 
-/** What has arrived: distinct events, repeats, and the delay of each {@link Hop} of the first arrival of each event. */
+/** The distinct events that have arrived: when each was where, and which came again or out of order. */
 final class Arrivals {
     private static final long MAX_MS = 3_600_000;
     private static final int DIGITS = 3;
+    private static final long STEP_MS = 100;
 
     private final Set<String> ids = new HashSet<>();
-    private final Map<Hop, Histogram> delays = new EnumMap<>(Hop.class);
-    private final Timeline timeline = new Timeline();
+    private final List<Passage> passages = new ArrayList<>();
     private final Map<String, Long> newest = new HashMap<>();
     private final Map<String, Long> newestAtSource = new HashMap<>();
-    private final long notBefore;
     private long repeats;
     private long reordered;
     private long reorderedAfterSource;
 
-    /** @param notBefore what was sent earlier counts, but its delays do not, epoch ms */
-    Arrivals(long notBefore) {
-        this.notBefore = notBefore;
-        for (Hop hop : Hop.values()) {
-            delays.put(hop, new Histogram(MAX_MS, DIGITS));
+    /** When an event was sent by the device, and the source, ingest and the reader had it, epoch ms. */
+    record Passage(long device, long source, long ingest, long reader) {}
+
+    /** A time in which events were sent, epoch ms. */
+    record Interval(long from, long to) {
+        private boolean contains(long millis) {
+            return millis >= from && millis < to;
         }
     }
 
     /** To be called as soon as they are there. */
-    void add(ConsumerRecords<byte[], byte[]> records) {
+    synchronized void add(ConsumerRecords<byte[], byte[]> records) {
         long now = System.currentTimeMillis();
         records.forEach(record -> add(new String(record.key(), StandardCharsets.UTF_8), record.headers(), now));
     }
 
-    /**
-     * @param entity whose messages are to come in the order in which they were sent
-     * @param now when the reader had the record, epoch ms
-     */
-    synchronized void add(String entity, Headers headers, long now) {
+    /** @param entity whose messages are to come in the order in which they were sent */
+    private void add(String entity, Headers headers, long now) {
         if (!ids.add(text(headers, HeaderNames.CE_ID))) {
             repeats++;
             return;
         }
         long device = stamp(headers, HeaderNames.TS_DEVICE);
         long source = stamp(headers, HeaderNames.TS_SOURCE);
-        long ingest = stamp(headers, HeaderNames.TS_INGEST);
-        if (device >= notBefore) {
-            record(Hop.DEVICE_TO_SOURCE, source - device);
-            record(Hop.SOURCE_TO_INGEST, ingest - source);
-            record(Hop.INGEST_TO_READER, now - ingest);
-            record(Hop.SOURCE_TO_READER, now - source);
-            record(Hop.END_TO_END, now - device);
-        }
-        timeline.add(device, source, ingest, now);
-        if (newest.merge(entity, device, Math::max) > device) {
-            reordered++;
-        }
-        if (newestAtSource.merge(entity, source, Math::max) > source) {
-            reorderedAfterSource++;
-        }
+        passages.add(new Passage(device, source, stamp(headers, HeaderNames.TS_INGEST), now));
+        reordered += newest.merge(entity, device, Math::max) > device ? 1 : 0;
+        reorderedAfterSource += newestAtSource.merge(entity, source, Math::max) > source ? 1 : 0;
     }
 
     synchronized long distinct() {
-        return ids.size();
+        return passages.size();
     }
 
     synchronized long repeats() {
@@ -90,25 +80,84 @@ final class Arrivals {
         return reorderedAfterSource;
     }
 
+    /** Milliseconds that a part of the way took for the events that were sent in a time. */
+    synchronized Histogram delays(Hop hop, Interval sent) {
+        Histogram delays = new Histogram(MAX_MS, DIGITS);
+        // The clock of one machine may be set back by a millisecond between two stamps.
+        passages.stream()
+                .filter(passage -> sent.contains(passage.device))
+                .forEach(passage -> delays.recordValue(Math.min(MAX_MS, Math.max(0, hop.delay(passage)))));
+        return delays;
+    }
+
     synchronized List<LoadSecond> seconds() {
-        return timeline.seconds();
+        return seconds(passages);
     }
 
-    /** A copy that no longer changes. */
-    synchronized Histogram delays(Hop hop) {
-        return delays.get(hop).copy();
+    /** How many events were where in each second, and the mean delays of those that were sent in it. */
+    static List<LoadSecond> seconds(List<Passage> passages) {
+        Map<Long, long[]> counts = new TreeMap<>();
+        Map<Long, long[]> sums = new HashMap<>();
+        for (Passage each : passages) {
+            long[] stamps = {each.device, each.source, each.ingest, each.reader};
+            long[] sum = sums.computeIfAbsent(each.device / 1000, none -> new long[3]);
+            for (int place = 0; place < stamps.length; place++) {
+                counts.computeIfAbsent(stamps[place] / 1000, none -> new long[4])[place]++;
+                if (place > 0) {
+                    sum[place - 1] += stamps[place] - stamps[place - 1];
+                }
+            }
+        }
+        List<LoadSecond> seconds = new ArrayList<>();
+        counts.forEach((second, count) -> {
+            List<Double> means = LongStream.of(sums.getOrDefault(second, new long[0]))
+                    .mapToObj(sum -> sum / (double) count[0])
+                    .toList();
+            long first = counts.keySet().iterator().next();
+            seconds.add(new LoadSecond(second - first, count[0], count[1], count[2], count[3], means));
+        });
+        return seconds;
     }
 
-    /** The clock of one machine may be set back by a millisecond between two stamps. */
-    private void record(Hop hop, long millis) {
-        delays.get(hop).recordValue(Math.min(MAX_MS, Math.max(0, millis)));
+    synchronized double arrivedPerSecond(Interval interval) {
+        long arrived = passages.stream()
+                .filter(passage -> interval.contains(passage.reader))
+                .count();
+        return arrived * 1000.0 / (interval.to - interval.from);
     }
 
-    static long stamp(Headers headers, String name) {
+    /** Adds a row of what was sent in a time. @return p99 of its delays from device to reader, ms */
+    long addTo(Figures figures, String title, Interval interval) {
+        Histogram delays = delays(Hop.END_TO_END, interval);
+        figures.add(
+                "rate", title,
+                "sent/s", delays.getTotalCount() * 1000.0 / (interval.to - interval.from),
+                "arrived/s", arrivedPerSecond(interval),
+                "p50 ms", delays.getValueAtPercentile(50),
+                "p99 ms", delays.getValueAtPercentile(99),
+                "waiting", waiting(interval.to));
+        return delays.getValueAtPercentile(99);
+    }
+
+    /** Messages on their way at an instant. */
+    synchronized long waiting(long at) {
+        return passages.stream()
+                .filter(passage -> passage.device <= at && passage.reader > at)
+                .count();
+    }
+
+    long mostWaiting(Interval interval) {
+        return Stream.iterate(interval.from, at -> at <= interval.to, at -> at + STEP_MS)
+                .mapToLong(this::waiting)
+                .max()
+                .orElse(0);
+    }
+
+    private static long stamp(Headers headers, String name) {
         return Long.parseLong(text(headers, name));
     }
 
-    static String text(Headers headers, String name) {
+    private static String text(Headers headers, String name) {
         Header header = headers.lastHeader(name);
         if (header == null) {
             throw new IllegalStateException("a record without the header " + name);

@@ -3,19 +3,17 @@ package io.furrow.bench.load;
 import java.io.IOException;
 import java.time.Duration;
 import java.util.EnumMap;
-import java.util.List;
 import java.util.Map;
-import java.util.Optional;
 import java.util.Properties;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
+import java.util.stream.Stream;
 
 import org.HdrHistogram.Histogram;
-import org.apache.kafka.clients.admin.Admin;
-import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.common.errors.TopicExistsException;
 
+import io.furrow.bench.frame.Engines;
 import io.furrow.bench.frame.TopicReader;
 import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.FleetSettings;
@@ -62,11 +60,15 @@ public final class LoadMeasurement {
     public LoadReport run(LoadPlan plan, Duration skipped)
             throws IOException, InterruptedException, ExecutionException {
         String topic = prepare(plan);
-        Arrivals arrivals = new Arrivals(System.currentTimeMillis() + skipped.toMillis());
+        Arrivals arrivals = new Arrivals();
+        Arrivals.Interval counted =
+                new Arrivals.Interval(System.currentTimeMillis() + skipped.toMillis(), Long.MAX_VALUE);
         try (TopicReader reader = TopicReader.fromEnd(kafka, FETCHING, topic)) {
             reader.follow(arrivals::add);
             long sent = send(plan, arrivals);
             awaitArrivals(sent, arrivals);
+            Map<Hop, Histogram> delays = new EnumMap<>(Hop.class);
+            Stream.of(Hop.values()).forEach(hop -> delays.put(hop, arrivals.delays(hop, counted)));
             return new LoadReport(
                     plan,
                     sent,
@@ -74,7 +76,7 @@ public final class LoadMeasurement {
                     arrivals.repeats(),
                     arrivals.reordered(),
                     arrivals.reorderedAfterSource(),
-                    delays(arrivals),
+                    delays,
                     arrivals.seconds());
         }
     }
@@ -82,7 +84,13 @@ public final class LoadMeasurement {
     /** Makes the mission's topic and its devices, and returns the topic once nothing more is told of their making. */
     String prepare(LoadPlan plan) throws IOException, InterruptedException, ExecutionException {
         String topic = Topics.realtime(plan.domain(), plan.mission());
-        makeTopic(topic);
+        try { // before the first record, so that no delay holds the making of a topic
+            Engines.makeTopics(kafka, PARTITIONS, Map.of(), topic);
+        } catch (ExecutionException e) {
+            if (!(e.getCause() instanceof TopicExistsException)) {
+                throw e;
+            }
+        }
         LoadFleet.provision(devices, plan);
         awaitQuiet(topic);
         return topic;
@@ -117,19 +125,6 @@ public final class LoadMeasurement {
         TimeUnit.SECONDS.sleep(1); // repeats that are still on their way
     }
 
-    /** Made before the first record, so that no delay holds the making of a topic. */
-    private void makeTopic(String topic) throws InterruptedException, ExecutionException {
-        try (Admin admin = Admin.create(kafka)) {
-            admin.createTopics(List.of(new NewTopic(topic, Optional.of(PARTITIONS), Optional.empty())))
-                    .all()
-                    .get();
-        } catch (ExecutionException e) {
-            if (!(e.getCause() instanceof TopicExistsException)) {
-                throw e;
-            }
-        }
-    }
-
     /** The context broker reports each new device; only what comes after that is the load. */
     private void awaitQuiet(String topic) throws InterruptedException {
         try (TopicReader reader = TopicReader.fromEnd(kafka, Map.of(), topic)) {
@@ -141,13 +136,5 @@ public final class LoadMeasurement {
                 now = reader.end();
             }
         }
-    }
-
-    private static Map<Hop, Histogram> delays(Arrivals arrivals) {
-        Map<Hop, Histogram> delays = new EnumMap<>(Hop.class);
-        for (Hop hop : Hop.values()) {
-            delays.put(hop, arrivals.delays(hop));
-        }
-        return delays;
     }
 }

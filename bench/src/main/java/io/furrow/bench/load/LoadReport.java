@@ -37,11 +37,6 @@ public record LoadReport(
         return sent == 0 ? 0 : (double) delivered / sent;
     }
 
-    /** Milliseconds from the device to the reader that so many percent of the events stayed within. */
-    public long endToEndMillis(double percent) {
-        return delays.get(Hop.END_TO_END).getValueAtPercentile(percent);
-    }
-
     public void print(PrintWriter out) {
         double perSecond = plan.devices() * 1000.0 / plan.period().toMillis();
         out.printf(

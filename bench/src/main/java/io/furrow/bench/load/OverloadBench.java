@@ -1,8 +1,6 @@
 package io.furrow.bench.load;
 
 import java.io.IOException;
-import java.lang.management.ManagementFactory;
-import java.lang.management.MemoryMXBean;
 import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
@@ -16,6 +14,7 @@ import picocli.CommandLine.Option;
 
 import io.furrow.bench.frame.Benchmark;
 import io.furrow.bench.frame.Figures;
+import io.furrow.bench.frame.ProcessStatus;
 import io.furrow.bench.frame.TopicReader;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.model.ngsi.NgsiJson;
@@ -52,8 +51,7 @@ public final class OverloadBench extends Benchmark {
     @Option(names = "--bursts", description = "Twice the rate comes as four times the rate in every other second.")
     private boolean bursts;
 
-    private final MemoryMXBean memory = ManagementFactory.getMemoryMXBean();
-    private final Passages passages = new Passages();
+    private final Arrivals arrivals = new Arrivals();
     private Suite suite;
     private long sent;
 
@@ -70,33 +68,33 @@ public final class OverloadBench extends Benchmark {
         Duration stage = Duration.ofSeconds(seconds);
         String topic = new LoadMeasurement(suite.devices(), kafka, this::say).prepare(load(1, stage));
         try (TopicReader reader = TopicReader.fromEnd(kafka, LoadMeasurement.FETCHING, topic)) {
-            reader.follow(passages::add);
+            reader.follow(arrivals::add);
             for (double share : new double[] {0.25, 0.5, 1}) {
                 send(share, stage);
             }
             awaitAll();
             say("the rate");
-            Passages.Interval knee = send(1, stage);
-            long kneeHeap = heapAfterCollection();
+            Arrivals.Interval knee = send(1, stage);
+            long kneeHeap = ProcessStatus.heapAfterCollection();
             awaitAll();
             say("half of it");
-            Passages.Interval before = send(0.5, stage);
+            Arrivals.Interval before = send(0.5, stage);
             awaitAll();
             say("twice as much");
-            Passages.Interval over = bursts ? bursts() : send(2, stage);
+            Arrivals.Interval over = bursts ? bursts() : send(2, stage);
             long pending = pending(suite.listener());
-            long overHeap = heapAfterCollection();
+            long overHeap = ProcessStatus.heapAfterCollection();
             say("half of it again");
-            long usual = passages.mostWaiting(before);
+            long usual = arrivals.mostWaiting(before);
             drain(usual);
             send(0.5, RECOVERY);
-            Passages.Interval after = send(0.5, stage);
+            Arrivals.Interval after = send(0.5, stage);
             awaitAll();
             Figures figures = new Figures("");
-            passages.addTo(figures, rate + " a second", knee);
-            long p99Before = passages.addTo(figures, "half of it", before);
-            passages.addTo(figures, bursts ? "twice as much, in bursts" : "twice as much", over);
-            long p99After = passages.addTo(figures, "half of it, 5 s after", after);
+            arrivals.addTo(figures, rate + " a second", knee);
+            long p99Before = arrivals.addTo(figures, "half of it", before);
+            arrivals.addTo(figures, bursts ? "twice as much, in bursts" : "twice as much", over);
+            long p99After = arrivals.addTo(figures, "half of it, 5 s after", after);
             print(figures);
             printDrain(over, usual);
             print(
@@ -105,36 +103,36 @@ public final class OverloadBench extends Benchmark {
                     overHeap / MEGABYTE,
                     (double) overHeap / kneeHeap,
                     (double) p99After / Math.max(1, p99Before));
-            print("sent %d   delivered %d   repeats %d%n", sent, passages.arrived(), passages.repeats());
+            print("sent %d   delivered %d   repeats %d%n", sent, arrivals.distinct(), arrivals.repeats());
             print("/health under overload: %d records on the source's disk that Kafka does not have%n", pending);
-            return passages.arrived() == sent ? 0 : 1;
+            return arrivals.distinct() == sent ? 0 : 1;
         }
     }
 
     /** From the end of the overload, while half of the rate was sent. */
-    private void printDrain(Passages.Interval over, long usual) {
-        long drained = passages.waiting(over.to());
+    private void printDrain(Arrivals.Interval over, long usual) {
+        long drained = arrivals.waiting(over.to());
         long at = over.to();
-        while (passages.waiting(at) > usual) {
+        while (arrivals.waiting(at) > usual) {
             at += 100;
         }
-        drained -= passages.waiting(at);
+        drained -= arrivals.waiting(at);
         double lasting = (at - over.to()) / 1000.0;
         print(
                 "arrived under overload: %.2f of the rate; drained %d messages in %.1f s, %.2f of the rate a second%n",
-                passages.arrivedPerSecond(over) / rate, drained, lasting, lasting == 0 ? 0 : drained / lasting / rate);
+                arrivals.arrivedPerSecond(over) / rate, drained, lasting, lasting == 0 ? 0 : drained / lasting / rate);
     }
 
     /** @throws IOException if what waited had not arrived after {@link #MAX_DRAIN} */
     private void drain(long usual) throws IOException, InterruptedException {
         long from = System.currentTimeMillis();
-        while (sent - passages.arrived() > usual) {
+        while (sent - arrivals.distinct() > usual) {
             if (System.currentTimeMillis() - from > MAX_DRAIN.toMillis()) {
                 throw new IOException(
-                        "%d messages have not arrived after %s".formatted(sent - passages.arrived(), MAX_DRAIN));
+                        "%d messages have not arrived after %s".formatted(sent - arrivals.distinct(), MAX_DRAIN));
             }
             send(0.5, DRAIN_STEP);
-            say("%d wait".formatted(sent - passages.arrived()));
+            say("%d wait".formatted(sent - arrivals.distinct()));
         }
     }
 
@@ -145,35 +143,30 @@ public final class OverloadBench extends Benchmark {
         return new LoadPlan(devices, period, PAYLOAD, duration, "bench", "overload");
     }
 
-    private Passages.Interval send(double factor, Duration duration) throws IOException, InterruptedException {
+    private Arrivals.Interval send(double factor, Duration duration) throws IOException, InterruptedException {
         try (LoadFleet fleet = LoadFleet.start(suite.devices(), load(factor, duration))) {
             long from = System.currentTimeMillis();
             fleet.await();
             sent += fleet.acknowledged();
-            return new Passages.Interval(from, System.currentTimeMillis());
+            return new Arrivals.Interval(from, System.currentTimeMillis());
         }
     }
 
-    private Passages.Interval bursts() throws IOException, InterruptedException {
+    private Arrivals.Interval bursts() throws IOException, InterruptedException {
         long from = System.currentTimeMillis();
         for (long second = 0; second < seconds; second += 2) {
             send(4, Duration.ofSeconds(1));
             long next = from + (second + 2) * 1000;
             TimeUnit.MILLISECONDS.sleep(Math.max(0, next - System.currentTimeMillis()));
         }
-        return new Passages.Interval(from, System.currentTimeMillis());
+        return new Arrivals.Interval(from, System.currentTimeMillis());
     }
 
     private void awaitAll() throws InterruptedException {
         long until = System.currentTimeMillis() + MAX_DRAIN.toMillis();
-        while (passages.arrived() < sent && System.currentTimeMillis() < until) {
+        while (arrivals.distinct() < sent && System.currentTimeMillis() < until) {
             TimeUnit.MILLISECONDS.sleep(100);
         }
-    }
-
-    private long heapAfterCollection() {
-        memory.gc();
-        return memory.getHeapMemoryUsage().getUsed();
     }
 
     /** Records on the source's disk, as its {@code /health} says. */

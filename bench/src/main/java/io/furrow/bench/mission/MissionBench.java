@@ -1,15 +1,15 @@
 package io.furrow.bench.mission;
 
 import java.time.Duration;
-import java.util.List;
-import java.util.Optional;
+import java.util.Map;
 
-import org.apache.kafka.clients.admin.NewTopic;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Option;
 
 import io.furrow.bench.frame.Benchmark;
+import io.furrow.bench.frame.Engines;
 import io.furrow.bench.frame.Figures;
+import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.model.topic.Topics;
 
@@ -55,8 +55,8 @@ public final class MissionBench extends Benchmark {
 
     private int measure(Suite suite) throws Exception {
         boolean inTime = true;
-        NewTopic topic = new NewTopic(Topics.realtime(DOMAIN), Optional.empty(), Optional.empty());
-        suite.kafka().admin().createTopics(List.of(topic)).all().get();
+        Engines.makeTopics(
+                suite.kafka().clientProperties(), EmbeddedKafka.PARTITIONS, Map.of(), Topics.realtime(DOMAIN));
         Figures figures = new Figures("seconds from the request");
         try (MissionStart start =
                 new MissionStart(suite.control(), suite.kafka().clientProperties(), DOMAIN)) {

@@ -3,6 +3,7 @@ package io.furrow.bench.mongo;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 
@@ -119,25 +120,16 @@ final class MongoMeasurement {
                 "Latitude":{"type":"Float","value":40.313%03d,"metadata":{}},\
                 "Time":{"type":"Integer","value":%d,"metadata":{}},\
                 "Note":{"type":"String","value":"%s","metadata":{}}}""".formatted(number % 500, number % 40, number % 1000, TIME + number, filling);
-        Map<String, String> headers = Map.of(
-                HeaderNames.CE_ID,
-                "%032x".formatted(number * 0x9E3779B97F4A7C15L),
-                HeaderNames.CE_SOURCE,
-                "/bench",
-                HeaderNames.CE_TYPE,
-                HeaderNames.TYPE_CHANGED,
-                HeaderNames.SERVICE,
-                "farm",
-                HeaderNames.SERVICE_PATH,
-                "/",
-                HeaderNames.ORIGIN,
-                "notification",
-                HeaderNames.TS_DEVICE,
-                Long.toString(TIME + number),
-                HeaderNames.TS_SOURCE,
-                Long.toString(TIME + number + 3),
-                HeaderNames.TS_INGEST,
-                Long.toString(TIME + number + 9));
+        Map<String, String> headers = new HashMap<>();
+        headers.put(HeaderNames.CE_ID, "%032x".formatted(number * 0x9E3779B97F4A7C15L));
+        headers.put(HeaderNames.CE_SOURCE, "/bench");
+        headers.put(HeaderNames.CE_TYPE, HeaderNames.TYPE_CHANGED);
+        headers.put(HeaderNames.SERVICE, "farm");
+        headers.put(HeaderNames.SERVICE_PATH, "/");
+        headers.put(HeaderNames.ORIGIN, "notification");
+        headers.put(HeaderNames.TS_DEVICE, Long.toString(TIME + number));
+        headers.put(HeaderNames.TS_SOURCE, Long.toString(TIME + number + 3));
+        headers.put(HeaderNames.TS_INGEST, Long.toString(TIME + number + 9));
         return new MissionEvent(
                 "",
                 MISSION,

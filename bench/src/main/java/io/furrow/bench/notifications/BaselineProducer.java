@@ -1,11 +1,10 @@
 package io.furrow.bench.notifications;
 
 import java.time.Duration;
-import java.util.List;
 import java.util.Properties;
 import java.util.concurrent.atomic.LongAdder;
+import java.util.function.IntFunction;
 
-import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
@@ -15,16 +14,11 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
  * to its producers: all replicas acknowledge, one request at a time to each broker.
  */
 public final class BaselineProducer {
-    private final Properties client;
-    private final String topic;
-
-    public BaselineProducer(Properties client, String topic) {
-        this.client = client;
-        this.topic = topic;
-    }
+    private BaselineProducer() {}
 
     /** Acknowledged records per second. */
-    public double perSecond(List<ConsumerRecord<byte[], byte[]>> samples, Duration duration) {
+    public static double perSecond(
+            Properties client, IntFunction<ProducerRecord<byte[], byte[]>> records, Duration duration) {
         Properties properties = new Properties();
         properties.putAll(client);
         properties.setProperty("acks", "all");
@@ -36,15 +30,11 @@ public final class BaselineProducer {
                 new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
             long start = System.nanoTime();
             for (int i = 0; System.nanoTime() - start < duration.toNanos(); i++) {
-                ConsumerRecord<byte[], byte[]> sample = samples.get(i % samples.size());
-                producer.send(
-                        new ProducerRecord<>(
-                                topic, null, sample.timestamp(), sample.key(), sample.value(), sample.headers()),
-                        (metadata, failure) -> {
-                            if (failure == null) {
-                                acknowledged.increment();
-                            }
-                        });
+                producer.send(records.apply(i), (metadata, failure) -> {
+                    if (failure == null) {
+                        acknowledged.increment();
+                    }
+                });
             }
             producer.flush();
             return acknowledged.sum() * 1e9 / (System.nanoTime() - start);

@@ -13,6 +13,7 @@ import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.producer.ProducerRecord;
 
 import io.furrow.bench.frame.Engines;
 import io.furrow.bench.frame.TopicReader;
@@ -86,8 +87,9 @@ final class NotificationMeasurement implements AutoCloseable {
             Map<String, Long> cpu = before.since();
             TimeUnit.MILLISECONDS.sleep(REPEATS_ON_THEIR_WAY.toMillis());
             double inKafka = load.answered() * 1e9 / Math.max(load.nanos(), check.lastNanos() - start);
-            HttpLoad.Result bare = bareServer(name, plan.lasting(calibration));
-            HttpLoad.Result bridge = bareBridge(name, plan.lasting(calibration));
+            HttpLoad.Result bare = bare(name + ", bare server", BaselineServer.start(), plan.lasting(calibration));
+            HttpLoad.Result bridge =
+                    bare(name + ", bare bridge", BaselineServer.bridge(kafka, BARE_TOPIC), plan.lasting(calibration));
             double producer = bareProducer(name, check.samples(), calibration);
             return new NotificationReport.Run(
                     load, inKafka, check.missing(load.acknowledged()), check.repeats(), cpu, bare, bridge, producer);
@@ -113,21 +115,25 @@ final class NotificationMeasurement implements AutoCloseable {
         return result.join();
     }
 
-    private HttpLoad.Result bareServer(String name, HttpLoad.Plan plan) throws InterruptedException {
-        try (BaselineServer server = BaselineServer.start()) {
-            return send(name + ", bare server", server.address(), plan, null);
-        }
-    }
-
-    private HttpLoad.Result bareBridge(String name, HttpLoad.Plan plan) throws InterruptedException {
-        try (BaselineServer server = BaselineServer.bridge(kafka, BARE_TOPIC)) {
-            return send(name + ", bare bridge", server.address(), plan, null);
+    private HttpLoad.Result bare(String name, BaselineServer started, HttpLoad.Plan plan) throws InterruptedException {
+        try (BaselineServer server = started) {
+            return send(name, server.address(), plan, null);
         }
     }
 
     private double bareProducer(String name, List<ConsumerRecord<byte[], byte[]>> samples, Duration duration) {
         progress.accept(name + ", bare producer");
-        return samples.isEmpty() ? Double.NaN : new BaselineProducer(kafka, BARE_TOPIC).perSecond(samples, duration);
+        if (samples.isEmpty()) {
+            return Double.NaN;
+        }
+        return BaselineProducer.perSecond(
+                kafka,
+                number -> {
+                    ConsumerRecord<byte[], byte[]> sample = samples.get(number % samples.size());
+                    return new ProducerRecord<>(
+                            BARE_TOPIC, null, sample.timestamp(), sample.key(), sample.value(), sample.headers());
+                },
+                duration);
     }
 
     @Override

@@ -2,8 +2,7 @@ package io.furrow.bench.notifications;
 
 import java.net.InetSocketAddress;
 import java.nio.charset.StandardCharsets;
-import java.util.List;
-import java.util.Optional;
+import java.util.Map;
 import java.util.Properties;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
@@ -14,14 +13,15 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.HdrHistogram.Histogram;
 import org.HdrHistogram.SynchronizedHistogram;
-import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.ConsumerRecords;
 
+import io.furrow.bench.frame.Engines;
 import io.furrow.bench.frame.TopicReader;
 import io.furrow.bench.http.HttpLoad;
 import io.furrow.bench.http.NotificationRequest;
 import io.furrow.cli.control.client.ControlApi;
+import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
@@ -46,12 +46,8 @@ final class SuiteLoad {
     /** @param entities of the mission, which is started */
     SuiteLoad(Suite suite, int entities) throws InterruptedException, ExecutionException {
         this.suite = suite;
-        suite.kafka()
-                .admin()
-                .createTopics(
-                        List.of(new NewTopic(Topics.realtime(DOMAIN, MISSION), Optional.empty(), Optional.empty())))
-                .all()
-                .get();
+        Engines.makeTopics(
+                suite.kafka().clientProperties(), EmbeddedKafka.PARTITIONS, Map.of(), Topics.realtime(DOMAIN, MISSION));
         ControlApi api = new ControlApi(suite.control(), null);
         api.send("POST", "/api/domains", NODES.objectNode().put("domain", DOMAIN));
         ObjectNode plan = NODES.objectNode().put("domain", DOMAIN);

@@ -4,6 +4,8 @@ import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
 
+import io.furrow.bench.frame.ProcessStatus;
+
 /** Triggers garbage collection every few seconds and reports the growth of the heap in use. */
 final class HeapGrowth implements AutoCloseable {
     private static final long SECONDS = 5;
@@ -39,9 +41,7 @@ final class HeapGrowth implements AutoCloseable {
     }
 
     private static long used() {
-        System.gc();
-        Runtime runtime = Runtime.getRuntime();
-        return (runtime.totalMemory() - runtime.freeMemory()) / MEBI;
+        return ProcessStatus.heapAfterCollection() / MEBI;
     }
 
     /** MiB. */

@@ -2,11 +2,8 @@ package io.furrow.bench.replay;
 
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.Collection;
-import java.util.List;
 import java.util.Map;
-import java.util.Optional;
 import java.util.Properties;
 import java.util.Set;
 import java.util.TreeSet;
@@ -15,7 +12,6 @@ import java.util.function.BiConsumer;
 
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.kafka.clients.admin.Admin;
-import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
@@ -23,7 +19,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.bench.frame.Engines;
 import io.furrow.bench.frame.TopicFiller;
-import io.furrow.flink.job.JobCommandLine;
+import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.model.control.DesiredReplay;
@@ -44,7 +40,7 @@ final class ReplayCluster implements AutoCloseable {
     private final Properties kafka;
     private final String mongo;
     private final long checkpointMillis;
-    private final ReplayOptions options = new ReplayOptions();
+    private final ReplayOptions options;
     private final TopicFiller producer;
 
     ReplayCluster(Engines engines, String mongo, long checkpointMillis, int parallelism)
@@ -52,13 +48,15 @@ final class ReplayCluster implements AutoCloseable {
         this.kafka = engines.client();
         this.mongo = mongo;
         this.checkpointMillis = checkpointMillis;
-        List<String> args = new ArrayList<>(List.of("--bootstrap-servers", engines.bootstrapServers()));
-        args.addAll(List.of("--mongo", mongo));
-        args.addAll(List.of(
-                "--checkpoint-dir", engines.folder("checkpoints").toUri().toString()));
-        args.addAll(List.of("--checkpoint-interval", checkpointMillis + "ms"));
-        args.addAll(List.of("--parallelism", Integer.toString(parallelism)));
-        JobCommandLine.of(options).parseArgs(args.toArray(String[]::new));
+        options = engines.options(
+                "replay",
+                new ReplayOptions(),
+                "--mongo",
+                mongo,
+                "--checkpoint-interval",
+                checkpointMillis + "ms",
+                "--parallelism",
+                Integer.toString(parallelism));
         producer = producer();
         Engines.makeTopics(kafka, 1, Map.of("cleanup.policy", "compact"), Topics.REPLAYS, Topics.REPLAYS_STATUS);
     }
@@ -84,14 +82,8 @@ final class ReplayCluster implements AutoCloseable {
     }
 
     void make(Collection<String> topics) throws ExecutionException, InterruptedException {
-        try (Admin admin = Admin.create(kafka)) {
-            admin.createTopics(topics.stream()
-                            .map(topic -> new NewTopic(topic, Optional.empty(), Optional.empty())
-                                    .configs(Map.of("retention.ms", "-1", "max.message.bytes", "16777216")))
-                            .toList())
-                    .all()
-                    .get();
-        }
+        Map<String, String> settings = Map.of("retention.ms", "-1", "max.message.bytes", "16777216");
+        Engines.makeTopics(kafka, EmbeddedKafka.PARTITIONS, settings, topics.toArray(String[]::new));
     }
 
     void delete(Collection<String> topics) throws ExecutionException, InterruptedException {

@@ -3,6 +3,7 @@ package io.furrow.bench.replay;
 import java.nio.charset.StandardCharsets;
 import java.time.Clock;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
@@ -89,23 +90,15 @@ record StoredMission(String name, int events, int perSecond, long seed) {
                 "Battery":{"type":"Integer","value":%d,"metadata":{}},\
                 "Time":{"type":"Integer","value":%d,"metadata":{}},\
                 "State":{"type":"String","value":"working","metadata":{}}}""".formatted(id, number % 1000, number % 997, number % 10, number % 101, time);
-        Map<String, String> headers = Map.of(
-                HeaderNames.CE_SOURCE,
-                "/bench",
-                HeaderNames.CE_TYPE,
-                HeaderNames.TYPE_CHANGED,
-                HeaderNames.SERVICE,
-                "farm",
-                HeaderNames.SERVICE_PATH,
-                "/",
-                HeaderNames.ORIGIN,
-                "notification",
-                HeaderNames.TS_DEVICE,
-                Long.toString(time),
-                HeaderNames.TS_SOURCE,
-                Long.toString(time + 3),
-                HeaderNames.TS_INGEST,
-                Long.toString(time + 9));
+        Map<String, String> headers = new HashMap<>();
+        headers.put(HeaderNames.CE_SOURCE, "/bench");
+        headers.put(HeaderNames.CE_TYPE, HeaderNames.TYPE_CHANGED);
+        headers.put(HeaderNames.SERVICE, "farm");
+        headers.put(HeaderNames.SERVICE_PATH, "/");
+        headers.put(HeaderNames.ORIGIN, "notification");
+        headers.put(HeaderNames.TS_DEVICE, Long.toString(time));
+        headers.put(HeaderNames.TS_SOURCE, Long.toString(time + 3));
+        headers.put(HeaderNames.TS_INGEST, Long.toString(time + 9));
         return new StoredEvent(
                 "%016x%08x".formatted(number * 0x9E3779B97F4A7C15L, number), time, id, headers, entity(json));
     }

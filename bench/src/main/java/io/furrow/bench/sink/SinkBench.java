@@ -62,47 +62,34 @@ public final class SinkBench extends Benchmark {
     @Mixin
     private final OutputOption output = new OutputOption();
 
-    /** One run under a name of its own. */
-    private interface Run {
-        SinkReport.Run run(String name, SinkReport.Plan plan) throws Exception;
-    }
-
     @Override
     public Integer call() throws Exception {
         try (Engines engines = Engines.in(null, out()).kafka()) {
             Connectors connectors = engines.connect(Map.of("offset.flush.interval.ms", "250"));
-            SinkMeasurement measurement = new SinkMeasurement(engines.client(), this::say);
-            List<SinkReport> reports = measure(measurement, connectors);
+            List<SinkReport> reports = measure(new SinkMeasurement(
+                    engines.client(), (name, broker) -> connectors.put(name, settings(name, broker)), this::say));
             reports.forEach(report -> print(report.figures()));
             output.write(reports.stream().map(SinkReport::json).toList());
             return reports.stream().allMatch(report -> report.missing() == 0) ? 0 : 1;
         }
     }
 
-    private List<SinkReport> measure(SinkMeasurement measurement, Connectors connectors) throws Exception {
-        SinkMeasurement.SinkStart sink = (name, topic, broker) -> connectors.put(name, settings(topic, broker));
+    private List<SinkReport> measure(SinkMeasurement measurement) throws Exception {
         SinkReport.Plan own = new SinkReport.Plan(records, records, payload);
         SinkReport.Plan repeated = new SinkReport.Plan(records, Math.min(entities, records), payload);
-        measurement.run("warm-up", own, sink);
+        measurement.run("warm-up", own, null);
         List<SinkReport> reports = new ArrayList<>();
-        Run bare = (name, plan) -> measurement.run(name, plan, sink);
-        reports.add(report("Each its own entity", "own", own, bare));
-        reports.add(report("Repeated entities", "repeated", repeated, bare));
+        reports.add(new SinkReport("Each its own entity", own, measurement.runs(runs, "own", own, null)));
+        reports.add(new SinkReport("Repeated entities", repeated, measurement.runs(runs, "repeated", repeated, null)));
         if (standIn) {
             try (FiwareStandIn fiware = FiwareStandIn.start(FiwareSettings.httpOnly())) {
-                Run into = (name, plan) -> measurement.runInto(fiware.contextBroker(), name, plan, sink);
-                reports.add(report("Repeated entities into the stand-in", "stand-in", repeated, into));
+                reports.add(new SinkReport(
+                        "Repeated entities into the stand-in",
+                        repeated,
+                        measurement.runs(runs, "stand-in", repeated, fiware.contextBroker())));
             }
         }
         return reports;
-    }
-
-    private SinkReport report(String title, String name, SinkReport.Plan plan, Run kind) throws Exception {
-        List<SinkReport.Run> all = new ArrayList<>();
-        for (int run = 1; run <= runs; run++) {
-            all.add(kind.run(name + "-" + run, plan));
-        }
-        return new SinkReport(title, plan, all);
     }
 
     private Map<String, String> settings(String topic, URI broker) {

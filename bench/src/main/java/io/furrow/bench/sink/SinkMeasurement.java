@@ -4,11 +4,14 @@ import java.net.InetSocketAddress;
 import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
+import java.util.ArrayList;
 import java.util.BitSet;
+import java.util.List;
 import java.util.Map;
 import java.util.Properties;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
+import java.util.function.BiConsumer;
 import java.util.function.Consumer;
 import java.util.function.Supplier;
 
@@ -32,40 +35,51 @@ final class SinkMeasurement {
     private static final int POLLS_PER_SECOND = (int) (1000 / POLL_INTERVAL_MS);
 
     private final Properties kafka;
+    private final BiConsumer<String, URI> sink;
     private final Consumer<String> progress;
 
-    /** Starts the sink for a topic and a context broker, under a name of its own, and returns when it runs. */
-    interface SinkStart {
-        void start(String name, String topic, URI contextBroker);
-    }
-
-    /** @param progress is reported once a second how far it is */
-    SinkMeasurement(Properties kafka, Consumer<String> progress) {
+    /**
+     * @param sink starts the sink of this name with a context broker, and returns when it runs
+     * @param progress is reported once a second how far it is
+     */
+    SinkMeasurement(Properties kafka, BiConsumer<String, URI> sink, Consumer<String> progress) {
         this.kafka = kafka;
+        this.sink = sink;
         this.progress = progress;
     }
 
-    /** Into a receiver that only answers. */
-    SinkReport.Run run(String name, SinkReport.Plan plan, SinkStart sink)
+    /** So many {@linkplain #run runs} whose names end with their number. */
+    List<SinkReport.Run> runs(int runs, String name, SinkReport.Plan plan, URI contextBroker)
+            throws InterruptedException, ExecutionException {
+        List<SinkReport.Run> measured = new ArrayList<>();
+        for (int number = 1; number <= runs; number++) {
+            measured.add(run(name + "-" + number, plan, contextBroker));
+        }
+        return measured;
+    }
+
+    /**
+     * One run.
+     *
+     * @param name of the topic and of the sink
+     * @param contextBroker one that does not count, where the time has the sink's start in it; null for a receiver that only answers
+     */
+    SinkReport.Run run(String name, SinkReport.Plan plan, URI contextBroker)
             throws InterruptedException, ExecutionException {
         fill(name, plan);
+        if (contextBroker != null) {
+            long start = System.nanoTime();
+            sink.accept(name, contextBroker);
+            awaitCommitted(name, plan.records(), () -> "into " + contextBroker);
+            return new SinkReport.Run(System.nanoTime() - start, 0, 0, 0, Double.NaN);
+        }
         try (StubBroker broker = StubBroker.start()) {
-            sink.start(name, name, broker.uri());
+            sink.accept(name, broker.uri());
             awaitCommitted(name, plan.records(), () -> broker.entities() + " entities written");
             long missing = missing(plan, broker.numbers());
             return new SinkReport.Run(
                     broker.nanos(), broker.entities(), broker.requests(), missing, bareEntitiesPerSecond(plan));
         }
-    }
-
-    /** Into a context broker that does not count: the time has the sink's start in it. */
-    SinkReport.Run runInto(URI contextBroker, String name, SinkReport.Plan plan, SinkStart sink)
-            throws InterruptedException, ExecutionException {
-        fill(name, plan);
-        long start = System.nanoTime();
-        sink.start(name, name, contextBroker);
-        awaitCommitted(name, plan.records(), () -> "into " + contextBroker);
-        return new SinkReport.Run(System.nanoTime() - start, 0, 0, 0, Double.NaN);
     }
 
     private void fill(String topic, SinkReport.Plan plan) throws InterruptedException, ExecutionException {

@@ -43,27 +43,11 @@ class EmbeddedBrokerTest {
 
     @BeforeAll
     static void startBroker() {
-        mqtt = EmbeddedMqtt.start(0, Map.of("agent", "plough"), new EmbeddedMqtt.Users() {
-            @Override
-            public boolean authenticates(String user, byte[] password) {
-                return ACCOUNTS.authenticates(user, password);
-            }
-
-            @Override
-            public boolean exists(String user) {
-                return ACCOUNTS.exists(user);
-            }
-
-            @Override
-            public boolean mayWrite(String user, String topic) {
-                return ACCOUNTS.mayWrite(user, topic);
-            }
-
-            @Override
-            public boolean mayRead(String user, String filter) {
-                return ACCOUNTS.mayRead(user, filter);
-            }
-        });
+        mqtt = EmbeddedMqtt.start(
+                0,
+                Map.of("agent", "plough"),
+                new EmbeddedMqtt.Users(
+                        ACCOUNTS::authenticates, ACCOUNTS::exists, ACCOUNTS::mayWrite, ACCOUNTS::mayRead));
     }
 
     @AfterAll

@@ -6,6 +6,8 @@ import java.security.MessageDigest;
 import java.util.Map;
 import java.util.Properties;
 import java.util.Set;
+import java.util.function.BiPredicate;
+import java.util.function.Predicate;
 
 import io.moquette.broker.MqttServer;
 import io.moquette.broker.config.MemoryConfig;
@@ -26,42 +28,19 @@ public final class EmbeddedMqtt implements AutoCloseable {
     private final String host;
     private final int port;
 
-    /** Users who come and go while the broker runs; asked at each connection, subscription and message. */
-    public interface Users {
-        boolean authenticates(String user, byte[] password);
-
-        /** Connections of others are closed. */
-        boolean exists(String user);
-
-        boolean mayWrite(String user, String topic);
-
-        /** @param filter of a subscription, with wildcards or without */
-        boolean mayRead(String user, String filter);
-
-        /** Nobody. */
-        static Users none() {
-            return new Users() {
-                @Override
-                public boolean authenticates(String user, byte[] password) {
-                    return false;
-                }
-
-                @Override
-                public boolean exists(String user) {
-                    return false;
-                }
-
-                @Override
-                public boolean mayWrite(String user, String topic) {
-                    return false;
-                }
-
-                @Override
-                public boolean mayRead(String user, String filter) {
-                    return false;
-                }
-            };
-        }
+    /**
+     * Users who come and go while the broker runs; asked at each connection, subscription and message.
+     *
+     * @param exists connections of others are closed
+     * @param mayRead asked with the filter of a subscription, with wildcards or without
+     */
+    public record Users(
+            BiPredicate<String, byte[]> authenticates,
+            Predicate<String> exists,
+            BiPredicate<String, String> mayWrite,
+            BiPredicate<String, String> mayRead) {
+        static final Users NOBODY =
+                new Users((user, password) -> false, user -> false, (user, topic) -> false, (user, filter) -> false);
     }
 
     private EmbeddedMqtt(MqttServer server, String host, int port) {
@@ -80,7 +59,7 @@ public final class EmbeddedMqtt implements AutoCloseable {
      * @param passwords of each user
      */
     public static EmbeddedMqtt start(int port, Map<String, String> passwords) {
-        return start(port, passwords, Users.none());
+        return start(port, passwords, Users.NOBODY);
     }
 
     /**
@@ -114,13 +93,13 @@ public final class EmbeddedMqtt implements AutoCloseable {
         properties.setProperty("netty.mqtt.message_size", Integer.toString(MAX_MESSAGE_BYTES));
         IAuthenticator authenticator = (clientId, user, password) -> user != null
                 && password != null
-                && (matches(passwords.get(user), password) || others.authenticates(user, password));
+                && (matches(passwords.get(user), password) || others.authenticates.test(user, password));
         MqttServer server = new MqttServer(
                 new MemoryConfig(properties),
                 new MqttServer.Access(
                         authenticator,
                         new Rights(passwords.keySet(), others),
-                        user -> passwords.containsKey(user) || others.exists(user)));
+                        user -> passwords.containsKey(user) || others.exists.test(user)));
         return new EmbeddedMqtt(server, host, bound);
     }
 
@@ -143,12 +122,12 @@ public final class EmbeddedMqtt implements AutoCloseable {
     private record Rights(Set<String> trusted, Users others) implements IAuthorizatorPolicy {
         @Override
         public boolean canWrite(Topic topic, String user, String client) {
-            return trusted.contains(user) || others.mayWrite(user, topic.toString());
+            return trusted.contains(user) || others.mayWrite.test(user, topic.toString());
         }
 
         @Override
         public boolean canRead(Topic topic, String user, String client) {
-            return trusted.contains(user) || others.mayRead(user, topic.toString());
+            return trusted.contains(user) || others.mayRead.test(user, topic.toString());
         }
     }
 }

@@ -6,7 +6,9 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.security.GeneralSecurityException;
 import java.security.KeyStore;
+import java.util.ArrayList;
 import java.util.Base64;
+import java.util.List;
 
 /**
  * A key and its certificate for 127.0.0.1 and localhost that nobody has signed but itself, for tests of TLS, made by the JDK's
@@ -24,22 +26,11 @@ public record SelfSignedCertificate(Path certificate, Path key, Path keystore, P
     /** @throws IOException if keytool fails; with its words */
     public static SelfSignedCertificate make(Path directory, String name) throws IOException {
         Path keystore = directory.resolve(name + ".p12");
-        keytool(
-                "-genkeypair",
-                "-keystore",
-                keystore.toString(),
-                "-storetype",
-                "PKCS12",
-                "-storepass",
-                PASSWORD,
-                "-alias",
-                ALIAS,
-                "-keyalg",
-                "EC",
-                "-dname",
-                "CN=" + name,
-                "-ext",
-                "san=ip:127.0.0.1,dns:localhost");
+        List<String> words = new ArrayList<>(List.of("-keystore", keystore.toString(), "-dname", "CN=" + name));
+        words.addAll(List.of(("-genkeypair -storetype PKCS12 -keyalg EC -ext san=ip:127.0.0.1,dns:localhost -storepass "
+                        + PASSWORD + " -alias " + ALIAS)
+                .split(" ")));
+        keytool(words);
         try {
             KeyStore keys = KeyStore.getInstance(keystore.toFile(), PASSWORD.toCharArray());
             return new SelfSignedCertificate(
@@ -63,10 +54,10 @@ public record SelfSignedCertificate(Path certificate, Path key, Path keystore, P
         return Files.writeString(file, "-----BEGIN %s-----\n%s\n-----END %s-----\n".formatted(what, text, what));
     }
 
-    private static void keytool(String... words) throws IOException {
-        String[] command = new String[words.length + 1];
-        command[0] = Path.of(System.getProperty("java.home"), "bin", "keytool").toString();
-        System.arraycopy(words, 0, command, 1, words.length);
+    private static void keytool(List<String> words) throws IOException {
+        List<String> command = new ArrayList<>(words);
+        command.add(
+                0, Path.of(System.getProperty("java.home"), "bin", "keytool").toString());
         Process process = new ProcessBuilder(command).redirectErrorStream(true).start();
         String output = new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
         try {

@@ -59,11 +59,6 @@ public final class Fleet {
         }
     }
 
-    /** The first instant of a tick, which is a fifth of a second. */
-    static long startOf(long tick) {
-        return START + tick * 1000 / TICKS_PER_SECOND;
-    }
-
     /** Moves the devices whose turn it is and emits where they are, in the order of time. */
     public void tick(long tick, Consumer<PositionFix> out) {
         long second = tick / TICKS_PER_SECOND;

@@ -29,20 +29,8 @@ public final class DesiredDeviceReader {
             Map.of("Robot", Duration.ofSeconds(1), "Camera", Duration.ofSeconds(10));
     private static final String ROBOT = "Robot";
     private static final Set<String> SIMULATED_TYPES = Set.of("Thermometer", "WeatherStation", "Camera", ROBOT);
-    private static final List<String> NO_PARAMETERS = List.of(
-            "type",
-            "id",
-            "entity",
-            "count",
-            "period",
-            "area",
-            "at",
-            "route",
-            "path",
-            "speed",
-            "faults",
-            "carriedBy",
-            "attributes");
+    private static final List<String> NO_PARAMETERS =
+            List.of("type id entity count period area at route path speed faults carriedBy attributes".split(" "));
     private static final Pattern NUMBERED = Pattern.compile(".*-(\\d{1,9})");
 
     private final PlaceReader places;
@@ -167,9 +155,7 @@ public final class DesiredDeviceReader {
         try {
             return WorkField.largestOf("area", area);
         } catch (IllegalArgumentException e) {
-            InvalidScenarioException refused = new InvalidScenarioException("area", e.getMessage());
-            refused.initCause(e);
-            throw refused;
+            throw new InvalidScenarioException("area", e.getMessage(), e);
         }
     }
 

@@ -37,10 +37,8 @@ public record Farm(String apiKey, List<SimulatedDevice> devices) {
             return new FarmReader(start)
                     .farm(ScenarioObjectReader.of(NgsiJson.mapper().readTree(json), ""));
         } catch (JsonProcessingException e) {
-            InvalidScenarioException refused = new InvalidScenarioException(
-                    "line " + e.getLocation().getLineNr(), "is not valid JSON: " + JsonProblem.words(e));
-            refused.initCause(e);
-            throw refused;
+            throw new InvalidScenarioException(
+                    "line " + e.getLocation().getLineNr(), "is not valid JSON: " + JsonProblem.words(e), e);
         }
     }
 }

@@ -68,9 +68,7 @@ final class FarmReader {
                     throw new InvalidScenarioException(at, "field '" + field.id() + "' is defined twice");
                 }
             } catch (IllegalArgumentException e) {
-                InvalidScenarioException refused = new InvalidScenarioException(at, e.getMessage());
-                refused.initCause(e);
-                throw refused;
+                throw new InvalidScenarioException(at, e.getMessage(), e);
             }
         }
         return fields;

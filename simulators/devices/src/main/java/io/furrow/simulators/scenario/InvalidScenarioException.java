@@ -7,6 +7,10 @@ public final class InvalidScenarioException extends IOException {
     private static final long serialVersionUID = 1L;
 
     public InvalidScenarioException(String where, String sentence) {
-        super(where + ": " + sentence);
+        this(where, sentence, null);
+    }
+
+    InvalidScenarioException(String where, String sentence, Throwable cause) {
+        super(where + ": " + sentence, cause);
     }
 }

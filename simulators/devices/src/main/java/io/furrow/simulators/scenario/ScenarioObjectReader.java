@@ -147,9 +147,7 @@ final class ScenarioObjectReader {
 
     /** Refuses a member with the message of a model class. */
     InvalidScenarioException refused(String name, IllegalArgumentException rule) {
-        InvalidScenarioException refused = refused(name, rule.getMessage());
-        refused.initCause(rule);
-        return refused;
+        return new InvalidScenarioException(at(name), rule.getMessage(), rule);
     }
 
     String path() {

@@ -48,7 +48,15 @@ class DeviceLifecycleTest {
 
     @BeforeEach
     void start() throws Exception {
-        mqtt = EmbeddedMqtt.start(0, Map.of("farmer", "plough"), new Devices());
+        // Those with a password may do everything.
+        mqtt = EmbeddedMqtt.start(
+                0,
+                Map.of("farmer", "plough"),
+                new EmbeddedMqtt.Users(
+                        this::authenticates,
+                        passwords::containsKey,
+                        (user, topic) -> passwords.containsKey(user),
+                        (user, filter) -> passwords.containsKey(user)));
         FleetSettings settings =
                 new FleetSettings(URI.create("http://127.0.0.1:1"), null, mqtt.uri(), "farmer", "plough", "farm", "/");
         listener = new MqttTestClient(settings);
@@ -190,30 +198,11 @@ class DeviceLifecycleTest {
         return members;
     }
 
-    /** Those with a password, who may do everything. */
-    private final class Devices implements EmbeddedMqtt.Users {
-        @Override
-        public boolean authenticates(String user, byte[] password) {
-            boolean known = new String(password, StandardCharsets.UTF_8).equals(passwords.get(user));
-            if (known) {
-                connectedAs.add(user);
-            }
-            return known;
+    private boolean authenticates(String user, byte[] password) {
+        boolean known = new String(password, StandardCharsets.UTF_8).equals(passwords.get(user));
+        if (known) {
+            connectedAs.add(user);
         }
-
-        @Override
-        public boolean exists(String user) {
-            return passwords.containsKey(user);
-        }
-
-        @Override
-        public boolean mayWrite(String user, String topic) {
-            return passwords.containsKey(user);
-        }
-
-        @Override
-        public boolean mayRead(String user, String filter) {
-            return passwords.containsKey(user);
-        }
+        return known;
     }
 }

@@ -26,18 +26,8 @@ import io.furrow.fiware.http.PathFilter;
 /** {@code GET /v2/entities}: filter, order and page. The only {@code q} is a date of the entity, at least a given one. */
 record EntityQuery(
         Predicate<StoredEntity> filter, Comparator<StoredEntity> order, Page page, PathFilter paths, Rendering shown) {
-    private static final Set<String> PARAMETERS = Set.of(
-            "id",
-            "idPattern",
-            "type",
-            "typePattern",
-            "q",
-            "attrs",
-            "metadata",
-            "limit",
-            "offset",
-            "orderBy",
-            "options");
+    private static final Set<String> PARAMETERS =
+            Set.of("id idPattern type typePattern q attrs metadata limit offset orderBy options".split(" "));
     private static final Pattern SINCE = Pattern.compile("(dateCreated|dateModified)>=(.+)");
 
     private record Page(int offset, int limit) {}

@@ -28,10 +28,9 @@ public final class Catalog {
      *
      * @throws IOException if Kafka does not answer, or the topic holds something else; the message says what to do
      */
-    public static List<JsonNode> read(String bootstrapServers, Properties client) throws IOException {
+    public static List<JsonNode> read(Properties client) throws IOException {
         Properties properties = new Properties();
         properties.putAll(client);
-        properties.setProperty("bootstrap.servers", bootstrapServers);
         properties.setProperty("default.api.timeout.ms", Long.toString(TIMEOUT.toMillis()));
         Map<String, byte[]> newest = new TreeMap<>();
         try (CommittedReader<String> reader = CommittedReader.openExisting(properties, Topics.CATALOG)) {
@@ -45,7 +44,7 @@ public final class Catalog {
         } catch (KafkaException e) {
             throw new IOException(
                     "Kafka at %s cannot be read (%s). Check the address given with --kafka."
-                            .formatted(bootstrapServers, FailureText.of(e)),
+                            .formatted(client.getProperty("bootstrap.servers"), FailureText.of(e)),
                     e);
         }
         List<JsonNode> entries = new ArrayList<>();

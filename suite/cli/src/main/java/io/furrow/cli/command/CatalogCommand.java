@@ -2,11 +2,8 @@ package io.furrow.cli.command;
 
 import java.io.IOException;
 import java.io.PrintWriter;
-import java.io.Reader;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
-import java.util.Properties;
 import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -23,6 +20,7 @@ import io.furrow.cli.catalog.StoredAssets;
 import io.furrow.cli.catalog.StoredTable;
 import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.HelpOption;
+import io.furrow.cli.option.KafkaClient;
 import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.text.FailureText;
@@ -43,12 +41,8 @@ public final class CatalogCommand implements Callable<Integer> {
     @Spec
     private CommandSpec spec;
 
-    @Option(
-            names = "--kafka",
-            paramLabel = "HOST:PORT",
-            defaultValue = "127.0.0.1:9092",
-            description = "Kafka to read from. Default: ${DEFAULT-VALUE}.")
-    private String kafka;
+    @Option(names = "--kafka", paramLabel = "HOST:PORT", description = "Kafka to read from. Default: ${DEFAULT-VALUE}.")
+    private String kafka = "127.0.0.1:9092";
 
     @Option(
             names = "--kafka-properties",
@@ -99,7 +93,7 @@ public final class CatalogCommand implements Callable<Integer> {
     }
 
     private void show() throws IOException {
-        List<JsonNode> types = entries(Catalog.read(kafka, properties()));
+        List<JsonNode> types = entries(Catalog.read(KafkaClient.settings(kafka, kafkaProperties)));
         List<JsonNode> missions = mongo == null ? null : entries(StoredAssets.missions(mongo));
         List<JsonNode> stored = images == null ? null : entries(storedImages());
         PrintWriter out = spec.commandLine().getOut();
@@ -140,21 +134,6 @@ public final class CatalogCommand implements Callable<Integer> {
     private static void put(ObjectNode all, String name, List<JsonNode> entries) {
         if (entries != null) {
             all.putArray(name).addAll(entries);
-        }
-    }
-
-    private Properties properties() {
-        Properties properties = new Properties();
-        if (kafkaProperties == null) {
-            return properties;
-        }
-        try (Reader reader = Files.newBufferedReader(kafkaProperties)) {
-            properties.load(reader);
-            return properties;
-        } catch (IOException e) {
-            throw new CommandException(
-                    "--kafka-properties %s cannot be read; name a readable properties file".formatted(kafkaProperties),
-                    e);
         }
     }
 }

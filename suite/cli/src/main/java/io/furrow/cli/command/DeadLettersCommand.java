@@ -84,11 +84,7 @@ public final class DeadLettersCommand {
             @Option(names = "--again", description = "Also those that this command has sent back before.")
                     boolean again,
             @Option(names = "--dry-run", description = "Count them, write nothing.") boolean dryRun,
-            @Option(
-                            names = {"-h", "--help"},
-                            usageHelp = true,
-                            description = "Show this help.")
-                    boolean wantsHelp) {
+            @Mixin HelpOption requested) {
         String target = to == null ? Topics.ofDeadLetters(topic).orElseThrow(() -> nameless(topic)) : to;
         Redrive.Choice choice = new Redrive.Choice(
                 reasons == null ? Set.of() : Set.copyOf(reasons), stages == null ? Set.of() : Set.copyOf(stages));

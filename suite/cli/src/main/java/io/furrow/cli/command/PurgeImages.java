@@ -21,6 +21,7 @@ import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
+import io.furrow.cli.option.HelpOption;
 import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.mission.image.ImageName;
 import io.furrow.model.text.Counts;
@@ -58,11 +59,8 @@ final class PurgeImages implements Callable<Integer> {
     @Option(names = "--dry-run", description = "Show what would be deleted and delete nothing.")
     private boolean dryRun;
 
-    @Option(
-            names = {"-h", "--help"},
-            usageHelp = true,
-            description = "Show this help.")
-    private boolean help;
+    @Mixin
+    private HelpOption help;
 
     private Instant now;
     private FileSystem files;

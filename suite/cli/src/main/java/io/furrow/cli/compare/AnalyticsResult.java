@@ -1,7 +1,9 @@
 package io.furrow.cli.compare;
 
+import java.util.Set;
+
 /** A result that holds for a while, or for a window. Times are original event times, epoch ms. */
-sealed interface AnalyticsResult permits EncounterResult, VisitResult, AverageResult {
+sealed interface AnalyticsResult {
     /** Its subject: only results with the same subject are compared. */
     ResultSubject subject();
 
@@ -15,4 +17,80 @@ sealed interface AnalyticsResult permits EncounterResult, VisitResult, AverageRe
 
     /** The same of another subject. */
     AnalyticsResult of(ResultSubject other);
+
+    /**
+     * Two devices that were close.
+     *
+     * @param end when it ended, or of an open one the newest time that was emitted
+     * @param closest meters
+     */
+    record Encounter(ResultSubject subject, long start, long end, boolean isOpen, double closest)
+            implements AnalyticsResult {
+        /** Both with one more record of the same encounter. */
+        Encounter and(Encounter more) {
+            return new Encounter(
+                    subject,
+                    Math.min(start, more.start),
+                    isOpen == more.isOpen ? Math.max(end, more.end) : isOpen ? more.end : end,
+                    isOpen && more.isOpen,
+                    Math.min(closest, more.closest));
+        }
+
+        @Override
+        public Encounter of(ResultSubject other) {
+            return new Encounter(other, start, end, isOpen, closest);
+        }
+    }
+
+    /**
+     * A device that was in a field.
+     *
+     * @param end when it left; of an open one {@link Long#MAX_VALUE}
+     */
+    record Visit(ResultSubject subject, long start, long end, boolean isOpen) implements AnalyticsResult {
+        static Visit open(ResultSubject subject, long start) {
+            return new Visit(subject, start, Long.MAX_VALUE, true);
+        }
+
+        /** Both with one more record of the same stay. */
+        Visit and(Visit more) {
+            return isOpen ? more : this;
+        }
+
+        @Override
+        public Visit of(ResultSubject other) {
+            return new Visit(other, start, end, isOpen);
+        }
+    }
+
+    /**
+     * The average of a field in a window.
+     *
+     * @param start first instant of the window
+     * @param end first instant after the window
+     * @param mean NaN if nothing was reported
+     * @param suspects devices that were left out
+     * @param quality {@code robust} or {@code unverified}
+     */
+    record Average(ResultSubject subject, long start, long end, double mean, Set<String> suspects, String quality)
+            implements AnalyticsResult {
+        public Average {
+            suspects = Set.copyOf(suspects);
+        }
+
+        @Override
+        public boolean isOpen() {
+            return false;
+        }
+
+        /** Whether it says that nothing was reported. */
+        boolean isEmpty() {
+            return Double.isNaN(mean);
+        }
+
+        @Override
+        public Average of(ResultSubject other) {
+            return new Average(other, start, end, mean, suspects, quality);
+        }
+    }
 }

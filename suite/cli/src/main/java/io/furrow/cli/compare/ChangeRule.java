@@ -3,6 +3,9 @@ package io.furrow.cli.compare;
 import java.util.ArrayList;
 import java.util.List;
 
+import io.furrow.cli.compare.AnalyticsResult.Average;
+import io.furrow.cli.compare.AnalyticsResult.Encounter;
+
 /**
  * Determines in what two results of the same subject differ. Distances and means count as moved from a thousandth of
  * their unit on: sums of the same readings in another order differ far less. The end of what is open is not known and
@@ -19,11 +22,11 @@ final class ChangeRule {
 
     List<MemberDifference> changes(AnalyticsResult a, AnalyticsResult b) {
         List<MemberDifference> changes = new ArrayList<>();
-        if (a instanceof AverageResult first && b instanceof AverageResult second) {
+        if (a instanceof Average first && b instanceof Average second) {
             average(first, second, changes);
             return changes;
         }
-        if (a instanceof EncounterResult first && b instanceof EncounterResult second) {
+        if (a instanceof Encounter first && b instanceof Encounter second) {
             moved("closest", first.closest(), second.closest(), changes);
         }
         if (range.start(a) != range.start(b)) {
@@ -35,7 +38,7 @@ final class ChangeRule {
         return changes;
     }
 
-    private static void average(AverageResult a, AverageResult b, List<MemberDifference> changes) {
+    private static void average(Average a, Average b, List<MemberDifference> changes) {
         moved("mean", a.mean(), b.mean(), changes);
         if (!a.suspects().equals(b.suspects())) {
             changes.add(new MemberDifference("suspects", a.suspects(), b.suspects()));

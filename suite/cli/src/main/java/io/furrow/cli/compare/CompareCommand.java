@@ -17,6 +17,7 @@ import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
+import io.furrow.cli.option.CommandException;
 import io.furrow.cli.option.KafkaClient;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.time.Instants;
@@ -49,12 +50,8 @@ public final class CompareCommand implements Callable<Integer> {
     @Parameters(index = "1", paramLabel = "B", description = SIDE)
     private String b;
 
-    @Option(
-            names = "--kafka",
-            paramLabel = "HOST:PORT",
-            defaultValue = "127.0.0.1:9092",
-            description = "Kafka to read from. Default: ${DEFAULT-VALUE}.")
-    private String kafka;
+    @Option(names = "--kafka", paramLabel = "HOST:PORT", description = "Kafka to read from. Default: ${DEFAULT-VALUE}.")
+    private String kafka = "127.0.0.1:9092";
 
     @Option(
             names = "--kafka-properties",
@@ -105,9 +102,8 @@ public final class CompareCommand implements Callable<Integer> {
     @Option(
             names = "--limit",
             paramLabel = "N",
-            defaultValue = "40",
             description = "Most differences of each kind in the table. Default: ${DEFAULT-VALUE}.")
-    private int limit;
+    private int limit = 40;
 
     @Option(
             names = "--html",
@@ -126,15 +122,12 @@ public final class CompareCommand implements Callable<Integer> {
             }
             print(comparison);
             return comparison.isSame() ? 0 : 1;
-        } catch (UnreadableResultsException e) {
-            spec.commandLine().getErr().println(e.getMessage());
         } catch (IOException e) {
-            spec.commandLine().getErr().println("cannot write: " + e.getMessage() + "; check --html");
+            throw new CommandException("cannot write: " + e.getMessage() + "; check --html", e);
         }
-        return spec.exitCodeOnExecutionException();
     }
 
-    private Comparison compare(ResultReader reader, TimeRange range) throws UnreadableResultsException {
+    private Comparison compare(ResultReader reader, TimeRange range) {
         Side first = Side.of(a, reader.topics());
         Side second = Side.of(b, reader.topics());
         String named = mission != null ? mission : first.isLive() ? second.mission() : first.mission();
@@ -144,9 +137,9 @@ public final class CompareCommand implements Callable<Integer> {
                 range);
     }
 
-    private static SideResults found(SideResults results) throws UnreadableResultsException {
+    private static SideResults found(SideResults results) {
         if (results.missing().containsAll(List.of(ResultKind.values()))) {
-            throw new UnreadableResultsException(
+            throw new CommandException(
                     "There are no results of %s: start analytics on it (./furrow replay start --analytics), and wait for them"
                             .formatted(results.name()));
         }

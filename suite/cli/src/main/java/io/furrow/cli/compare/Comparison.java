@@ -4,6 +4,7 @@ import java.util.EnumMap;
 import java.util.List;
 import java.util.Map;
 
+import io.furrow.cli.compare.AnalyticsResult.Average;
 import io.furrow.cli.compare.ResultMatch.Verdict;
 
 /**
@@ -33,12 +34,12 @@ record Comparison(SideResults a, SideResults b, TimeRange range, Map<ResultKind,
     }
 
     private static boolean isEmpty(AnalyticsResult span) {
-        return span instanceof AverageResult average && average.isEmpty();
+        return span instanceof Average average && average.isEmpty();
     }
 
     private static List<AnalyticsResult> within(TimeRange range, List<AnalyticsResult> spans, boolean oneScope) {
         return spans.stream()
-                .filter(span -> span instanceof AverageResult window ? range.contains(window) : range.overlaps(span))
+                .filter(span -> span instanceof Average window ? range.contains(window) : range.overlaps(span))
                 .map(span -> oneScope ? span.of(span.subject().anyScope()) : span)
                 .toList();
     }

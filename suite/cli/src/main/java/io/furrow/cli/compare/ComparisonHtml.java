@@ -16,6 +16,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.cli.compare.AnalyticsResult.Average;
 import io.furrow.cli.compare.ResultMatch.Verdict;
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -132,7 +133,7 @@ final class ComparisonHtml {
             json.put("end", end);
             last = Math.max(last, end);
         }
-        if (span instanceof AverageResult average && !average.isEmpty()) {
+        if (span instanceof Average average && !average.isEmpty()) {
             json.put("mean", average.mean());
         }
         return json;

@@ -7,6 +7,8 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.cli.compare.AnalyticsResult.Average;
+import io.furrow.cli.compare.AnalyticsResult.Encounter;
 import io.furrow.cli.compare.ResultMatch.Verdict;
 
 /**
@@ -58,9 +60,9 @@ final class ComparisonJson {
         if (!span.isOpen()) {
             json.put("end", span.end());
         }
-        if (span instanceof EncounterResult one) {
+        if (span instanceof Encounter one) {
             json.put("closest", one.closest());
-        } else if (span instanceof AverageResult one) {
+        } else if (span instanceof Average one) {
             if (!one.isEmpty()) {
                 json.put("mean", one.mean());
             }

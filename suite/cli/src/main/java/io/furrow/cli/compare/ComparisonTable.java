@@ -64,9 +64,6 @@ final class ComparisonTable {
     }
 
     private static String row(ResultMatch match, int width) {
-        String what = match.verdict() == Verdict.CHANGED
-                ? match.changes().stream().map(ComparisonText::change).collect(Collectors.joining(", "))
-                : ComparisonText.value(match.either());
         String name = match.subject().name();
         return String.format(
                         Locale.ROOT,
@@ -75,7 +72,7 @@ final class ComparisonTable {
                         ComparisonText.time(match.either().start()),
                         ComparisonText.length(match.either()),
                         name + " ".repeat(width - name.length()),
-                        what)
+                        ComparisonText.what(match))
                 .stripTrailing();
     }
 }

@@ -5,6 +5,10 @@ import java.time.Instant;
 import java.util.Collection;
 import java.util.Locale;
 import java.util.TreeSet;
+import java.util.stream.Collectors;
+
+import io.furrow.cli.compare.AnalyticsResult.Average;
+import io.furrow.cli.compare.AnalyticsResult.Encounter;
 
 /** Values of results as people read them. */
 final class ComparisonText {
@@ -32,17 +36,17 @@ final class ComparisonText {
     }
 
     /** What a result of one side says. */
-    static String value(AnalyticsResult span) {
-        if (span instanceof EncounterResult one) {
+    private static String value(AnalyticsResult span) {
+        if (span instanceof Encounter one) {
             return "closest " + number(one.closest()) + " m";
-        } else if (span instanceof AverageResult one) {
+        } else if (span instanceof Average one) {
             return "mean " + (one.isEmpty() ? "none" : number(one.mean()));
         }
         return "";
     }
 
     /** For instance {@code closest 1.2 → 1.5 (+0.3)}, {@code end 3 s later}. */
-    static String change(MemberDifference change) {
+    private static String change(MemberDifference change) {
         if (change.a() instanceof Long a && change.b() instanceof Long b) {
             return "%s %s %s".formatted(change.member(), duration(Math.abs(b - a)), b > a ? "later" : "earlier");
         }
@@ -54,17 +58,20 @@ final class ComparisonText {
 
     /** When, how long, on which side, and what. */
     static String match(ResultMatch match) {
-        String what = match.verdict() == ResultMatch.Verdict.CHANGED
-                ? String.join(
-                        ", ",
-                        match.changes().stream().map(ComparisonText::change).toList())
-                : value(match.either());
+        String what = what(match);
         return "%s, %s, %s%s"
                 .formatted(
                         time(match.either().start()),
                         length(match.either()),
                         match.verdict().code(),
                         what.isEmpty() ? "" : ": " + what);
+    }
+
+    /** What changed, or what the result of the one side says. */
+    static String what(ResultMatch match) {
+        return match.verdict() == ResultMatch.Verdict.CHANGED
+                ? match.changes().stream().map(ComparisonText::change).collect(Collectors.joining(", "))
+                : value(match.either());
     }
 
     private static String text(Object value) {

@@ -10,6 +10,9 @@ import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.cli.compare.AnalyticsResult.Average;
+import io.furrow.cli.compare.AnalyticsResult.Encounter;
+import io.furrow.cli.compare.AnalyticsResult.Visit;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.result.CollisionResult;
 import io.furrow.model.result.FieldResult;
@@ -25,9 +28,9 @@ final class ResultCollector {
             Set.of(CollisionResult.STARTED, CollisionResult.ONGOING, CollisionResult.ENDED);
 
     private final String mission;
-    private final Map<String, EncounterResult> encounters = new HashMap<>();
-    private final Map<String, VisitResult> visits = new HashMap<>();
-    private final Map<Window, AverageResult> averages = new HashMap<>();
+    private final Map<String, Encounter> encounters = new HashMap<>();
+    private final Map<String, Visit> visits = new HashMap<>();
+    private final Map<Window, Average> averages = new HashMap<>();
     private long epoch;
 
     private record Window(ResultSubject subject, long start, long end) {}
@@ -83,13 +86,13 @@ final class ResultCollector {
                     + entity.text(CollisionResult.SECOND.id()).orElse("?");
             encounters.merge(
                     entity.text(CollisionResult.ENCOUNTER).orElse(entity.id()),
-                    new EncounterResult(
+                    new Encounter(
                             new ResultSubject(scope, pair),
                             start.get(),
                             time.get(),
                             !phase.equals(CollisionResult.ENDED),
                             closest.get()),
-                    EncounterResult::and);
+                    Encounter::and);
         }
     }
 
@@ -108,10 +111,8 @@ final class ResultCollector {
                 .isPresent();
         visits.merge(
                 entity.text(PresenceResult.STAY).orElse(entity.id()),
-                left
-                        ? new VisitResult(subject, start.get(), time.get(), false)
-                        : VisitResult.open(subject, start.get()),
-                VisitResult::and);
+                left ? new Visit(subject, start.get(), time.get(), false) : Visit.open(subject, start.get()),
+                Visit::and);
     }
 
     private void average(String scope, Entity entity) {
@@ -129,7 +130,7 @@ final class ResultCollector {
         }
         averages.put(
                 new Window(subject, start.get(), end.get()),
-                new AverageResult(
+                new Average(
                         subject,
                         start.get(),
                         end.get(),

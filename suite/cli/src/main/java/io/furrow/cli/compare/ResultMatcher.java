@@ -10,6 +10,8 @@ import java.util.Map;
 import java.util.Set;
 import java.util.stream.Collectors;
 
+import io.furrow.cli.compare.AnalyticsResult.Average;
+
 /**
  * Finds for each result of A the equivalent result of B: of the same subject, encounters and stays with the longest
  * common time first, averages of the same window. Times that only touch are common. Each result has one counterpart at
@@ -23,7 +25,7 @@ final class ResultMatcher {
         }
 
         boolean isPossible() {
-            return a instanceof AverageResult ? a.start() == b.start() && a.end() == b.end() : common() >= 0;
+            return a instanceof Average ? a.start() == b.start() && a.end() == b.end() : common() >= 0;
         }
     }
 
@@ -64,7 +66,7 @@ final class ResultMatcher {
 
     /** The longest common time first. */
     private static List<Candidate> candidates(List<AnalyticsResult> a, List<AnalyticsResult> b) {
-        if (!a.isEmpty() && a.get(0) instanceof AverageResult) {
+        if (!a.isEmpty() && a.get(0) instanceof Average) {
             return windows(a, b);
         }
         List<Candidate> candidates = new ArrayList<>();

@@ -10,6 +10,8 @@ import java.util.Map;
 import java.util.OptionalLong;
 import java.util.Properties;
 import java.util.Set;
+import java.util.function.Consumer;
+import java.util.stream.IntStream;
 
 import org.apache.kafka.clients.consumer.ConsumerConfig;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -19,6 +21,8 @@ import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
+import io.furrow.cli.option.CommandException;
+import io.furrow.kafka.CommittedReader;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
@@ -37,31 +41,19 @@ final class ResultReader implements AutoCloseable {
     /** By topic. */
     private final Map<String, Integer> partitions = new HashMap<>();
 
-    /** Takes one record. */
-    private interface RecordReader {
-        void read(ConsumerRecord<byte[], byte[]> record) throws UnreadableResultsException;
-    }
-
     /** @param client of Kafka, with {@code bootstrap.servers} */
-    ResultReader(Properties client) throws UnreadableResultsException {
-        Properties properties = new Properties();
-        properties.putAll(client);
-        properties.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_committed");
-        properties.setProperty(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, "false");
+    ResultReader(Properties client) {
+        Properties properties = CommittedReader.settings(client);
         properties.setProperty(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, Long.toString(TIMEOUT.toMillis()));
         try {
             consumer = new KafkaConsumer<>(properties, new ByteArrayDeserializer(), new ByteArrayDeserializer());
             consumer.listTopics().forEach((topic, all) -> partitions.put(topic, all.size()));
         } catch (KafkaException e) {
-            throw away(client.getProperty("bootstrap.servers"), e);
+            throw new CommandException(
+                    "Kafka at %s cannot be read (%s). Check the address given with --kafka."
+                            .formatted(client.getProperty("bootstrap.servers"), FailureText.of(e)),
+                    e);
         }
-    }
-
-    private static UnreadableResultsException away(String servers, KafkaException cause) {
-        return new UnreadableResultsException(
-                "Kafka at %s cannot be read (%s). Check the address given with --kafka."
-                        .formatted(servers, FailureText.of(cause)),
-                cause);
     }
 
     /** Names of all topics. */
@@ -72,9 +64,9 @@ final class ResultReader implements AutoCloseable {
     /**
      * @param desired epoch of a replay; empty for its newest
      * @param mission see {@link ResultCollector}
-     * @throws UnreadableResultsException if a record is not an entity, or Kafka does not answer
+     * @throws CommandException if a record is not an entity, or Kafka does not answer
      */
-    SideResults read(Side side, OptionalLong desired, String mission) throws UnreadableResultsException {
+    SideResults read(Side side, OptionalLong desired, String mission) {
         try {
             OptionalLong epoch = side.isLive() ? OptionalLong.of(0) : desired.isPresent() ? desired : newestEpoch(side);
             ResultCollector collector = new ResultCollector(mission);
@@ -92,13 +84,12 @@ final class ResultReader implements AutoCloseable {
             }
             return new SideResults(side.name(), epoch.orElse(collector.epoch()), spans, missing);
         } catch (KafkaException e) {
-            throw new UnreadableResultsException(
+            throw new CommandException(
                     "The results of %s cannot be read: %s".formatted(side.name(), FailureText.of(e)), e);
         }
     }
 
-    private void read(Side side, ResultKind kind, OptionalLong epoch, ResultCollector collector)
-            throws UnreadableResultsException {
+    private void read(Side side, ResultKind kind, OptionalLong epoch, ResultCollector collector) {
         List<TopicPartition> all = assign(side.results(kind));
         consumer.seekToBeginning(all);
         toEnd(all, record -> {
@@ -110,7 +101,7 @@ final class ResultReader implements AutoCloseable {
     }
 
     /** That of the last record that was played: an epoch in which nothing was found has no result. */
-    private OptionalLong newestEpoch(Side side) throws UnreadableResultsException {
+    private OptionalLong newestEpoch(Side side) {
         if (!partitions.containsKey(side.topic())) {
             return OptionalLong.empty();
         }
@@ -124,30 +115,30 @@ final class ResultReader implements AutoCloseable {
     }
 
     private List<TopicPartition> assign(String topic) {
-        List<TopicPartition> all = java.util.stream.IntStream.range(0, partitions.get(topic))
+        List<TopicPartition> all = IntStream.range(0, partitions.get(topic))
                 .mapToObj(number -> new TopicPartition(topic, number))
                 .toList();
         consumer.assign(all);
         return all;
     }
 
-    private static Entity entity(ConsumerRecord<byte[], byte[]> record) throws UnreadableResultsException {
+    private static Entity entity(ConsumerRecord<byte[], byte[]> record) {
         try {
             return Entity.parse(record.value());
         } catch (UnreadableException e) {
-            throw new UnreadableResultsException(
+            throw new CommandException(
                     "%s-%d@%d is not an entity: %s. Check who else writes to the topic."
                             .formatted(record.topic(), record.partition(), record.offset(), e.getMessage()),
                     e);
         }
     }
 
-    private void toEnd(List<TopicPartition> all, RecordReader reader) throws UnreadableResultsException {
+    private void toEnd(List<TopicPartition> all, Consumer<ConsumerRecord<byte[], byte[]>> reader) {
         Map<TopicPartition, Long> ends = consumer.endOffsets(all);
         while (all.stream().anyMatch(one -> consumer.position(one) < ends.get(one))) {
             for (ConsumerRecord<byte[], byte[]> record : consumer.poll(POLL)) {
                 if (record.offset() < ends.get(new TopicPartition(record.topic(), record.partition()))) {
-                    reader.read(record);
+                    reader.accept(record);
                 }
             }
         }

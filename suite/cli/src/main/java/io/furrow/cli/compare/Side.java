@@ -4,6 +4,7 @@ import java.util.Collection;
 import java.util.List;
 import java.util.regex.Pattern;
 
+import io.furrow.cli.option.CommandException;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -20,15 +21,15 @@ record Side(String name, String topic) {
     /**
      * @param code {@code live}, a replay's name, or a replay's topic
      * @param topics that there are: a replay may play on a topic that is not called after its mission
-     * @throws UnreadableResultsException if it is none of these, or the replay has no topic
+     * @throws CommandException if it is none of these, or the replay has no topic
      */
-    static Side of(String code, Collection<String> topics) throws UnreadableResultsException {
+    static Side of(String code, Collection<String> topics) {
         if (code.equals(LIVE)) {
             return new Side(LIVE, null);
         } else if (Topics.isReplay(code)) {
             return new Side(Topics.replayOf(code).orElseThrow(), required(code, topics));
         } else if (!NAME.matcher(code).matches()) {
-            throw new UnreadableResultsException(
+            throw new CommandException(
                     "'%s' is not a replay: name one as MISSION.ID, its topic as data.MISSION.replay.ID, or say live."
                             .formatted(code));
         }
@@ -40,9 +41,9 @@ record Side(String name, String topic) {
         return new Side(code, required(named, topics));
     }
 
-    private static String required(String topic, Collection<String> topics) throws UnreadableResultsException {
+    private static String required(String topic, Collection<String> topics) {
         if (!hasAnyOf(topic, topics)) {
-            throw new UnreadableResultsException(
+            throw new CommandException(
                     "There is no topic %s, and none of its results: check the name with ./furrow replay list, and --kafka. One that is played on a topic of another name is named by it."
                             .formatted(topic));
         }

@@ -1,5 +1,7 @@
 package io.furrow.cli.compare;
 
+import io.furrow.cli.compare.AnalyticsResult.Average;
+
 /**
  * Which results count, by original event time.
  *
@@ -15,7 +17,7 @@ record TimeRange(long from, long to) {
     }
 
     /** Whether a window lies within; one that is cut has other readings than a whole one. */
-    boolean contains(AverageResult window) {
+    boolean contains(Average window) {
         return window.start() >= from && window.end() <= to;
     }
 

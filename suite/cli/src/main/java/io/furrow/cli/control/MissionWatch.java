@@ -2,7 +2,6 @@ package io.furrow.cli.control;
 
 import java.io.IOException;
 import java.time.Instant;
-import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -45,7 +44,7 @@ final class MissionWatch implements ControlOptions.Work {
                 control.out().flush();
                 shown = line;
             }
-        } while (!isOver(state) && pause());
+        } while (!isOver(state) && ReplayWatch.pause(POLL_INTERVAL_MILLIS));
         reached = state.equals(until);
     }
 
@@ -80,15 +79,5 @@ final class MissionWatch implements ControlOptions.Work {
                                     : "");
         }
         return line.toString();
-    }
-
-    private static boolean pause() {
-        try {
-            TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MILLIS);
-            return true;
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            return false;
-        }
     }
 }

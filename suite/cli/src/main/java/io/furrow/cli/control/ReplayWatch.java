@@ -68,7 +68,7 @@ final class ReplayWatch implements ControlOptions.Work {
     }
 
     private void print(ReplayEvents events) throws IOException {
-        while (!events.isOver() && !isAtEnd(events.newest()) && pause()) {
+        while (!events.isOver() && !isAtEnd(events.newest()) && pause(LINE_MILLIS)) {
             line(events);
         }
         line(events);
@@ -94,9 +94,10 @@ final class ReplayWatch implements ControlOptions.Work {
         }
     }
 
-    private static boolean pause() {
+    /** Whether nobody interrupted it. */
+    static boolean pause(long millis) {
         try {
-            TimeUnit.MILLISECONDS.sleep(LINE_MILLIS);
+            TimeUnit.MILLISECONDS.sleep(millis);
             return true;
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();

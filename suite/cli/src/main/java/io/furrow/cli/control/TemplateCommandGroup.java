@@ -1,7 +1,5 @@
 package io.furrow.cli.control;
 
-import java.io.PrintWriter;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
@@ -15,7 +13,6 @@ import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.JsonFile;
 import io.furrow.cli.option.CommandGroup;
-import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow template}. */
 @Command(
@@ -49,10 +46,7 @@ public final class TemplateCommandGroup extends CommandGroup {
                 control.print(json);
                 return;
             }
-            try (PrintWriter writer = new PrintWriter(Files.newBufferedWriter(file, StandardCharsets.UTF_8))) {
-                writer.println(
-                        NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(json));
-            }
+            Files.writeString(file, ControlOptions.pretty(json) + System.lineSeparator());
             control.out()
                     .println("exported: template %s@%s to %s"
                             .formatted(

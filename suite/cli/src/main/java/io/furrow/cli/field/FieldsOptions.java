@@ -1,9 +1,9 @@
 package io.furrow.cli.field;
 
+import java.io.IOException;
 import java.nio.file.Path;
 import java.util.List;
 
-import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
@@ -26,9 +26,8 @@ public final class FieldsOptions {
     @Option(
             names = "--kafka",
             paramLabel = "HOST:PORT",
-            defaultValue = "127.0.0.1:9092",
             description = "Kafka that holds service.fields. Default: ${DEFAULT-VALUE}.")
-    private String kafka;
+    private String kafka = "127.0.0.1:9092";
 
     @Option(
             names = "--kafka-properties",
@@ -48,20 +47,14 @@ public final class FieldsOptions {
     }
 
     /** Prints lines or JSON, as the option says. */
-    public void print(List<String> lines, JsonNode json) {
+    public void print(List<String> lines, JsonNode json) throws IOException {
         if (output == Output.JSON) {
-            spec.commandLine().getOut().println(pretty(json));
+            spec.commandLine()
+                    .getOut()
+                    .println(NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(json));
         } else {
             lines.forEach(spec.commandLine().getOut()::println);
         }
         spec.commandLine().getOut().flush();
-    }
-
-    private static String pretty(JsonNode json) {
-        try {
-            return NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(json);
-        } catch (JsonProcessingException e) {
-            throw new IllegalStateException("a tree of JSON cannot be written", e);
-        }
     }
 }

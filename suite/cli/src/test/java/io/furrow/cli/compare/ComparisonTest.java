@@ -9,6 +9,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.analytics.collision.CollisionEntity;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.position.PositionFix;
+import io.furrow.cli.compare.AnalyticsResult.Encounter;
 import io.furrow.cli.compare.ResultMatch.Verdict;
 import io.furrow.model.ngsi.Entity;
 
@@ -175,7 +176,7 @@ class ComparisonTest {
         collector.add(ResultKind.ENCOUNTERS, 3, "farm|/", entity);
 
         assertThat(collector.spans(ResultKind.ENCOUNTERS))
-                .containsExactly(new EncounterResult(new ResultSubject("farm|/", "x – y"), T0, T0 + 5000, false, 1.25));
+                .containsExactly(new Encounter(new ResultSubject("farm|/", "x – y"), T0, T0 + 5000, false, 1.25));
     }
 
     private static PositionFix fix(String id, long time) {

@@ -6,6 +6,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
+import io.furrow.cli.option.CommandException;
+
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -30,14 +32,14 @@ class SideTest {
     @Test
     void reportsThatThereIsNoSuchReplay() {
         assertThatThrownBy(() -> Side.of("weeding", TOPICS))
-                .isInstanceOf(UnreadableResultsException.class)
+                .isInstanceOf(CommandException.class)
                 .hasMessageContaining("name one as MISSION.ID");
         assertThatThrownBy(() -> Side.of("hoeing.00000001", TOPICS))
                 .as("another of its group may have these digits")
-                .isInstanceOf(UnreadableResultsException.class)
+                .isInstanceOf(CommandException.class)
                 .hasMessageContaining("is named by it");
         assertThatThrownBy(() -> Side.of("weeding.ffffffff", TOPICS))
-                .isInstanceOf(UnreadableResultsException.class)
+                .isInstanceOf(CommandException.class)
                 .hasMessageContaining("There is no topic data.weeding.replay.ffffffff");
     }
 }

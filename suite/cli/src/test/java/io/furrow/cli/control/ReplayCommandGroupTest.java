@@ -12,6 +12,8 @@ import com.sun.net.httpserver.HttpServer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.condition.EnabledOnOs;
+import org.junit.jupiter.api.condition.OS;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine;
@@ -182,6 +184,16 @@ class ReplayCommandGroupTest {
                 .isZero();
 
         assertThat(requested).containsExactly(request);
+    }
+
+    @Test
+    @EnabledOnOs(OS.LINUX)
+    void saysThatATemplateCouldNotBeWritten() {
+        answer = "{\"template\":\"t\",\"version\":1}";
+
+        assertThat(run("template", "export", "t", "/dev/full")).isEqualTo(1);
+
+        assertThat(output.toString()).contains("cannot read or write").doesNotContain("exported");
     }
 
     private int run(String... arguments) {

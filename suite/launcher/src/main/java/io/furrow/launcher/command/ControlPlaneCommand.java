@@ -69,42 +69,37 @@ public final class ControlPlaneCommand implements Callable<Integer> {
     @Option(
             names = "--standby-replicas",
             paramLabel = "N",
-            defaultValue = "0",
             description = "Number of standby replicas of all state on other instances. Default: 0.")
-    private int standbyReplicas;
+    private int standbyReplicas = 0;
 
     @Option(
             names = "--control-host",
             paramLabel = "ADDRESS",
-            defaultValue = "127.0.0.1",
             description =
                     "Address of the REST API; another than this machine's needs --api-tokens, and --api-certificate or "
                             + "--api-insecure. Default: ${DEFAULT-VALUE}.")
-    private String host;
+    private String host = "127.0.0.1";
 
     @Option(
             names = "--control-port",
             paramLabel = "PORT",
-            defaultValue = "8085",
             description = "Port of the REST API, 0 for a free one. Default: ${DEFAULT-VALUE}.")
-    private int port;
+    private int port = 8085;
 
     @Option(
             names = "--health-port",
             paramLabel = "PORT",
-            defaultValue = "8086",
             description =
                     "Port of /health, /ready and /metrics, plain HTTP without tokens even if the API has both; 0 for a "
                             + "free one. Default: ${DEFAULT-VALUE}.")
-    private int healthPort;
+    private int healthPort = 8086;
 
     @Option(
             names = "--orion",
             paramLabel = "URL",
-            defaultValue = "http://127.0.0.1:1026",
             converter = HttpUriConverter.class,
             description = "Context broker, through which commands reach devices. Default: ${DEFAULT-VALUE}.")
-    private URI orion;
+    private URI orion = URI.create("http://127.0.0.1:1026");
 
     @Option(
             names = "--connect-url",
@@ -118,25 +113,18 @@ public final class ControlPlaneCommand implements Callable<Integer> {
     @Option(
             names = "--replication-factor",
             paramLabel = "N",
-            defaultValue = "-1",
             description =
-                    "Replication factor of created topics, including internal ones; existing topics do not change. "
-                            + "Default: that of the brokers.")
-    private short replicationFactor;
+                    "Replication factor of created topics, including internal ones; existing topics do not change. " + "Default: that of the brokers.")
+    private short replicationFactor = -1;
 
     @Option(
             names = "--fiware-service",
             paramLabel = "NAME",
-            defaultValue = "farm",
             description = "Tenant of the context broker. Default: ${DEFAULT-VALUE}.")
-    private String fiwareService;
+    private String fiwareService = "farm";
 
-    @Option(
-            names = "--log",
-            paramLabel = "FILE",
-            defaultValue = "/dev/stderr",
-            description = "Where to log. Default: ${DEFAULT-VALUE}.")
-    private Path log;
+    @Option(names = "--log", paramLabel = "FILE", description = "Where to log. Default: ${DEFAULT-VALUE}.")
+    private Path log = Path.of("/dev/stderr");
 
     @Mixin
     private FiwareAccessOptions fiware;

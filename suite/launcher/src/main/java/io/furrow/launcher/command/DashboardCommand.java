@@ -45,12 +45,8 @@ public final class DashboardCommand implements Callable<Integer> {
     @Spec
     private CommandSpec spec;
 
-    @Option(
-            names = "--kafka",
-            paramLabel = "HOST:PORT",
-            defaultValue = "127.0.0.1:9092",
-            description = "Kafka. Default: ${DEFAULT-VALUE}.")
-    private String kafka;
+    @Option(names = "--kafka", paramLabel = "HOST:PORT", description = "Kafka. Default: ${DEFAULT-VALUE}.")
+    private String kafka = "127.0.0.1:9092";
 
     @Option(
             names = "--kafka-properties",
@@ -61,26 +57,23 @@ public final class DashboardCommand implements Callable<Integer> {
     @Option(
             names = "--control-plane",
             paramLabel = "URL",
-            defaultValue = "http://127.0.0.1:8085",
             converter = HttpUriConverter.class,
             description =
                     "REST API of the control plane, which also knows the tokens and roles of users. Default: ${DEFAULT-VALUE}.")
-    private URI controlPlane;
+    private URI controlPlane = URI.create("http://127.0.0.1:8085");
 
     @Option(
             names = "--host",
             paramLabel = "ADDRESS",
-            defaultValue = "127.0.0.1",
             description =
                     "Address to listen on; another than this machine's needs --insecure. Default: ${DEFAULT-VALUE}.")
-    private String host;
+    private String host = "127.0.0.1";
 
     @Option(
             names = "--port",
             paramLabel = "PORT",
-            defaultValue = "8080",
             description = "Port to listen on, 0 for a free one. Default: ${DEFAULT-VALUE}.")
-    private int port;
+    private int port = 8080;
 
     @Option(
             names = "--insecure",
@@ -131,12 +124,8 @@ public final class DashboardCommand implements Callable<Integer> {
                             + "those of this build.")
     private Path web;
 
-    @Option(
-            names = "--log",
-            paramLabel = "FILE",
-            defaultValue = "/dev/stderr",
-            description = "Where to log. Default: ${DEFAULT-VALUE}.")
-    private Path log;
+    @Option(names = "--log", paramLabel = "FILE", description = "Where to log. Default: ${DEFAULT-VALUE}.")
+    private Path log = Path.of("/dev/stderr");
 
     @Mixin
     private TrustedProxyFlags trusted;

@@ -44,7 +44,7 @@ final class UrlTable {
     }
 
     private static String login(Suite suite) {
-        return suite.hasSharedLogin()
+        return suite.settings().sharedLogin()
                 ? "user %s, password %s".formatted(Suite.MQTT_USER, Suite.MQTT_PASSWORD)
                 : "a login for each device: list it in a mission, then ./furrow device credentials ID";
     }

@@ -18,11 +18,10 @@ public final class FiwareAccessOptions {
     @Option(
             names = "--fiware-service-path",
             paramLabel = "PATH",
-            defaultValue = "/",
             description =
                     "Service path of the missions' devices at the context broker and the IoT Agent. Of up, also the one, with "
                             + "those below, whose changes are notified. Default: ${DEFAULT-VALUE}.")
-    private String servicePath;
+    private String servicePath = "/";
 
     @Option(
             names = "--fiware-token-file",

@@ -16,16 +16,14 @@ public final class FiwareOptions {
     @Option(
             names = "--orion",
             paramLabel = "URL",
-            defaultValue = "http://127.0.0.1:1026",
             description = "Context broker, to which robots report. Default: ${DEFAULT-VALUE}.")
-    private URI orion;
+    private URI orion = URI.create("http://127.0.0.1:1026");
 
     @Option(
             names = "--iot-agent",
             paramLabel = "URL",
-            defaultValue = "http://127.0.0.1:4041",
             description = "IoT Agent, which receives all other devices. Default: ${DEFAULT-VALUE}.")
-    private URI iotAgent;
+    private URI iotAgent = URI.create("http://127.0.0.1:4041");
 
     @Option(
             names = "--iot-agent-resource",
@@ -38,9 +36,8 @@ public final class FiwareOptions {
     @Option(
             names = "--mqtt",
             paramLabel = "URI",
-            defaultValue = "tcp://127.0.0.1:1883",
             description = "MQTT broker: tcp://host:port, or ssl://host:port with TLS. Default: ${DEFAULT-VALUE}.")
-    private URI mqtt;
+    private URI mqtt = URI.create("tcp://127.0.0.1:1883");
 
     @Option(
             names = "--mqtt-user",
@@ -57,12 +54,8 @@ public final class FiwareOptions {
             description = "File whose first line is the user's password. Default: the password of ./furrow demo.")
     private Path passwordFile;
 
-    @Option(
-            names = "--fiware-service",
-            paramLabel = "NAME",
-            defaultValue = "farm",
-            description = "Tenant. Default: ${DEFAULT-VALUE}.")
-    private String service;
+    @Option(names = "--fiware-service", paramLabel = "NAME", description = "Tenant. Default: ${DEFAULT-VALUE}.")
+    private String service = "farm";
 
     @Mixin
     private FiwareAccessOptions access;

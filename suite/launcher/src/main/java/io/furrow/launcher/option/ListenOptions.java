@@ -24,11 +24,10 @@ public final class ListenOptions {
     @Option(
             names = "--listen",
             paramLabel = "ADDRESS",
-            defaultValue = "127.0.0.1",
             description =
                     "Address of the listener for notifications; another than this machine's needs --notify-secret and --listen-insecure. "
                             + "Default: ${DEFAULT-VALUE}.")
-    private String listen;
+    private String listen = "127.0.0.1";
 
     @Option(
             names = "--public-url",
@@ -50,10 +49,9 @@ public final class ListenOptions {
     @Option(
             names = "--mqtt-listen",
             paramLabel = "ADDRESS",
-            defaultValue = "127.0.0.1",
             description =
                     "Address of the suite's MQTT broker; another than this machine's needs --listen-insecure. Default: ${DEFAULT-VALUE}.")
-    private String mqttListen;
+    private String mqttListen = "127.0.0.1";
 
     @Option(
             names = "--listen-insecure",

@@ -18,12 +18,8 @@ public final class ReplayFlags {
                             + "Default: none; every replay is accepted, and there are no markers.")
     private String mongo;
 
-    @Option(
-            names = "--mongo-database",
-            paramLabel = "NAME",
-            defaultValue = "persistence",
-            description = "Its database. Default: ${DEFAULT-VALUE}.")
-    private String database;
+    @Option(names = "--mongo-database", paramLabel = "NAME", description = "Its database. Default: ${DEFAULT-VALUE}.")
+    private String database = "persistence";
 
     @Option(
             names = "--mongo-poll",
@@ -50,10 +46,9 @@ public final class ReplayFlags {
     @Option(
             names = "--max-replays",
             paramLabel = "N",
-            defaultValue = "256",
             description =
                     "Maximum number of concurrent replays; a further start is refused. Default: ${DEFAULT-VALUE}.")
-    private int max;
+    private int max = 256;
 
     /** @throws CommandException where they cannot be used */
     public ReplaySettings settings() {

@@ -27,17 +27,15 @@ public final class SuiteOptions {
     @Option(
             names = "--fiware-service",
             paramLabel = "NAME",
-            defaultValue = "farm",
             description = "Tenant of the context broker. Default: ${DEFAULT-VALUE}.")
-    public String fiwareService;
+    public String fiwareService = "farm";
 
     @Option(
             names = "--window",
             paramLabel = "DURATION",
-            defaultValue = "10s",
             description =
                     "Length of the windows over which a field's temperature is averaged. Default: ${DEFAULT-VALUE}.")
-    String window;
+    String window = "10s";
 
     @Option(
             names = "--fields",
@@ -48,64 +46,44 @@ public final class SuiteOptions {
                             + "broker without fields, those of the demonstration farm.")
     Path fields;
 
-    @Option(
-            names = "--dashboard-port",
-            paramLabel = "PORT",
-            defaultValue = "8080",
-            description = PORT_OF + "the dashboard" + DEFAULT)
-    int dashboardPort;
+    @Option(names = "--dashboard-port", paramLabel = "PORT", description = PORT_OF + "the dashboard" + DEFAULT)
+    int dashboardPort = 8080;
 
-    @Option(
-            names = "--kafka-port",
-            paramLabel = "PORT",
-            defaultValue = "9092",
-            description = PORT_OF + "Kafka" + DEFAULT)
-    int kafkaPort;
+    @Option(names = "--kafka-port", paramLabel = "PORT", description = PORT_OF + "Kafka" + DEFAULT)
+    int kafkaPort = 9092;
 
-    @Option(
-            names = "--connect-port",
-            paramLabel = "PORT",
-            defaultValue = "8083",
-            description = PORT_OF + "Connect's REST API" + DEFAULT)
-    int connectPort;
+    @Option(names = "--connect-port", paramLabel = "PORT", description = PORT_OF + "Connect's REST API" + DEFAULT)
+    int connectPort = 8083;
 
-    @Option(
-            names = "--flink-port",
-            paramLabel = "PORT",
-            defaultValue = "8081",
-            description = PORT_OF + "Flink's web UI" + DEFAULT)
-    int flinkPort;
+    @Option(names = "--flink-port", paramLabel = "PORT", description = PORT_OF + "Flink's web UI" + DEFAULT)
+    int flinkPort = 8081;
 
     @Option(
             names = "--notify-port",
             paramLabel = "PORT",
-            defaultValue = "8090",
             description = PORT_OF + "the listener for notifications" + DEFAULT)
-    int notifyPort;
+    int notifyPort = 8090;
 
-    @Option(names = "--mqtt-port", paramLabel = "PORT", defaultValue = "1883", description = PORT_OF + "MQTT" + DEFAULT)
-    int mqttPort;
+    @Option(names = "--mqtt-port", paramLabel = "PORT", description = PORT_OF + "MQTT" + DEFAULT)
+    int mqttPort = 1883;
 
     @Option(
             names = "--orion-port",
             paramLabel = "PORT",
-            defaultValue = "1026",
             description = PORT_OF + "the context broker's stand-in" + DEFAULT)
-    int orionPort;
+    int orionPort = 1026;
 
     @Option(
             names = "--iot-agent-port",
             paramLabel = "PORT",
-            defaultValue = "4041",
             description = PORT_OF + "the IoT Agent's stand-in" + DEFAULT)
-    int iotAgentPort;
+    int iotAgentPort = 4041;
 
     @Option(
             names = "--mongo-port",
             paramLabel = "PORT",
-            defaultValue = "27017",
             description = PORT_OF + "the server for missions that speaks MongoDB's protocol" + DEFAULT)
-    int mongoPort;
+    int mongoPort = 27017;
 
     @Option(
             names = "--mongo",
@@ -118,16 +96,14 @@ public final class SuiteOptions {
     @Option(
             names = "--control-port",
             paramLabel = "PORT",
-            defaultValue = "8085",
             description = PORT_OF + "the control plane's REST API" + DEFAULT)
-    int controlPort;
+    int controlPort = 8085;
 
     @Option(
             names = "--health-port",
             paramLabel = "PORT",
-            defaultValue = "8086",
             description = PORT_OF + "the control plane's pages /health, /ready and /metrics" + DEFAULT)
-    int healthPort;
+    int healthPort = 8086;
 
     @Mixin
     AccessFlags access;

@@ -44,16 +44,14 @@ public final class TrustedProxyFlags {
     @Option(
             names = "--user-header",
             paramLabel = "NAME",
-            defaultValue = "X-Forwarded-User",
             description = "Header in which the trusted proxy names the user. Default: ${DEFAULT-VALUE}.")
-    private String userHeader;
+    private String userHeader = "X-Forwarded-User";
 
     @Option(
             names = "--groups-header",
             paramLabel = "NAME",
-            defaultValue = "X-Forwarded-Groups",
             description = "Header in which the trusted proxy names the user's groups. Default: ${DEFAULT-VALUE}.")
-    private String groupsHeader;
+    private String groupsHeader = "X-Forwarded-Groups";
 
     @Option(
             names = "--group-roles",

@@ -34,10 +34,9 @@ public final class WatchFlags {
     @Option(
             names = "--silent-after",
             paramLabel = "N",
-            defaultValue = "3",
             description =
                     "Number of periods without a report after which a device counts as silent. Default: ${DEFAULT-VALUE}.")
-    private int silentAfter;
+    private int silentAfter = 3;
 
     @Option(
             names = "--silent-share",

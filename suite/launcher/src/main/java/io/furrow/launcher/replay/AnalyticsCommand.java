@@ -51,9 +51,8 @@ public final class AnalyticsCommand implements Callable<Integer> {
     @Option(
             names = "--bootstrap-servers",
             paramLabel = "HOST:PORT",
-            defaultValue = "127.0.0.1:9092",
             description = "Kafka, as reached by this command and the cluster. Default: ${DEFAULT-VALUE}.")
-    private String kafka;
+    private String kafka = "127.0.0.1:9092";
 
     @Option(
             names = "--kafka-properties",
@@ -73,12 +72,8 @@ public final class AnalyticsCommand implements Callable<Integer> {
             description = "Start jobs even if no slot is free, because the cluster starts task managers on demand.")
     private boolean elastic;
 
-    @Option(
-            names = "--log",
-            paramLabel = "FILE",
-            defaultValue = "/dev/stderr",
-            description = "Where to log. Default: ${DEFAULT-VALUE}.")
-    private Path log;
+    @Option(names = "--log", paramLabel = "FILE", description = "Where to log. Default: ${DEFAULT-VALUE}.")
+    private Path log = Path.of("/dev/stderr");
 
     @Override
     public Integer call() throws InterruptedException {

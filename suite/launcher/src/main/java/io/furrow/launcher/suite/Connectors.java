@@ -72,26 +72,16 @@ public final class Connectors {
     void source(Source source, URI contextBroker) {
         FiwareScope scope = fiware.scope();
         SuiteSettings.Listening listening = fiware.listening();
-        Map<String, String> settings = new HashMap<>(toBroker(contextBroker));
-        settings.putAll(Map.of(
-                "producer.override.linger.ms",
-                LINGER_MS,
-                "producer.override.batch.size",
-                BATCH_BYTES,
-                "connector.class",
-                "io.furrow.connect.source.NgsiSourceConnector",
-                "tasks.max",
-                "1",
-                "listen.port",
-                Integer.toString(source.port()),
-                "journal.dir",
-                source.journal().toAbsolutePath().toString(),
-                "allowed.hosts",
-                String.join(",", source.allowed().hosts()),
-                "allowed.origins",
-                String.join(",", source.allowed().origins()),
-                "subscription.tenants",
-                scope.service().isEmpty() ? "-" : scope.service()));
+        Map<String, String> settings = toBroker(contextBroker);
+        settings.put("connector.class", "io.furrow.connect.source.NgsiSourceConnector");
+        settings.put("tasks.max", "1");
+        settings.put("producer.override.linger.ms", LINGER_MS);
+        settings.put("producer.override.batch.size", BATCH_BYTES);
+        settings.put("listen.port", Integer.toString(source.port()));
+        settings.put("journal.dir", source.journal().toAbsolutePath().toString());
+        settings.put("allowed.hosts", String.join(",", source.allowed().hosts()));
+        settings.put("allowed.origins", String.join(",", source.allowed().origins()));
+        settings.put("subscription.tenants", scope.service().isEmpty() ? "-" : scope.service());
         source.kafka()
                 .stringPropertyNames()
                 .forEach(name ->
@@ -178,22 +168,14 @@ public final class Connectors {
      * {@link #DEAD_RESULTS}.
      */
     void sink(URI contextBroker, List<String> topics) {
-        Map<String, String> settings = new HashMap<>(toBroker(contextBroker));
-        settings.putAll(Map.of(
-                "connector.class",
-                "io.furrow.connect.sink.NgsiSinkConnector",
-                "tasks.max",
-                "1",
-                "topics",
-                String.join(",", topics),
-                "delete.on.null",
-                "true",
-                "errors.tolerance",
-                "all",
-                "errors.deadletterqueue.topic.name",
-                DEAD_RESULTS,
-                "errors.deadletterqueue.context.headers.enable",
-                "true"));
+        Map<String, String> settings = toBroker(contextBroker);
+        settings.put("connector.class", "io.furrow.connect.sink.NgsiSinkConnector");
+        settings.put("tasks.max", "1");
+        settings.put("topics", String.join(",", topics));
+        settings.put("delete.on.null", "true");
+        settings.put("errors.tolerance", "all");
+        settings.put("errors.deadletterqueue.topic.name", DEAD_RESULTS);
+        settings.put("errors.deadletterqueue.context.headers.enable", "true");
         put("ngsi-sink", settings);
     }
 

@@ -14,13 +14,10 @@ import java.nio.file.StandardOpenOption;
 import java.nio.file.attribute.FileAttribute;
 import java.nio.file.attribute.PosixFilePermissions;
 import java.time.Duration;
-import java.util.Comparator;
-import java.util.Deque;
-import java.util.List;
-import java.util.concurrent.ConcurrentLinkedDeque;
 import java.util.regex.Pattern;
 import java.util.stream.Stream;
 
+import org.apache.kafka.common.utils.Utils;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -47,7 +44,7 @@ public final class RunDirectory implements AutoCloseable {
     private final boolean temporary;
     private final boolean fresh;
     private final FileChannel lock;
-    private final Deque<AutoCloseable> writers = new ConcurrentLinkedDeque<>();
+    private final Closeables writers = new Closeables();
     private final Thread atShutdown = new Thread(this::closeAtShutdown, "delete");
 
     private RunDirectory(Path path, boolean temporary, boolean fresh, FileChannel lock) {
@@ -116,8 +113,7 @@ public final class RunDirectory implements AutoCloseable {
 
     /** Closes a part that writes here before the directory is deleted in the JVM's shutdown, the newest part first. */
     public <T extends AutoCloseable> T closingFirst(T part) {
-        writers.push(part);
-        return part;
+        return writers.add("what writes to " + path, part);
     }
 
     /** For an owner who has a shutdown hook and closes this directory in it. */
@@ -126,13 +122,7 @@ public final class RunDirectory implements AutoCloseable {
     }
 
     private void closeAtShutdown() {
-        while (!writers.isEmpty()) {
-            try {
-                writers.pop().close();
-            } catch (Exception e) { // AutoCloseable declares no narrower type
-                LOG.warn("a writer to {} did not stop cleanly", path, e);
-            }
-        }
+        writers.close();
         close();
     }
 
@@ -190,23 +180,13 @@ public final class RunDirectory implements AutoCloseable {
     private void delete() throws IOException {
         for (int attempt = 1; Files.exists(path); attempt++) {
             try {
-                deleteWhatIsThere();
-            } catch (IOException | UncheckedIOException e) {
+                Utils.delete(path.toFile());
+            } catch (IOException e) {
                 if (attempt == DELETIONS) {
                     throw e;
                 }
                 Sleep.of(DELETION_INTERVAL);
             }
-        }
-    }
-
-    private void deleteWhatIsThere() throws IOException {
-        List<Path> deepestFirst;
-        try (Stream<Path> all = Files.walk(path)) {
-            deepestFirst = all.sorted(Comparator.reverseOrder()).toList();
-        }
-        for (Path one : deepestFirst) {
-            Files.deleteIfExists(one);
         }
     }
 }

@@ -8,7 +8,9 @@ import java.util.Collection;
 import java.util.List;
 import java.util.Map;
 import java.util.UUID;
+import java.util.concurrent.Callable;
 import java.util.concurrent.CompletionException;
+import java.util.stream.Collectors;
 import java.util.stream.Stream;
 
 import io.furrow.cli.option.CommandException;
@@ -126,6 +128,10 @@ public final class Suite implements AutoCloseable {
                 new EmbeddedAnalytics(flink, jobs, new SuiteJobs(settings, kafka, mongo, directory)));
     }
 
+    private <T extends AutoCloseable> T start(Closeables among, String name, Callable<T> part) throws Exception {
+        return among.add(name, progress.step(name, part));
+    }
+
     private URI joinControl() {
         try {
             return control.join(endpoints(), connect.uri());
@@ -139,20 +145,17 @@ public final class Suite implements AutoCloseable {
                         settings.ports().dashboard(), kafka.clientProperties(), control.api())
                 .withAllowed(settings.allowed())
                 .withPage(new PageSettings(null, null, null, List.of(directory.resolve(SuiteJobs.IMAGES))));
-        dashboard = parts.add("dashboard", progress.step("dashboard", () -> Dashboard.start(page)))
-                .uri();
+        dashboard = start(parts, "dashboard", () -> Dashboard.start(page)).uri();
     }
 
     private void startKafka() throws Exception {
         String servers = settings.kafka();
         if (servers == null) {
             Path log = directory.resolve("kafka");
-            servers = parts.add(
+            servers = start(
+                            parts,
                             "Kafka",
-                            progress.step(
-                                    "Kafka",
-                                    () -> EmbeddedKafka.start(
-                                            log, settings.ports().kafka())))
+                            () -> EmbeddedKafka.start(log, settings.ports().kafka()))
                     .bootstrapServers();
         }
         kafka = parts.add("Kafka client", KafkaAccess.to(servers, settings.kafkaProperties()));
@@ -160,39 +163,35 @@ public final class Suite implements AutoCloseable {
     }
 
     private void startConnect() throws Exception {
-        connect = connectParts.add(
-                "Connect",
-                progress.step(
-                        "Kafka Connect",
-                        () -> EmbeddedConnect.start(
-                                kafka.bootstrapServers(),
-                                Path.of(System.getProperty("furrow.plugins")),
-                                settings.ports().connect(),
-                                kafka.connectSettings(),
-                                settings.allowed())));
+        connect = start(
+                connectParts,
+                "Kafka Connect",
+                () -> EmbeddedConnect.start(
+                        kafka.bootstrapServers(),
+                        Path.of(System.getProperty("furrow.plugins")),
+                        settings.ports().connect(),
+                        kafka.connectSettings(),
+                        settings.allowed()));
     }
 
     private void startMongo() throws Exception {
         mongo = settings.mongo();
         if (mongo == null) {
             Path documents = directory.resolve("mongo");
-            mongo = flinkParts
-                    .add(
-                            "MongoDB",
-                            progress.step(
-                                    "the server for missions",
-                                    () -> EmbeddedMongo.start(
-                                            documents, settings.ports().mongo())))
+            mongo = start(
+                            flinkParts,
+                            "the server for missions",
+                            () -> EmbeddedMongo.start(
+                                    documents, settings.ports().mongo()))
                     .uri();
         }
     }
 
     private void startFlink() throws Exception {
-        flink = flinkParts.add(
+        flink = start(
+                flinkParts,
                 "Flink",
-                progress.step(
-                        "Flink",
-                        () -> EmbeddedFlink.start(SLOTS, settings.ports().flink(), settings.allowed())));
+                () -> EmbeddedFlink.start(SLOTS, settings.ports().flink(), settings.allowed()));
         SuiteFields fields = new SuiteFields(new FieldsTopic(kafka.clientProperties()));
         progress.step("fields", () -> {
             fields.write(settings, directory);
@@ -223,8 +222,9 @@ public final class Suite implements AutoCloseable {
                         settings.fiware().listening().mqttHost(),
                         settings.ports().mqtt(),
                         passwords(),
-                        new EmbeddedUsers(accounts)));
-        fiware = fiwareParts.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
+                        new EmbeddedMqtt.Users(
+                                accounts::authenticates, accounts::exists, accounts::mayWrite, accounts::mayRead)));
+        fiware = start(fiwareParts, "MQTT and the FIWARE stand-in", this::startStandIn);
         contextBroker = fiware.contextBroker();
     }
 
@@ -316,7 +316,7 @@ public final class Suite implements AutoCloseable {
     /** Job ids by name. */
     public Map<String, String> jobs() {
         return jobs.running().entrySet().stream()
-                .collect(java.util.stream.Collectors.toMap(
+                .collect(Collectors.toMap(
                         Map.Entry::getKey, job -> job.getValue().toHexString()));
     }
 
@@ -326,11 +326,6 @@ public final class Suite implements AutoCloseable {
                 ? replays.waiting()
                 : Stream.concat(connectors.undelivered().stream(), replays.waiting().stream())
                         .toList();
-    }
-
-    /** Whether the MQTT broker knows the login of {@link #devices()}. */
-    public boolean hasSharedLogin() {
-        return settings.sharedLogin();
     }
 
     /** How devices reach MQTT and the stand-in; only without a context broker of one's own. */

@@ -8,6 +8,8 @@ import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublisher;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
+import java.net.http.HttpResponse.BodyHandler;
+import java.net.http.HttpResponse.BodyHandlers;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.UUID;
@@ -83,10 +85,10 @@ public final class ControlApi {
     }
 
     private byte[] answer(HttpRequest request) {
-        HttpResponse<byte[]> answer = request(request);
+        HttpResponse<byte[]> answer = exchange(request, BodyHandlers.ofByteArray());
         for (int attempt = 1; answer.statusCode() == NOT_READY && attempt < ATTEMPTS; attempt++) {
             sleep(answer.headers().firstValue("Retry-After").orElse(""));
-            answer = request(request);
+            answer = exchange(request, BodyHandlers.ofByteArray());
         }
         if (answer.statusCode() / 100 == 2) {
             return answer.body();
@@ -109,27 +111,18 @@ public final class ControlApi {
      * @throws ControlPlaneException if it is unavailable or refuses
      */
     public Stream<String> events(String path) {
-        HttpRequest.Builder request = HttpRequest.newBuilder(
-                        URI.create(base.toString().replaceAll("/+$", "") + path))
-                .header("Accept", "text/event-stream");
-        if (token != null) {
-            request.header("Authorization", "Bearer " + token);
+        HttpResponse<Stream<String>> answer = exchange(
+                request("GET", path, null)
+                        .setHeader("Accept", "text/event-stream")
+                        .build(),
+                BodyHandlers.ofLines());
+        if (answer.statusCode() / 100 != 2) {
+            answer.body().close();
+            throw new ControlPlaneException(
+                    "The control plane at %s answers %d to %s".formatted(base, answer.statusCode(), path),
+                    answer.statusCode() == UNKNOWN);
         }
-        try {
-            HttpResponse<Stream<String>> answer = http.send(request.build(), HttpResponse.BodyHandlers.ofLines());
-            if (answer.statusCode() / 100 != 2) {
-                answer.body().close();
-                throw new ControlPlaneException(
-                        "The control plane at %s answers %d to %s".formatted(base, answer.statusCode(), path),
-                        answer.statusCode() == UNKNOWN);
-            }
-            return answer.body();
-        } catch (IOException e) {
-            throw new ControlPlaneException("No control plane answers at " + base, e);
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new ControlPlaneException("interrupted while waiting for " + base, e);
-        }
+        return answer.body();
     }
 
     private HttpRequest.Builder request(String method, String path, JsonNode body) {
@@ -150,9 +143,9 @@ public final class ControlApi {
         return request;
     }
 
-    private HttpResponse<byte[]> request(HttpRequest request) {
+    private <T> HttpResponse<T> exchange(HttpRequest request, BodyHandler<T> body) {
         try {
-            return http.send(request, HttpResponse.BodyHandlers.ofByteArray());
+            return http.send(request, body);
         } catch (SSLException e) {
             throw new ControlPlaneException(
                     "The control plane at %s cannot be trusted (%s). Name the certificate of its CA with --api-ca."

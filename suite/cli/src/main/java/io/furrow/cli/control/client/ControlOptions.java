@@ -76,39 +76,17 @@ public final class ControlOptions {
 
     /** Prints what a path has as rows of a table; one object is one row. */
     public int show(String path, ControlTable table) {
-        return run(api -> {
-            JsonNode answer = api.get(path);
-            if (isJson()) {
-                print(answer);
-            } else {
-                table.lines(rows(answer)).forEach(out()::println);
-            }
-        });
+        return showPage(path, answer -> table.lines(rows(answer)));
     }
 
     /** Prints the object that a path has, a member a line. */
     public int showOne(String path) {
-        return run(api -> shown(api.get(path)));
+        return showPage(path, ControlOptions::members);
     }
 
     /** Prints the object that a path has as a page for people. */
     public int showPage(String path, Function<JsonNode, List<String>> page) {
-        return run(api -> {
-            JsonNode object = api.get(path);
-            if (isJson()) {
-                print(object);
-            } else {
-                page.apply(object).forEach(out()::println);
-            }
-        });
-    }
-
-    private void shown(JsonNode object) throws IOException {
-        if (isJson()) {
-            print(object);
-        } else {
-            members(object);
-        }
+        return run(api -> print(api.get(path), page));
     }
 
     /** Prints the credentials that a path has, of one device or of many. */
@@ -124,10 +102,8 @@ public final class ControlOptions {
                     : JsonNodeFactory.instance.arrayNode().add(answer);
             if (output == Output.ENV) {
                 CredentialList.env(devices).forEach(out()::println);
-            } else if (answer.isArray() && !isJson()) {
-                CredentialList.table().lines(answer).forEach(out()::println);
             } else {
-                shown(answer);
+                print(answer, answer.isArray() ? CredentialList.table()::lines : ControlOptions::members);
             }
         });
     }
@@ -147,7 +123,7 @@ public final class ControlOptions {
 
     /** Sends a command and prints the object that is answered, a member a line. */
     public int commandShown(String method, String path) {
-        return run(api -> shown(api.send(method, path, null)));
+        return run(api -> print(api.send(method, path, null), ControlOptions::members));
     }
 
     /** Prints the answer to a command. */
@@ -157,10 +133,14 @@ public final class ControlOptions {
 
     /** Prints the answer to a command. @param sentence what it did, for people */
     public void answered(JsonNode answer, String sentence) throws IOException {
+        print(answer, any -> List.of(sentence));
+    }
+
+    private void print(JsonNode answer, Function<JsonNode, List<String>> page) throws IOException {
         if (isJson()) {
             print(answer);
         } else {
-            out().println(sentence);
+            page.apply(answer).forEach(out()::println);
         }
     }
 
@@ -204,7 +184,11 @@ public final class ControlOptions {
     }
 
     public void print(JsonNode json) throws IOException {
-        out().println(NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(json));
+        out().println(pretty(json));
+    }
+
+    public static String pretty(JsonNode json) throws IOException {
+        return NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(json);
     }
 
     public PrintWriter out() {
@@ -222,15 +206,16 @@ public final class ControlOptions {
         return json;
     }
 
-    private void members(JsonNode object) {
+    private static List<String> members(JsonNode object) {
         int width = object.properties().stream()
                 .mapToInt(each -> each.getKey().length())
                 .max()
                 .orElse(0);
-        object.properties()
-                .forEach(each -> out().println(each.getKey()
+        return object.properties().stream()
+                .map(each -> each.getKey()
                         + " ".repeat(width - each.getKey().length() + 2)
-                        + ControlTable.textOf(each.getValue())));
+                        + ControlTable.textOf(each.getValue()))
+                .toList();
     }
 
     /** Lists may come bare, or as the one list of an object. */

@@ -10,18 +10,8 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 /** Credentials of devices as text: as a table, and as variables of a shell. */
 public final class CredentialList {
-    private static final List<String> COLUMNS = List.of(
-            "device",
-            "deviceId",
-            "host",
-            "port",
-            "tls",
-            "user",
-            "password",
-            "apiKey",
-            "measures",
-            "commands",
-            "results");
+    private static final List<String> COLUMNS =
+            List.of("device deviceId host port tls user password apiKey measures commands results".split(" "));
 
     private CredentialList() {}
 
