@@ -31,7 +31,6 @@ import static org.awaitility.Awaitility.await;
 /** What goes wrong in the field, each with its outcome; after each of them a good event still comes through. */
 @Tag("full")
 class BadInputIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final long MILLIS_2023 = 1_700_000_000_000L;
 
     private static RunningSuite running;
@@ -92,11 +91,11 @@ class BadInputIT {
             }
         }
 
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(
                         () -> assertThat(running.ngsi().entities("id=accepted")).hasSize(1));
         try (TopicLog dead = running.topic("ngsi-sink.dead")) {
-            await().atMost(TIMEOUT)
+            await()
                     .untilAsserted(() -> assertThat(dead.of("(refused)")).hasSize(1));
         }
     }
@@ -116,7 +115,7 @@ class BadInputIT {
                         .contains(99.0));
 
         // The good one reports until a window that holds it has closed; the lost one is never part of it.
-        await().atMost(TIMEOUT).pollInterval(Duration.ofMillis(300)).untilAsserted(() -> {
+        await().pollInterval(Duration.ofMillis(300)).untilAsserted(() -> {
             double reading = 20 + System.nanoTime() % 1000 / 1e6;
             running.ngsi().append(thermometer(id, 99 + reading / 1000, latitude, longitude));
             running.ngsi().append(thermometer(good, reading, "40.3134", "-3.483"));
@@ -228,7 +227,7 @@ class BadInputIT {
 
     private static void awaitDeadLetter(String reason, String stage) {
         try (TopicLog dead = running.topic("data.raw.dead")) {
-            await().atMost(TIMEOUT)
+            await()
                     .untilAsserted(() -> assertThat(dead.records())
                             .map(TopicLog::headers)
                             .anySatisfy(headers -> assertThat(headers)
@@ -243,7 +242,7 @@ class BadInputIT {
 
     private static void awaitRouted(
             String topic, String id, ThrowingConsumer<ConsumerRecord<byte[], byte[]>> expected) {
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             try (TopicLog log = running.topic(topic)) {
                 assertThat(log.of(id)).isNotEmpty().first().satisfies(expected);
             }

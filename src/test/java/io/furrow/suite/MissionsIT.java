@@ -59,11 +59,11 @@ class MissionsIT {
         }
         try (RunningSuite running = RunningSuite.start(stored)) {
             Suite suite = running.suite();
-            await().atMost(TIMEOUT).until(() -> state(suite).equals("running"));
+            await().until(() -> state(suite).equals("running"));
             JsonNode thermometer = running.ngsi()
                     .entities("id=urn:ngsi-ld:Thermometer:hoeing-1")
                     .path(0);
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> running.ngsi()
                                     .entities("id=urn:ngsi-ld:Thermometer:hoeing-1")
                                     .at("/0/Time/value")
@@ -72,8 +72,8 @@ class MissionsIT {
 
             send(suite, "POST", "/api/missions/hoeing/stop", "{}");
 
-            await().atMost(TIMEOUT).until(() -> state(suite).equals("stopped"));
-            await().atMost(TIMEOUT).until(() -> provisioned(suite) == 0);
+            await().until(() -> state(suite).equals("stopped"));
+            await().until(() -> provisioned(suite) == 0);
         }
     }
 
@@ -84,7 +84,7 @@ class MissionsIT {
             Suite suite = running.suite();
             assertThat(publish(suite, Suite.MQTT_USER, Suite.MQTT_PASSWORD, "/key/any/attrs", "{}"))
                     .contains("bad user name or password");
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> send(suite, "GET", "/ready", "")
                             .path("status")
                             .asText()
@@ -94,7 +94,7 @@ class MissionsIT {
                     {"domain": "north", "devices": [
                       {"type": "Thermometer", "count": 3, "period": "PT0.2S", "path": [[-3.48, 40.31]]}]}
                     """);
-            await().atMost(TIMEOUT).until(() -> state(suite).equals("running"));
+            await().until(() -> state(suite).equals("running"));
 
             Instant over = Instant.now().plusSeconds(5);
             Path file = stored.resolve("farm-secret");
@@ -103,7 +103,7 @@ class MissionsIT {
 
             for (int number = 1; number <= 3; number++) {
                 String entity = "id=urn:ngsi-ld:Thermometer:hoeing-" + number;
-                await().atMost(TIMEOUT)
+                await()
                         .until(() -> running.ngsi()
                                         .entities(entity)
                                         .at("/0/Time/value")
@@ -126,7 +126,7 @@ class MissionsIT {
                 RunningSuite.start(stored, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();
             String device = "urn:ngsi-ld:Thermometer:own";
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> send(suite, "GET", "/ready", "")
                             .path("status")
                             .asText()
@@ -135,7 +135,7 @@ class MissionsIT {
             send(suite, "POST", "/api/missions/hoeing/start", """
                     {"domain": "north", "devices": [{"type": "Thermometer", "id": "%s", "simulated": false}]}
                     """.formatted(device));
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> send(suite, "GET", "/api/devices/" + device, "")
                             .at("/connection/registered")
                             .asBoolean());
@@ -150,7 +150,7 @@ class MissionsIT {
             assertThat(publish(suite, user, password, topic, "{\"temp\": 21.5}"))
                     .isEmpty();
 
-            await().atMost(TIMEOUT).untilAsserted(() -> {
+            await().untilAsserted(() -> {
                 JsonNode connection =
                         send(suite, "GET", "/api/devices/" + device, "").path("connection");
                 assertThat(connection.at("/refusedLogin/reason").asText()).isEqualTo("wrong-password");

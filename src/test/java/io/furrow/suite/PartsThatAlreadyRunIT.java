@@ -19,8 +19,6 @@ import static org.awaitility.Awaitility.await;
 
 @Tag("full")
 class PartsThatAlreadyRunIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-
     @TempDir
     Path directory;
 
@@ -58,7 +56,7 @@ class PartsThatAlreadyRunIT {
                     .append(
                             "{\"id\":\"probe\",\"type\":\"Probe\",\"Domain\":{\"type\":\"String\",\"value\":\"elsewhere\"}}");
 
-            await().atMost(TIMEOUT).untilAsserted(() -> {
+            await().untilAsserted(() -> {
                 try (TopicLog topic = running.topic("data.elsewhere.realtime")) {
                     assertThat(topic.of("probe")).hasSize(1);
                 }

@@ -20,7 +20,6 @@ import static org.awaitility.Awaitility.await;
 /** The thermometer of the README, with the clients that a user would take. */
 @Tag("full")
 class RealClientsIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String ENTITY = "urn:ngsi-ld:Thermometer:mine";
     private static final String GROUP = """
             {"services": [{"apikey": "secret", "resource": "/iot/json", "entity_type": "Thing"}]}""";
@@ -53,7 +52,7 @@ class RealClientsIT {
     void takesAMeasureOfMosquittoPubToTheDomainsTopic() throws Exception {
         report();
         try (TopicLog topic = running.topic("data.farm.realtime")) {
-            await().atMost(TIMEOUT)
+            await()
                     .untilAsserted(() -> assertThat(topic.of(ENTITY))
                             .extracting(record -> Entity.parse(record.value())
                                     .number("Temperature")
@@ -68,7 +67,7 @@ class RealClientsIT {
         URI attributes = running.suite().contextBroker().resolve("/v2/entities/" + ENTITY + "/attrs");
         try (Command device =
                 Command.start(mosquitto("mosquitto_sub", Suite.MQTT_PASSWORD, "/secret/mine/cmd", "-C", "1", "-d"))) {
-            await().atMost(TIMEOUT).until(() -> device.printed().contains("SUBACK"));
+            await().until(() -> device.printed().contains("SUBACK"));
 
             curl("PATCH", attributes, "{\"on\": {\"type\": \"command\", \"value\": \"now\"}}");
 
@@ -80,7 +79,7 @@ class RealClientsIT {
         Command.run(
                 mosquitto("mosquitto_pub", Suite.MQTT_PASSWORD, "/secret/mine/cmdexe", "-m", "{\"on\": \"is on\"}"));
 
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             assertThat(entity().at("/on_status/value").asText()).isEqualTo("OK");
             assertThat(entity().at("/on_info/value").asText()).isEqualTo("is on");
         });
@@ -104,7 +103,7 @@ class RealClientsIT {
                 "-m",
                 "{\"temp\": 21.5, \"lat\": 40.3134, \"lon\": -3.483}"));
 
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() ->
                         assertThat(entity().at("/Temperature/value").asDouble()).isEqualTo(21.5));
     }

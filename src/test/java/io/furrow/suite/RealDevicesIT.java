@@ -25,7 +25,6 @@ import static org.awaitility.Awaitility.await;
 
 /** Devices that have nothing but their credentials and an MQTT client, beside simulated ones. */
 class RealDevicesIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final HttpClient HTTP = HttpClient.newHttpClient();
     private static final String PLACE = "{\"latitude\": 40.3134, \"longitude\": -3.4831}";
 
@@ -60,7 +59,7 @@ class RealDevicesIT {
                         SuiteSettings.Watch.DEFAULT,
                         AllowedNames.NONE,
                         false));
-        await().atMost(TIMEOUT)
+        await()
                 .until(() -> send("GET", "/ready", "").path("status").asText().equals("ready"));
         send("POST", "/api/domains", "{\"domain\":\"home\"}");
     }
@@ -77,9 +76,9 @@ class RealDevicesIT {
         start("first", """
                 {"type": "Thermometer", "count": 2, "period": "PT15M", "at": [%1$s, %1$s], "attributes": [
                   {"object_id": "t", "name": "Temperature", "unit": "CEL"}]}""".formatted(PLACE));
-        await().atMost(TIMEOUT)
+        await()
                 .until(() -> mission("first").at("/status/reason").asText().startsWith("2 of 2 devices are not up"));
-        await().atMost(TIMEOUT)
+        await()
                 .until(() -> send("GET", "/api/alarms", "")
                         .findValuesAsText("text")
                         .contains("mission first: "
@@ -90,9 +89,9 @@ class RealDevicesIT {
         String example = logins.path(0).path("example").asText();
         Command.run("sh", "-c", example);
 
-        await().atMost(TIMEOUT)
+        await()
                 .until(() -> mission("first").at("/status/state").asText().equals("running"));
-        await().atMost(TIMEOUT)
+        await()
                 .until(() -> mission("first")
                         .at("/status/missing/0/reason")
                         .asText()
@@ -104,7 +103,7 @@ class RealDevicesIT {
         assertThat(entity.at("/Temperature/metadata/unitCode/value").asText()).isEqualTo("CEL");
         assertThat(entity.at("/Latitude/value").asDouble()).isEqualTo(40.3134);
         // A window ends when later measures arrive.
-        await().atMost(TIMEOUT).pollInterval(Duration.ofSeconds(1)).untilAsserted(() -> {
+        await().pollInterval(Duration.ofSeconds(1)).untilAsserted(() -> {
             Command.run("sh", "-c", example);
             assertThat(running.ngsi()
                             .entities("id=Analytics:FieldTemperature:field-1")
@@ -113,10 +112,10 @@ class RealDevicesIT {
                     .isEqualTo(21);
         });
         send("POST", "/api/missions/first/stop", "{}");
-        await().atMost(TIMEOUT)
+        await()
                 .until(() -> mission("first").at("/status/state").asText().equals("stopped"));
         send("DELETE", "/api/missions/first", "");
-        await().atMost(TIMEOUT)
+        await()
                 .until(() ->
                         running.ngsi().entities("id=urn:ngsi-ld:Mission:first").isEmpty());
     }
@@ -125,7 +124,7 @@ class RealDevicesIT {
     @Test
     void runsTheProgramOfTheDocumentationAndAnswersItsCommands() throws Exception {
         start("program", "{\"type\": \"Thermometer\", \"at\": %s}".formatted(PLACE));
-        await().atMost(TIMEOUT)
+        await()
                 .until(() ->
                         send("GET", "/api/missions/program/credentials", "").size() == 1);
         JsonNode login = send("GET", "/api/missions/program/credentials", "").path(0);
@@ -145,11 +144,11 @@ class RealDevicesIT {
         String device = login.path("device").asText();
         String program = Path.of("..", "docs", "examples", "thermometer.py").toString();
         try (Command thermometer = Command.start(variables, "python3", program)) {
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> mission("program").at("/status/state").asText().equals("running"));
             send("POST", "/api/devices/" + device + "/commands", "{\"command\":\"off\"}");
-            await().atMost(TIMEOUT).until(() -> thermometer.printed().contains("asked: {'off'"));
-            await().atMost(TIMEOUT)
+            await().until(() -> thermometer.printed().contains("asked: {'off'"));
+            await()
                     .until(() -> running.ngsi()
                             .entities("id=" + device)
                             .at("/0/off_status/value")
@@ -166,7 +165,7 @@ class RealDevicesIT {
                 {"type": "Thermometer", "count": 40, "simulated": true, "period": "PT1S", "area": "field-1"},
                 {"name": "real", "type": "WeatherStation", "count": 39, "at": %s},
                 {"type": "Robot"}""".formatted(PLACE));
-        await().atMost(TIMEOUT)
+        await()
                 .until(() -> mission("mixed").at("/status/confirmed").asInt() == 40);
         JsonNode logins = send("GET", "/api/missions/mixed/credentials", "");
         assertThat(logins).hasSize(40);
@@ -177,7 +176,7 @@ class RealDevicesIT {
             Command.run(
                     "sh", "-c", device.contains("Robot") ? example.replaceFirst("'\\{.*}'", PLACE_REPORT) : example);
         }
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() ->
                         assertThat(mission("mixed").path("status").toString()).contains("\"confirmed\":80"));
         JsonNode stations = running.ngsi().entities("type=WeatherStation&idPattern=.*mixed.*");
@@ -185,7 +184,7 @@ class RealDevicesIT {
                 .hasSize(39)
                 .allMatch(each -> each.at("/Temperature/value").asInt() == 21
                         && each.path("Humidity").isMissingNode());
-        await().atMost(TIMEOUT).until(() -> texts().anyMatch(text -> text.matches(".*Robot.* and .*Station.* apart")));
+        await().until(() -> texts().anyMatch(text -> text.matches(".*Robot.* and .*Station.* apart")));
         assertThat(texts()).noneMatch(text -> text.matches(".*Station.* and .*Station.* apart"));
         send("POST", "/api/missions/mixed/stop", "{}");
     }

@@ -35,7 +35,6 @@ import static org.awaitility.Awaitility.await;
 /** A mission on a whole suite, kept, and played back: what its topic had, its replay has. */
 @Tag("full")
 class ReplayIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final HttpClient HTTP = HttpClient.newHttpClient();
     private static final int REPORTS = 30;
 
@@ -45,13 +44,13 @@ class ReplayIT {
                 TopicLog live = running.topic(Topics.realtime("north", "hoeing"))) {
             Suite suite = running.suite();
             runMission(suite, live);
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> stored(suite, "hoeing") == live.records().size());
             awaitListed(suite, "hoeing");
 
             JsonNode replay = send(suite, "POST", "/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}");
             try (TopicLog played = running.topic(replay.path("topic").asText())) {
-                await().atMost(TIMEOUT).until(() -> played.records().stream().anyMatch(record -> kind(record, "end")));
+                await().until(() -> played.records().stream().anyMatch(record -> kind(record, "end")));
 
                 assertThat(byId(played.records(), "event", HeaderNames.REPLAY_CE_ID))
                         .isEqualTo(byId(live.records(), null, HeaderNames.CE_ID))
@@ -68,7 +67,6 @@ class ReplayIT {
         Suite suite = running.suite();
         String path = "/api/replays/" + replay;
         await("rests when its end is settled")
-                .atMost(TIMEOUT)
                 .until(() -> send(suite, "GET", path, "").at("/status/settled").asBoolean());
         JsonNode rested = send(suite, "GET", path, "");
         assertThat(rested.at("/status/state").asText()).isEqualTo("ended");
@@ -76,19 +74,18 @@ class ReplayIT {
 
         send(suite, "POST", path + "/seek", "{\"to\":" + last + "}");
         try (TopicLog played = running.topic(topic)) {
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> played.records().stream()
                             .anyMatch(record -> kind(record, "end")
                                     && "1".equals(TopicLog.headers(record).get(HeaderNames.REPLAY_EPOCH))));
         }
         send(suite, "DELETE", path, "");
         await("forgotten when it is stopped")
-                .atMost(TIMEOUT)
                 .until(() -> send(suite, "GET", "/api/replays", "").size() == 0);
     }
 
     private static void runMission(Suite suite, TopicLog live) throws Exception {
-        await().atMost(TIMEOUT)
+        await()
                 .until(() ->
                         send(suite, "GET", "/ready", "").path("status").asText().equals("ready"));
         send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
@@ -96,9 +93,9 @@ class ReplayIT {
                 {"domain": "north", "devices": [
                   {"type": "Thermometer", "count": 3, "period": "PT0.2S", "path": [[-3.48, 40.31]]}]}
                 """);
-        await().atMost(TIMEOUT).until(() -> live.records().size() >= REPORTS);
+        await().until(() -> live.records().size() >= REPORTS);
         send(suite, "POST", "/api/missions/hoeing/stop", "{}");
-        await().atMost(TIMEOUT)
+        await()
                 .until(() -> send(suite, "GET", "/api/missions/hoeing", "")
                         .at("/status/state")
                         .asText()
@@ -120,7 +117,7 @@ class ReplayIT {
 
     /** Until the catalog of recordings, which is polled, has the mission: only then a replay of it is accepted. */
     static void awaitListed(Suite suite, String mission) {
-        await("listed among the recordings").atMost(TIMEOUT).until(() -> {
+        await("listed among the recordings").until(() -> {
             List<String> listed = send(suite, "GET", "/api/recordings", "").findValuesAsText("mission");
             return listed.contains(mission);
         });

@@ -13,7 +13,6 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 class RestartIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final int EVENTS = 20;
 
     @TempDir
@@ -50,7 +49,7 @@ class RestartIT {
 
     private static List<String> awaitRouted(RunningSuite running, int min) {
         try (TopicLog topic = running.topic("data.kept.realtime")) {
-            await().atMost(TIMEOUT)
+            await()
                     .untilAsserted(() -> assertThat(topic.records()).hasSizeGreaterThanOrEqualTo(min));
             return topic.records().stream()
                     .map(record -> TopicLog.headers(record).get(HeaderNames.CE_ID))

@@ -23,8 +23,6 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 class WholePathIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-
     /** With characters that the context broker refuses in most types of attributes. */
     private static final String NAME = "O'Brien's = \"the\" <field>; (north)";
 
@@ -45,7 +43,7 @@ class WholePathIT {
 
     @Test
     void writesTheAverageOfAFieldIntoTheContextBrokerAndNamesTheDefectiveThermometer() {
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             JsonNode average = running.ngsi()
                     .entities("id=Analytics:FieldTemperature:field-1")
                     .path(0);
@@ -59,7 +57,7 @@ class WholePathIT {
 
     @Test
     void showsEachDomainAndMissionInTheContextBroker() {
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             JsonNode missions = running.ngsi().entities("type=Mission");
             assertThat(missions)
                     .hasSize(3)
@@ -81,7 +79,7 @@ class WholePathIT {
                 existing.properties().deepCopy().put("name", NAME).put("Domain", "farm (north)");
         fields.write(List.of(new FieldVersion("imported", 0, existing.geometry(), properties)));
 
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             JsonNode average = running.ngsi()
                     .entities("id=Analytics:FieldTemperature:imported")
                     .path(0);
@@ -95,7 +93,7 @@ class WholePathIT {
 
     @Test
     void writesTheEncounterOfTwoRobotsIntoTheContextBroker() {
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             JsonNode collision =
                     running.ngsi().entities("type=Analytics:Collision").path(0);
             assertThat(collision.at("/Device1_ID/value").asText()).isEqualTo("urn:ngsi-ld:Robot:1");
@@ -108,7 +106,7 @@ class WholePathIT {
     void routesEachMissionToItsOwnTopicWithEveryHopStamped() {
         try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
                 TopicLog dummy = running.topic("data.canary.realtime.dummy")) {
-            await().atMost(TIMEOUT).untilAsserted(() -> {
+            await().untilAsserted(() -> {
                 assertThat(weeding.records())
                         .filteredOn(record -> origin(record).equals("notification"))
                         .hasSizeGreaterThan(10);
@@ -138,9 +136,9 @@ class WholePathIT {
     void storesEveryEventOfAMissionInMongo() {
         try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
                 StoredMissions missions = StoredMissions.open(running.suite().mongo())) {
-            await().atMost(TIMEOUT)
+            await()
                     .untilAsserted(() -> assertThat(weeding.records()).hasSizeGreaterThan(10));
-            await().atMost(TIMEOUT).untilAsserted(() -> {
+            await().untilAsserted(() -> {
                 ByteArrayOutputStream lines = new ByteArrayOutputStream();
                 missions.export("weeding", lines, ignored -> {});
                 String stored = lines.toString(StandardCharsets.UTF_8);
@@ -154,11 +152,11 @@ class WholePathIT {
 
     @Test
     void doesNotTakeItsOwnResultsForNews() {
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(running.ngsi().entities("typePattern=Analytics:.*"))
                         .isNotEmpty());
         try (TopicLog raw = running.topic("data.raw")) {
-            await().atMost(TIMEOUT)
+            await()
                     .untilAsserted(() -> assertThat(raw.records()).hasSizeGreaterThan(50));
             assertThat(raw.records())
                     .extracting(record -> Entity.parse(record.value()).type())

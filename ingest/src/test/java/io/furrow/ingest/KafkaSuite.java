@@ -120,7 +120,7 @@ final class KafkaSuite implements AutoCloseable {
 
     void cancel(JobID job) throws Exception {
         flink.cluster().cancelJob(job).get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
-        await().atMost(TIMEOUT).until(() -> flink.status(job).isGloballyTerminalState());
+        await().until(() -> flink.status(job).isGloballyTerminalState());
     }
 
     /** The committed records of a topic, as soon as there are so many. */
@@ -140,7 +140,7 @@ final class KafkaSuite implements AutoCloseable {
                 "allow.auto.create.topics", "false",
                 "isolation.level", "read_committed");
         try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
-            await().atMost(TIMEOUT).until(() -> {
+            await().until(() -> {
                 List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
                         .map(info -> new TopicPartition(topic, info.partition()))
                         .toList();

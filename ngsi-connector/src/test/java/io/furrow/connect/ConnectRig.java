@@ -37,8 +37,6 @@ import static org.awaitility.Awaitility.await;
 
 /** A real broker and a real worker that knows the connectors from the packaged plugin folder. */
 public final class ConnectRig implements AutoCloseable {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-
     private final Path directory;
     private final HttpClient client =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
@@ -141,7 +139,7 @@ public final class ConnectRig implements AutoCloseable {
                 send(HttpRequest.newBuilder(worker.uri().resolve("/connectors/" + name + "/stop"))
                         .PUT(BodyPublishers.noBody()));
         assertThat(stopped.statusCode()).as(stopped.body()).isEqualTo(204);
-        await().atMost(TIMEOUT)
+        await()
                 .until(() ->
                         get("/connectors/" + name + "/status").path("tasks").isEmpty());
     }
@@ -181,7 +179,7 @@ public final class ConnectRig implements AutoCloseable {
     }
 
     private void awaitState(String name, String state) {
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             JsonNode status = get("/connectors/" + name + "/status");
             assertThat(status.path("tasks").path(0).path("state").asText())
                     .as(status.toString())

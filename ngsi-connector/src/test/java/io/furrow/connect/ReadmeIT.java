@@ -55,7 +55,7 @@ class ReadmeIT {
                         .singleElement()
                         .satisfies(record -> assertThat(record.key()).isEqualTo("urn:ngsi-ld:Thermometer:1"));
             }
-            await().atMost(Duration.ofSeconds(60))
+            await()
                     .untilAsserted(() -> assertThat(run("curl http://127.0.0.1:" + port + "/health"))
                             .contains("\"produced\":1"));
         }

@@ -124,7 +124,6 @@ class RescaledDetectionTest {
     private static void kill(MiniCluster cluster, int taskManager, JobClient job) throws Exception {
         cluster.terminateTaskManager(taskManager).get(60, TimeUnit.SECONDS);
         Awaitility.await()
-                .atMost(Duration.ofSeconds(60))
                 .until(() -> job.getJobStatus().get().isGloballyTerminalState());
         assertThat(job.getJobStatus().get()).isEqualTo(JobStatus.FAILED);
         cluster.startTaskManager();
@@ -137,7 +136,6 @@ class RescaledDetectionTest {
                 .filter(encounter -> encounter.time() + DWELL.toMillis() <= watermark) // a start is told so much later
                 .count();
         Awaitility.await()
-                .atMost(Duration.ofSeconds(60))
                 .until(() -> distinct(WRITTEN).size() >= due);
     }
 
@@ -230,7 +228,7 @@ class RescaledDetectionTest {
         }
 
         void awaitAllPassed() {
-            Awaitility.await().atMost(Duration.ofSeconds(60)).until(this::isHolding);
+            Awaitility.await().until(this::isHolding);
         }
 
         private synchronized boolean isHolding() {

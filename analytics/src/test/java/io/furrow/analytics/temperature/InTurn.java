@@ -181,7 +181,6 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
                 .pollInSameThread()
                 .pollDelay(Duration.ZERO)
                 .pollInterval(Duration.ofMillis(2))
-                .atMost(Duration.ofSeconds(60))
                 .until(condition);
     }
 }

@@ -116,7 +116,7 @@ class TemperatureJobIT {
             EmbeddedKafka kafka, KafkaConsumer<byte[], byte[]> results, int round, String... expected) {
         AtomicLong second = new AtomicLong(round * ROUND);
         TreeMap<Double, TreeSet<String>> windows = new TreeMap<>();
-        await().pollInSameThread().atMost(Duration.ofSeconds(60)).until(() -> {
+        await().pollInSameThread().until(() -> {
             write(kafka, List.of(Farm.reading("t1", 18, 55, 15, second.getAndAdd(1_000))));
             for (ConsumerRecord<byte[], byte[]> record : results.poll(Duration.ofMillis(100))) {
                 Entity result = Entity.parse(record.value());
@@ -187,7 +187,6 @@ class TemperatureJobIT {
         try (var consumer = consumer(kafka, topic)) {
             // A consumer is used from one thread only.
             return await().pollInSameThread()
-                    .atMost(Duration.ofSeconds(60))
                     .until(() -> consumer.poll(Duration.ofMillis(200)), polled -> !polled.isEmpty())
                     .iterator()
                     .next();

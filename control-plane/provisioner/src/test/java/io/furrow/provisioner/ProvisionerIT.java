@@ -39,8 +39,6 @@ import static org.awaitility.Awaitility.await;
 
 @Tag("full")
 class ProvisionerIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-
     @TempDir
     Path directory;
 
@@ -71,16 +69,16 @@ class ProvisionerIT {
         try (Provisioner provisioner = provisioner()) {
             put(one);
             put(two);
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            await().until(() -> agent.deviceIds().size() == 2);
             awaitThatRemovalIsAllowed();
             assertThat(provisioner).isNotNull();
         }
         producer.send(new ProducerRecord<>(Topics.DEVICES, one.version().key(), null));
         try (Provisioner provisioner = provisioner()) {
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
+            await().until(() -> agent.deviceIds().size() == 1);
             assertThat(agent.deviceIds()).containsExactly(two.device());
             put(DesiredDeviceFixture.stopped(two));
-            await().atMost(TIMEOUT).until(() -> agent.apiKeys().isEmpty());
+            await().until(() -> agent.apiKeys().isEmpty());
             assertThat(agent.deviceIds()).isEmpty();
             assertThat(provisioner).isNotNull();
         }
@@ -99,11 +97,11 @@ class ProvisionerIT {
         try (Provisioner provisioner = provisioner()) {
             put(before);
             put(disliked);
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> statuses().containsKey(disliked.version().key()));
             agent.unavailable = true;
             put(after);
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> statuses().containsKey(after.version().key()));
 
             assertThat(statuses()).doesNotContainKey(before.version().key());
@@ -115,7 +113,7 @@ class ProvisionerIT {
 
             agent.disliked.clear();
             agent.unavailable = false;
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 3);
+            await().until(() -> agent.deviceIds().size() == 3);
             assertThat(provisioner).isNotNull();
         }
     }
@@ -125,11 +123,11 @@ class ProvisionerIT {
         put(DesiredDeviceFixture.thermometer("hoeing", 1));
         put(DesiredDeviceFixture.thermometer("hoeing", 2));
         try (Provisioner provisioner = provisioner()) {
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            await().until(() -> agent.deviceIds().size() == 2);
 
             agent.restart();
 
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            await().until(() -> agent.deviceIds().size() == 2);
             assertThat(agent.apiKeys()).containsExactly(DesiredDeviceFixture.SECRET.apiKey("hoeing"));
             assertThat(provisioner).isNotNull();
         }
@@ -141,7 +139,7 @@ class ProvisionerIT {
     void retainsWhatAnotherKafkaHasProvisioned() throws Exception {
         put(DesiredDeviceFixture.thermometer("hoeing", 1));
         try (Provisioner provisioner = provisioner()) {
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
+            await().until(() -> agent.deviceIds().size() == 1);
             assertThat(provisioner).isNotNull();
         }
         kafka.close();
@@ -151,7 +149,7 @@ class ProvisionerIT {
         try (Provisioner provisioner = provisioner();
                 CommittedReader<String> faults = CommittedReader.open(client(), Topics.FAULTS)) {
             List<ConsumerRecord<String, byte[]>> records = new ArrayList<>();
-            await().atMost(TIMEOUT).until(() -> {
+            await().until(() -> {
                 faults.poll(Duration.ofMillis(100)).forEach(records::add);
                 return !records.isEmpty();
             });
@@ -162,7 +160,7 @@ class ProvisionerIT {
         assertThat(agent.changes).hasSize(changes);
 
         try (Provisioner provisioner = Provisioner.start(settings(true))) {
-            await().atMost(TIMEOUT).until(() -> agent.apiKeys().isEmpty());
+            await().until(() -> agent.apiKeys().isEmpty());
             assertThat(agent.deviceIds()).isEmpty();
             assertThat(provisioner).isNotNull();
         }
@@ -172,13 +170,13 @@ class ProvisionerIT {
     void leavesTheWorkToOneOfTwoInstancesAndThenToTheOther() {
         Provisioner first = provisioner();
         put(DesiredDeviceFixture.thermometer("hoeing", 1));
-        await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
+        await().until(() -> agent.deviceIds().size() == 1);
         try (Provisioner second = provisioner()) {
             put(DesiredDeviceFixture.thermometer("hoeing", 2));
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            await().until(() -> agent.deviceIds().size() == 2);
             first.close();
             put(DesiredDeviceFixture.thermometer("weeding", 1));
-            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 3);
+            await().until(() -> agent.deviceIds().size() == 3);
             assertThat(second).isNotNull();
         } finally {
             first.close();
@@ -191,7 +189,7 @@ class ProvisionerIT {
     /** It notes with its offset that the devices of this Kafka are those of the agent. */
     private void awaitThatRemovalIsAllowed() {
         try (Admin admin = Admin.create(client())) {
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> !admin.listConsumerGroupOffsets(ProvisioningWorker.GROUP)
                             .partitionsToOffsetAndMetadata()
                             .get()

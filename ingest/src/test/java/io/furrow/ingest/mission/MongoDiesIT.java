@@ -84,7 +84,7 @@ class MongoDiesIT {
         long before = 0;
         while (kills < 3) {
             long desired = before + 1 + random.nextInt((int) (EVENTS - before) / 4);
-            Awaitility.await("seed " + seed).atMost(Duration.ofSeconds(60)).until(() -> count(mongo) >= desired);
+            Awaitility.await("seed " + seed).until(() -> count(mongo) >= desired);
             assertThat(job.getJobStatus().get()).isNotEqualTo(JobStatus.FINISHED);
             before = count(mongo);
             mongo.kill();

@@ -58,7 +58,7 @@ class NgsiSinkIT {
 
         write("isolated");
 
-        await().atMost(Duration.ofSeconds(60)).until(() -> broker.entities.size() == 19);
+        await().until(() -> broker.entities.size() == 19);
         try (TopicReader dead = new TopicReader(rig.bootstrapServers(), "isolated.dead")) {
             assertThat(dead.atLeast(1))
                     .singleElement()
@@ -92,7 +92,7 @@ class NgsiSinkIT {
 
         write("retried");
 
-        await().atMost(Duration.ofSeconds(60)).until(() -> broker.entities.size() == 5);
+        await().until(() -> broker.entities.size() == 5);
         assertThat(Duration.ofNanos(tries.get(3) - tries.get(2)))
                 .as("what Retry-After asked for")
                 .isGreaterThan(Duration.ofMillis(1_900));

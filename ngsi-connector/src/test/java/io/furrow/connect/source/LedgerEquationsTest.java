@@ -96,7 +96,7 @@ class LedgerEquationsTest {
 
     /** Waits for a quiet moment, which is one in which the sums agree. */
     private JsonNode quiet(NgsiSourceTask task) throws Exception {
-        await().atMost(Duration.ofSeconds(60)).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             JsonNode now = health(task);
             assertThat(sum(now, "accepted", "dead", "excluded"))
                     .as("received: %s", now)

@@ -37,7 +37,6 @@ class NgsiRepairIT {
     private static final int UPDATES = 20_000;
     private static final int BATCH = 100;
     private static final int DELETED = 10;
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
 
     @TempDir
     static Path directory;
@@ -70,8 +69,8 @@ class NgsiRepairIT {
         update(all.subList(0, ENTITIES / 2), 0, state);
         update(all.subList(ENTITIES / 2, ENTITIES), 0, state);
         try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "repaired")) {
-            await().atMost(TIMEOUT).until(() -> latest(reader.atLeast(1)).equals(state));
-            await().atMost(TIMEOUT).until(() -> broker.standIn().counters().notificationsQueued() == 0);
+            await().until(() -> latest(reader.atLeast(1)).equals(state));
+            await().until(() -> broker.standIn().counters().notificationsQueued() == 0);
             rig.stop(NAME);
             long seed = changeWhileDown(state);
             assertThat(subscription().path("status").asText()).isEqualTo("inactive");
@@ -79,7 +78,7 @@ class NgsiRepairIT {
             rig.resume(NAME);
 
             List<ConsumerRecord<String, byte[]>> seen = new ArrayList<>();
-            await().atMost(TIMEOUT).untilAsserted(() -> {
+            await().untilAsserted(() -> {
                 seen.clear();
                 seen.addAll(reader.atLeast(1));
                 assertThat(latest(seen)).as("changes of seed %d", seed).isEqualTo(state);
@@ -98,7 +97,7 @@ class NgsiRepairIT {
             await().until(() -> subscription().path("status").asText().equals("active"));
 
             broker.put("/", "e77", "Probe", -1);
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> reader.atLeast(1).stream()
                             .anyMatch(record -> record.key().equals("e77") && value(record) == -1));
         }
@@ -115,7 +114,7 @@ class NgsiRepairIT {
         int port = FreePort.orFree(0);
         source("kept", port);
 
-        await().atMost(TIMEOUT)
+        await()
                 .until(() -> subscription()
                         .at("/notification/httpCustom/url")
                         .asText()
@@ -123,7 +122,7 @@ class NgsiRepairIT {
         assertThat(subscription().path("id").asText()).isEqualTo(id);
         broker.send("DELETE", "/v2/subscriptions/" + id, "/#", "");
         broker.put("/", "unnoticed", "Probe", 1);
-        await().atMost(TIMEOUT).until(() -> broker.subscriptions().size() == 1);
+        await().until(() -> broker.subscriptions().size() == 1);
         try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "kept")) {
             assertThat(reader.atLeast(1))
                     .anySatisfy(record -> assertThat(record.key()).isEqualTo("unnoticed"));
@@ -145,7 +144,7 @@ class NgsiRepairIT {
                         "subscription.alteration.types", "entityCreate,entityChange,entityDelete",
                         "subscription.max.fails", "5",
                         "subscription.check.interval.ms", "3000"));
-        await().atMost(TIMEOUT).until(() -> !broker.subscriptions().isEmpty());
+        await().until(() -> !broker.subscriptions().isEmpty());
     }
 
     /** Answers the seed of the changes. */

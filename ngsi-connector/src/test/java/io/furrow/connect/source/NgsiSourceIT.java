@@ -157,7 +157,6 @@ class NgsiSourceIT {
         rig.restart("ngsi-source");
 
         org.awaitility.Awaitility.await()
-                .atMost(java.time.Duration.ofSeconds(60))
                 .ignoreExceptions()
                 .untilAsserted(() -> assertThat(health()).contains("\"requests\":0"));
         assertThat(post(bytes("{\"id\": \"after\"}")).statusCode()).isEqualTo(200);
@@ -181,7 +180,6 @@ class NgsiSourceIT {
                         rig.bootstrapServers()));
         source = URI.create("http://127.0.0.1:" + port);
         org.awaitility.Awaitility.await()
-                .atMost(java.time.Duration.ofSeconds(60))
                 .ignoreExceptions()
                 .until(() -> health().contains("\"requests\":0"));
     }

@@ -84,7 +84,6 @@ public record SourceOnConnect(int port, HttpClient client) {
     /** Patient also with a listener that is being made. */
     public static ConditionFactory await() {
         return Awaitility.await()
-                .atMost(Duration.ofSeconds(60))
                 .pollInterval(Duration.ofMillis(50))
                 .ignoreExceptions();
     }

@@ -46,7 +46,7 @@ class AuditIT {
                 producer.send(new ProducerRecord<>(Topics.AUDIT, entry(i)));
             }
         }
-        await().atMost(RunningApi.TIMEOUT)
+        await()
                 .until(() -> running.get("/api/audit?limit=1").at("/0/time").asInt() == ENTRIES - 1);
     }
 

@@ -55,7 +55,7 @@ class RefusedRequestsIT {
 
         try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await().atMost(RunningApi.TIMEOUT).until(other::isReady);
+            await().until(other::isReady);
             assertThat(there.error(there.send("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2")))
                     .isEqualTo("422 request-id-reused");
         }

@@ -124,7 +124,7 @@ class RestApiIT {
         String key = running.settings().missions().scope().identity(id);
         running.write(Topics.DEVICES_CONNECTION, key, connection.toBytes());
 
-        await().atMost(RunningApi.TIMEOUT)
+        await()
                 .until(() -> running.get("/api/devices/" + id).has("connection"));
         JsonNode shown = running.get("/api/devices/" + id).path("connection");
         assertThat(shown.at("/refusedLogin/count").asInt()).isEqualTo(12);
@@ -142,7 +142,7 @@ class RestApiIT {
         byte[] device = new DeviceVersion(id, other.service(), other.servicePath(), "", "", 0, null, 1, null).toBytes();
         running.write(Topics.DEVICES, other.identity(id), device);
 
-        await().atMost(RunningApi.TIMEOUT)
+        await()
                 .untilAsserted(() -> running.refused("GET", "/api/devices/" + id, null, 409, "ambiguous-device"));
         running.refused("GET", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
         running.refused("POST", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
@@ -166,7 +166,7 @@ class RestApiIT {
         running.refused("GET", "/api/devices/" + id + there + "&type=Pump", null, 404, "unknown-device");
 
         running.write(Topics.DEVICES, other.identity(id), null);
-        await().atMost(RunningApi.TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(running.get("/api/devices/" + id)
                                 .path("mission")
                                 .asText())
@@ -256,7 +256,7 @@ class RestApiIT {
         running.refused("GET", "/api/devices/nosuch", null, 404, "unknown-device");
         running.refused("POST", "/api/devices/nosuch/commands", "{\"command\":\"on\"}", 404, "unknown-device");
 
-        await().atMost(RunningApi.TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
                         .anyMatch(entry -> entry.path("command").asText().equals("Stop")
                                 && entry.at("/about/device").asText().equals("robot-1")
@@ -391,7 +391,7 @@ class RestApiIT {
 
         try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await().atMost(RunningApi.TIMEOUT)
+            await()
                     .until(() -> there.send("GET", "/ready", null).statusCode() == 200);
             assertThat(there.send("POST", "/api/domains", body, "Idempotency-Key", "key-1")
                             .body())
@@ -429,7 +429,7 @@ class RestApiIT {
         running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 400, "wrong-member");
         assertThat(client.send("POST", "/api/missions/long/start", "{}").statusCode())
                 .isEqualTo(200);
-        await().atMost(RunningApi.TIMEOUT)
+        await()
                 .until(() -> running.get("/api/devices?mission=long").size() == 10_000);
         running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 409, "mission-running");
     }
@@ -515,7 +515,7 @@ class RestApiIT {
         running.refused("POST", "/api/fields", "{\"type\":\"Feature", 400, "unusable-file");
         running.refused("POST", "/api/fields?domain=a.b", file, 400, "wrong-member");
         running.refused("POST", "/api/fields", " ".repeat(FieldsResource.LARGEST + 1), 413, "too-large");
-        await().atMost(RunningApi.TIMEOUT)
+        await()
                 .untilAsserted(
                         () -> assertThat(running.get("/api/audit?limit=1000").findValuesAsText("command"))
                                 .contains("import-fields", "rename-field", "end-field", "delete-field"));
@@ -528,7 +528,7 @@ class RestApiIT {
             client.send("POST", "/api/missions", """
                     {"mission":"%s","domain":"audited","devices":["urn:%s"]}""".formatted(mission, mission));
         }
-        await().atMost(RunningApi.TIMEOUT)
+        await()
                 .until(() -> running.get("/api/audit?mission=two").size() == 1);
         assertThat(running.get("/api/audit?mission=two").at("/0/about/mission").asText())
                 .isEqualTo("two");
@@ -557,7 +557,7 @@ class RestApiIT {
         try (RestApi other =
                 RestApi.start(running.settings(), RestSettings.on(0).withTimeout(Duration.ofMillis(300)), readiness)) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await().atMost(RunningApi.TIMEOUT).until(other::isReady);
+            await().until(other::isReady);
             assertThat(there.send("GET", "/health", null).statusCode()).isEqualTo(200);
             assertThat(there.send("GET", "/ready", null).statusCode()).isEqualTo(503);
             for (String path : new String[] {"/api/alarms/a-1/mute", "/api/alarms/mute"}) {

@@ -113,7 +113,7 @@ class RestApiTlsIT {
         assertThat(subject()).isEqualTo("CN=first");
 
         Files.copy(second.certificate(), certificate, StandardCopyOption.REPLACE_EXISTING);
-        await().atMost(RunningApi.TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(NgsiJson.read(health(first).body())
                                 .path("warnings")
                                 .path(0)
@@ -122,7 +122,7 @@ class RestApiTlsIT {
         assertThat(subject()).isEqualTo("CN=first");
 
         Files.copy(second.key(), key, StandardCopyOption.REPLACE_EXISTING);
-        await().atMost(RunningApi.TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(subject()).isEqualTo("CN=second"));
         assertThat(NgsiJson.read(health(second).body()).path("warnings")).isEmpty();
     }

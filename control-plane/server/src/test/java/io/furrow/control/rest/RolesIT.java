@@ -59,7 +59,7 @@ class RolesIT {
         callers.put(Role.VIEWER, new ApiClient(api.uri(), "token-of-a-viewer-1"));
         callers.put(Role.OPERATOR, new ApiClient(api.uri(), "token-of-an-operator"));
         callers.put(Role.ADMIN, new ApiClient(api.uri(), "token-of-an-admin-1"));
-        await().atMost(RunningApi.TIMEOUT).until(api::isReady);
+        await().until(api::isReady);
     }
 
     @AfterAll
@@ -172,13 +172,13 @@ class RolesIT {
         assertThat(late.send("GET", "/api/domains", null).statusCode()).isEqualTo(401);
         try {
             Files.writeString(tokens, before + "lea token-of-a-late-one viewer\n");
-            await().atMost(RunningApi.TIMEOUT)
+            await()
                     .until(() -> late.send("GET", "/api/domains", null).statusCode() == 200);
             assertThat(late.json(late.send("GET", "/health", null)).path("warnings"))
                     .isEmpty();
 
             Files.writeString(tokens, "lea short viewer\n");
-            await().atMost(RunningApi.TIMEOUT)
+            await()
                     .until(() -> late.json(late.send("GET", "/health", null))
                             .path("warnings")
                             .path(0)
@@ -187,7 +187,7 @@ class RolesIT {
             assertThat(late.send("GET", "/api/domains", null).statusCode()).isEqualTo(200);
 
             Files.writeString(tokens, before);
-            await().atMost(RunningApi.TIMEOUT)
+            await()
                     .until(() -> late.send("GET", "/api/domains", null).statusCode() == 401);
             assertThat(late.json(late.send("GET", "/health", null)).path("warnings"))
                     .isEmpty();

@@ -47,7 +47,7 @@ public final class RunningApi implements AutoCloseable {
         readiness.require(plane::status);
         api = RestApi.start(settings(), rest, readiness, FieldFiles::read);
         client = new ApiClient(api.uri(), null);
-        await().atMost(TIMEOUT).until(() -> client.send("GET", "/ready", null).statusCode() == 200);
+        await().until(() -> client.send("GET", "/ready", null).statusCode() == 200);
     }
 
     public RestApi api() {

@@ -84,12 +84,12 @@ class AlignedInputIT {
 
                 JobClient job = job(kafka.bootstrapServers(), "out", Optional.of(Duration.ofSeconds(10)));
                 try {
-                    await().atMost(Duration.ofMinutes(1)).until(() -> waits(job.getJobID()));
+                    await().until(() -> waits(job.getJobID()));
                     write(0, begin + HOUR + 1, "fast, later");
                     write(1, begin + 2 * HOUR, "slow, two hours on");
 
                     List<String> read = new ArrayList<>();
-                    await().atMost(Duration.ofMinutes(1)).until(() -> {
+                    await().until(() -> {
                         consumer.poll(Duration.ofMillis(200)).forEach(record -> read.add(record.value()));
                         return read.size() >= 5;
                     });
@@ -139,7 +139,6 @@ class AlignedInputIT {
             long begun = System.nanoTime();
             await().pollInSameThread()
                     .pollInterval(Duration.ofMillis(10))
-                    .atMost(Duration.ofMinutes(1))
                     .until(() -> end(consumer, written) == BACKLOG);
             return Duration.ofNanos(System.nanoTime() - begun);
         } finally {

@@ -65,7 +65,7 @@ class QuietInputIT {
                     // One after the other: by then no event has come for many times the idle timeout.
                     for (int i = 1; i <= CHANGES; i++) {
                         int expected = i;
-                        await().atMost(Duration.ofSeconds(60)).until(() -> {
+                        await().until(() -> {
                             consumer.poll(Duration.ofMillis(100))
                                     .forEach(each ->
                                             seen.add(Long.parseLong(new String(each.value(), StandardCharsets.UTF_8))));

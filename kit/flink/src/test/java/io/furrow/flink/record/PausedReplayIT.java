@@ -80,7 +80,7 @@ class PausedReplayIT {
 
     private static void awaitEventTime(
             long expected, KafkaProducer<byte[], byte[]> producer, KafkaConsumer<byte[], byte[]> consumer) {
-        await().atMost(Duration.ofMinutes(1)).pollInSameThread().until(() -> eventTime(producer, consumer) == expected);
+        await().pollInSameThread().until(() -> eventTime(producer, consumer) == expected);
     }
 
     /** What the job says to one more change. */
@@ -88,7 +88,7 @@ class PausedReplayIT {
             throws Exception {
         producer.send(new ProducerRecord<>("changes", 0, null, new byte[0])).get();
         List<Long> seen = new ArrayList<>();
-        await().atMost(Duration.ofMinutes(1)).pollInSameThread().until(() -> {
+        await().pollInSameThread().until(() -> {
             consumer.poll(Duration.ofMillis(100))
                     .forEach(each -> seen.add(Long.parseLong(new String(each.value(), StandardCharsets.UTF_8))));
             return !seen.isEmpty();

@@ -252,7 +252,6 @@ public final class Restarts {
         Awaitility.await()
                 .pollDelay(Duration.ZERO)
                 .pollInterval(Duration.ofMillis(2))
-                .atMost(Duration.ofMinutes(1))
                 .failFast("the job has ended", () -> requireUnended(run))
                 .until(condition);
     }
@@ -282,7 +281,6 @@ public final class Restarts {
     private static String taken(Callable<CompletableFuture<String>> checkpoint) {
         return Awaitility.await()
                 .pollDelay(Duration.ZERO)
-                .atMost(Duration.ofMinutes(1))
                 .ignoreExceptionsMatching(e -> e.getCause() instanceof CheckpointException)
                 .until(() -> checkpoint.call().get(1, TimeUnit.MINUTES), path -> true);
     }
@@ -294,7 +292,6 @@ public final class Restarts {
         flink.cancelJob(run).get(1, TimeUnit.MINUTES);
         Awaitility.await()
                 .pollInterval(Duration.ofMillis(2))
-                .atMost(Duration.ofMinutes(1))
                 .until(() -> flink.getJobStatus(run).get() == JobStatus.CANCELED);
         return checkpoint;
     }

@@ -27,7 +27,6 @@ import static org.awaitility.Awaitility.await;
 /** A host against a real Kafka and MQTT broker; each test has a mission of its own. */
 @Tag("full")
 class DeviceHostIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String YARD = "{\"path\": [[-3.48, 40.31]]}";
 
     @TempDir
@@ -63,7 +62,7 @@ class DeviceHostIT {
     void runsWhatIsDesiredFromWhenTheBrokerAcceptsIt() throws Exception {
         String device = entity("Thermometer", "late", 1);
         long sequence = bench.addDesired("late", device, true, YARD);
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(bench.status(device)).hasValueSatisfying(status -> {
                     assertThat(status.state()).isEqualTo(State.FAILED);
                     assertThat(status.reason())
@@ -72,10 +71,10 @@ class DeviceHostIT {
 
         bench.admit("late", device);
 
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() ->
                         assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(listener.received(topic("late", device, "attrs")))
                         .hasSizeGreaterThan(3));
     }
@@ -85,14 +84,14 @@ class DeviceHostIT {
         String device = run("anew", 1);
         FarmSecret before = bench.secret;
         bench.secret = null;
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(host.lastFailure()).contains("null"));
         bench.secret = before;
 
-        await().atMost(TIMEOUT).until(host::isCaughtUp);
-        await().atMost(TIMEOUT).until(() -> host.fleet().connections() == 1);
+        await().until(host::isCaughtUp);
+        await().until(() -> host.fleet().connections() == 1);
         int received = received("anew", device);
-        await().atMost(TIMEOUT).until(() -> received("anew", device) > received);
+        await().until(() -> received("anew", device) > received);
         assertThat(host.isAlive()).isTrue();
         bench.delete(device);
     }
@@ -106,15 +105,15 @@ class DeviceHostIT {
         long sequence = bench.addDesired("end", stopped, false, YARD);
         bench.delete(deleted);
 
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() ->
                         assertThat(bench.status(stopped)).contains(new DeviceStatus(sequence, State.STOPPED, null)));
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(bench.status(deleted)).isEmpty());
-        await().atMost(TIMEOUT).until(() -> host.fleet().connections() == 1);
+        await().until(() -> host.fleet().connections() == 1);
         int before = received("end", stopped) + received("end", deleted);
         int other = received("end", goesOn);
-        await().atMost(TIMEOUT).until(() -> received("end", goesOn) > other + 10);
+        await().until(() -> received("end", goesOn) > other + 10);
         assertThat(received("end", stopped) + received("end", deleted)).isEqualTo(before);
         bench.delete(goesOn);
     }
@@ -129,12 +128,12 @@ class DeviceHostIT {
 
         host = DeviceHost.start(bench.settings());
 
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() ->
                         assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(bench.status(gone)).isEmpty());
-        await().atMost(TIMEOUT)
+        await()
                 .until(() -> listener.received(topic("again", device, "attrs")).stream()
                         .anyMatch(json -> json.path("lon").doubleValue() == -3.5));
         bench.delete(device);
@@ -145,7 +144,7 @@ class DeviceHostIT {
         String device = entity("Thermometer", "field", 1);
         bench.admit("field", device);
         bench.addDesired("field", device, true, "{\"area\": \"orchard\"}");
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(bench.status(device))
                         .hasValueSatisfying(
                                 status -> assertThat(status.reason()).startsWith("area: there is no field 'orchard'")));
@@ -155,7 +154,7 @@ class DeviceHostIT {
                  "coordinates": [[[-3.5, 40.3], [-3.49, 40.3], [-3.49, 40.31], [-3.5, 40.3]]]}}
                 """);
 
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(bench.status(device).map(DeviceStatus::state))
                         .contains(State.RUNNING));
         bench.delete(device);
@@ -171,13 +170,13 @@ class DeviceHostIT {
                 camera,
                 true,
                 "{\"carriedBy\": \"%s\", \"parameters\": {\"battery\": \"P3D\"}}".formatted(robot));
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(bench.status(camera).map(DeviceStatus::reason))
                         .contains("carriedBy: '" + robot + "' is no robot that runs here"));
 
         bench.addDesired("carry", robot, true, "{\"path\": [[-3.48, 40.31], [-3.48, 40.32]], \"speed\": 2}");
 
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             assertThat(bench.status(robot).map(DeviceStatus::state)).contains(State.RUNNING);
             assertThat(bench.status(camera).map(DeviceStatus::state)).contains(State.RUNNING);
             assertThat(listener.received(topic("carry", camera, "attrs")))
@@ -196,7 +195,7 @@ class DeviceHostIT {
         String device = run("restart", 1);
         listener.publish(topic("restart", device, "cmd"), "{\"restart\": \"\"}");
 
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(listener.received(topic("restart", device, "cmdexe")))
                         .singleElement()
                         .hasToString("{\"restart\":\"ok\"}"));
@@ -220,11 +219,11 @@ class DeviceHostIT {
 
         long sequence = bench.addRotated("stolen", device, YARD, 1);
 
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() ->
                         assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
         int before = received("stolen", device);
-        await().atMost(TIMEOUT).until(() -> received("stolen", device) > before + 3);
+        await().until(() -> received("stolen", device) > before + 3);
         bench.delete(device);
     }
 
@@ -244,12 +243,12 @@ class DeviceHostIT {
         bench.passwords.put(other.user(), other.password());
         long sequence = bench.addDesired("rotated", second, true, YARD);
 
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() ->
                         assertThat(bench.status(second)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
         bench.passwords.remove(HostFixture.SECRET.device("rotated", device).user());
         int before = received("rotated", device);
-        await().atMost(TIMEOUT).until(() -> received("rotated", device) > before + 10);
+        await().until(() -> received("rotated", device) > before + 10);
         bench.secret = HostFixture.SECRET;
         bench.delete(device);
         bench.delete(second);
@@ -259,7 +258,7 @@ class DeviceHostIT {
         String device = entity("Thermometer", mission, number);
         bench.admit(mission, device);
         long sequence = bench.addDesired(mission, device, true, YARD);
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null));
             assertThat(received(mission, device)).isPositive();
         });

@@ -25,7 +25,6 @@ import static org.awaitility.Awaitility.await;
 /** The host as a process of its own. */
 @Tag("full")
 class KilledHostIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String YARD = "{\"path\": [[-3.48, 40.31]]}";
 
     @TempDir
@@ -58,7 +57,7 @@ class KilledHostIT {
         long first = bench.addDesired("killed", remaining, true, YARD);
         long second = bench.addDesired("killed", stopped, true, YARD);
         Process host = host();
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             assertThat(bench.status(remaining)).contains(new DeviceStatus(first, State.RUNNING, null));
             assertThat(bench.status(stopped)).contains(new DeviceStatus(second, State.RUNNING, null));
         });
@@ -68,13 +67,13 @@ class KilledHostIT {
         long begin = bench.addDesired("killed", comes, true, YARD);
         host();
 
-        await().atMost(TIMEOUT).untilAsserted(() -> {
+        await().untilAsserted(() -> {
             assertThat(bench.status(remaining)).contains(new DeviceStatus(first, State.RUNNING, null));
             assertThat(bench.status(stopped)).contains(new DeviceStatus(end, State.STOPPED, null));
             assertThat(bench.status(comes)).contains(new DeviceStatus(begin, State.RUNNING, null));
         });
         try (MqttTestClient listener = bench.listener()) {
-            await().atMost(TIMEOUT).untilAsserted(() -> {
+            await().untilAsserted(() -> {
                 assertThat(listener.received(topic("killed", remaining, "attrs")))
                         .isNotEmpty();
                 assertThat(listener.received(topic("killed", comes, "attrs"))).isNotEmpty();

@@ -28,7 +28,7 @@ class MqttConnectionTest {
                 connection.send("/k/d/attrs", "1".getBytes(StandardCharsets.UTF_8));
                 connection.send("/k/d/attrs", "2".getBytes(StandardCharsets.UTF_8));
 
-                await().atMost(Duration.ofSeconds(60)).until(() -> {
+                await().until(() -> {
                     connection.push();
                     return connection.open() == 0;
                 });

@@ -41,8 +41,6 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 class ControlCommandsIT {
-    private static final Duration TIMEOUT = Duration.ofSeconds(60);
-
     @TempDir
     static Path directory;
 
@@ -89,7 +87,7 @@ class ControlCommandsIT {
         assertThat(run("domain", "create", "north", "--name", "North", "--area", area.toString()))
                 .contains("created", "domain north", "data.north.realtime");
         run("domain", "change", "north", "--description", "Behind the hill", "--fields", "f-1,f-2");
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(
                         () -> assertThat(run("domain", "list")).containsPattern("north +North +Behind the hill +2 "));
         assertThat(json("domain", "show", "north").at("/area/type").asText()).isEqualTo("Polygon");
@@ -134,7 +132,7 @@ class ControlCommandsIT {
 
         assertThat(run("mission", "create", "weeding", "--domain", "farm", "--devices", devices.toString()))
                 .contains("created: mission weeding");
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(run("mission", "list", "--domain", "farm"))
                         .containsPattern("weeding +farm +– +created"));
         run("mission", "start", "weeding", "--at", Long.toString(System.currentTimeMillis()));
@@ -154,7 +152,7 @@ class ControlCommandsIT {
         run("domain", "create", "barn");
         run("mission", "start", "drying", "--domain", "barn", "--devices", devices.toString());
         String device = "urn:ngsi-ld:Thermometer:drying-1";
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(run("device", "credentials", device))
                         .contains(secret.device("drying", device).password()));
 
@@ -170,7 +168,7 @@ class ControlCommandsIT {
     @Test
     void carriesATemplateOutAndBackIn() throws Exception {
         Path file = directory.resolve("template.json");
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(run("template", "list")).contains("thesis-demo"));
 
         run("template", "export", "thesis-demo", file.toString());
@@ -209,7 +207,7 @@ class ControlCommandsIT {
             send(producer, "collision-4", "critical", "closed", hours);
             send(producer, "collision-5", "critical", "acknowledged", hours);
         }
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() ->
                         assertThat(json("alarm", "list", "--state", "all")).hasSize(5));
         assertThat(run("alarm", "list").lines())

@@ -32,7 +32,6 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class ClusterAnalyticsIT {
     private static final ReplayAnalyticsJob JOB = new ReplayAnalyticsJob("collision", "data.weeding.replay.0a1b2c3d");
-    private static final Duration TIMEOUT = Duration.ofMinutes(1);
 
     @TempDir
     Path folder;
@@ -55,14 +54,14 @@ class ClusterAnalyticsIT {
             FlinkRest rest = new FlinkRest(url);
             List<String> options = List.of("--bootstrap-servers", kafka.bootstrapServers(), "--parallelism", "1");
             ClusterAnalytics analytics = new ClusterAnalytics(rest, emptyJar(), options, false);
-            await().atMost(TIMEOUT).until(() -> analytics.free() == 2);
+            await().until(() -> analytics.free() == 2);
 
             analytics.start(JOB);
             analytics.start(new ReplayAnalyticsJob("presence", JOB.topic()));
 
             assertThat(analytics.running())
                     .containsExactlyInAnyOrder("collision-of-weeding.0a1b2c3d", "presence-of-weeding.0a1b2c3d");
-            await().atMost(TIMEOUT).until(() -> analytics.free() == 0);
+            await().until(() -> analytics.free() == 0);
             assertThat(cluster.listJobs().get()).hasSize(2);
             try (var jars = Files.list(uploads())) {
                 assertThat(jars).hasSize(1);
@@ -70,7 +69,7 @@ class ClusterAnalyticsIT {
 
             analytics.cancel(JOB.name());
             analytics.cancel("nothing");
-            await().atMost(TIMEOUT).until(() -> analytics.running().size() == 1);
+            await().until(() -> analytics.running().size() == 1);
             assertThatThrownBy(() -> analytics.start(new ReplayAnalyticsJob("sowing", JOB.topic())))
                     .isInstanceOf(AnalyticsException.class)
                     .hasMessageContaining("/run");
