@@ -1,5 +1,6 @@
 package io.furrow.suite;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -33,19 +34,14 @@ import static org.awaitility.Awaitility.await;
 class BadInputIT {
     private static final long MILLIS_2023 = 1_700_000_000_000L;
 
+    @AutoClose
     private static RunningSuite running;
+
     private static int goodOnes;
 
     @BeforeAll
     static void start() throws Exception {
         running = RunningSuite.start(null);
-    }
-
-    @AfterAll
-    static void stop() {
-        if (running != null) {
-            running.close();
-        }
     }
 
     @AfterEach

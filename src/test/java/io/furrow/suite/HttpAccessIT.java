@@ -1,5 +1,6 @@
 package io.furrow.suite;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.net.URI;
 import java.util.ArrayList;
@@ -34,7 +35,9 @@ class HttpAccessIT {
             "/api/domains",
             "/nothing-is-here");
 
+    @AutoClose
     private static RunningSuite running;
+
     private static Set<Integer> httpPorts;
 
     @BeforeAll
@@ -43,13 +46,6 @@ class HttpAccessIT {
         httpPorts = ListeningPorts.ofThisJvm().parallelStream()
                 .filter(RawHttp::isSpokenAt)
                 .collect(Collectors.toCollection(TreeSet::new));
-    }
-
-    @AfterAll
-    static void stop() {
-        if (running != null) {
-            running.close();
-        }
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.suite;
 
+import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -32,6 +33,7 @@ class RealClientsIT {
               "static_attributes": [{"name": "Domain", "type": "String", "value": "farm"}]}]}
             """;
 
+    @AutoClose
     private static RunningSuite running;
 
     @BeforeAll
@@ -39,13 +41,6 @@ class RealClientsIT {
         running = RunningSuite.start(null);
         curl("POST", running.suite().devices().iotAgent().resolve("/iot/services"), GROUP);
         curl("POST", running.suite().devices().iotAgent().resolve("/iot/devices"), DEVICE);
-    }
-
-    @AfterAll
-    static void stop() {
-        if (running != null) {
-            running.close();
-        }
     }
 
     @Test

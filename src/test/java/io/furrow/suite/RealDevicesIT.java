@@ -1,5 +1,6 @@
 package io.furrow.suite;
 
+import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
@@ -30,6 +31,7 @@ class RealDevicesIT {
 
     private static final String PLACE_REPORT = "'{\"lat\": 40.3134, \"lon\": -3.4831}'";
 
+    @AutoClose
     private static RunningSuite running;
 
     @BeforeAll
@@ -62,13 +64,6 @@ class RealDevicesIT {
         await()
                 .until(() -> send("GET", "/ready", "").path("status").asText().equals("ready"));
         send("POST", "/api/domains", "{\"domain\":\"home\"}");
-    }
-
-    @AfterAll
-    static void stop() {
-        if (running != null) {
-            running.close();
-        }
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.suite;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
@@ -29,18 +30,12 @@ class SlowClockIT {
     private static final String SLOW = ids("slow", 0).findFirst().orElseThrow();
     private static final List<String> ROBOTS = ids("robot", 1).limit(2).toList();
 
+    @AutoClose
     private static RunningSuite running;
 
     @BeforeAll
     static void start() throws Exception {
         running = RunningSuite.start(null);
-    }
-
-    @AfterAll
-    static void stop() {
-        if (running != null) {
-            running.close();
-        }
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.suite;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.ByteArrayOutputStream;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
@@ -26,19 +27,13 @@ class WholePathIT {
     /** With characters that the context broker refuses in most types of attributes. */
     private static final String NAME = "O'Brien's = \"the\" <field>; (north)";
 
+    @AutoClose
     private static RunningSuite running;
 
     @BeforeAll
     static void startTheDemonstrationFarm() throws Exception {
         running = RunningSuite.start(null);
         DemoFarm.start(running.suite().control());
-    }
-
-    @AfterAll
-    static void stop() {
-        if (running != null) {
-            running.close();
-        }
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.dashboard;
 
+import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
@@ -56,6 +57,7 @@ abstract class DashboardFixture {
     static KafkaProducer<String, byte[]> producer;
 
     final HttpClient http = HttpClient.newHttpClient();
+    @AutoClose
     Dashboard dashboard;
 
     /** Keeps them from the first class of tests to the last of a JVM. */
@@ -105,11 +107,6 @@ abstract class DashboardFixture {
     @BeforeEach
     void start() throws Exception {
         dashboard = Dashboard.start(settings());
-    }
-
-    @AfterEach
-    void stop() {
-        dashboard.close();
     }
 
     static DashboardSettings settings() {

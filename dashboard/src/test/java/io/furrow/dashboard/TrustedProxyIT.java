@@ -1,5 +1,6 @@
 package io.furrow.dashboard;
 
+import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
@@ -59,6 +60,7 @@ class TrustedProxyIT {
     private static RestApi open;
 
     private final HttpClient http = HttpClient.newHttpClient();
+    @AutoClose
     private Dashboard dashboard;
 
     @BeforeAll
@@ -84,11 +86,6 @@ class TrustedProxyIT {
         open.close();
         api.close();
         kafka.close();
-    }
-
-    @AfterEach
-    void stop() {
-        dashboard.close();
     }
 
     private static Properties client() {

@@ -1,5 +1,6 @@
 package io.furrow.ingest;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.HashSet;
@@ -37,16 +38,12 @@ class DividedIngestIT {
 
     private static final long TIME = System.currentTimeMillis() - 60_000;
 
+    @AutoClose
     private static KafkaSuite suite;
 
     @BeforeAll
     static void start() {
         suite = KafkaSuite.start(directory.resolve("kafka"));
-    }
-
-    @AfterAll
-    static void stop() {
-        suite.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.ingest;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.HashSet;
@@ -37,16 +38,12 @@ class IngestOnKafkaIT {
     private static final String ONE = "{\"type\":\"Number\",\"value\":1,\"metadata\":{}}";
     private static final String TWO = "{\"type\":\"Number\",\"value\":2,\"metadata\":{}}";
 
+    @AutoClose
     private static KafkaSuite suite;
 
     @BeforeAll
     static void start() {
         suite = KafkaSuite.start(directory.resolve("kafka"));
-    }
-
-    @AfterAll
-    static void stop() {
-        suite.close();
     }
 
     @Tag("full")

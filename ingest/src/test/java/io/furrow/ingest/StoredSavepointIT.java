@@ -1,5 +1,6 @@
 package io.furrow.ingest;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
@@ -29,17 +30,13 @@ class StoredSavepointIT {
     @TempDir
     Path directory;
 
+    @AutoClose
     private KafkaSuite suite;
 
     @BeforeEach
     void start() throws Exception {
         suite = KafkaSuite.start(directory.resolve("kafka"));
         StoredSavepoint.makeTopics(suite);
-    }
-
-    @AfterEach
-    void stop() {
-        suite.close();
     }
 
     @ParameterizedTest

@@ -1,5 +1,6 @@
 package io.furrow.ingest;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.file.Path;
 import java.util.HexFormat;
 import java.util.List;
@@ -33,16 +34,12 @@ class TooLargeRecordsIT {
     /** Not long ago: the broker's retention goes by the record timestamp. */
     private static final long TIME = System.currentTimeMillis() - 60_000;
 
+    @AutoClose
     private static KafkaSuite suite;
 
     @BeforeAll
     static void start() {
         suite = KafkaSuite.start(directory.resolve("kafka"));
-    }
-
-    @AfterAll
-    static void stop() {
-        suite.close();
     }
 
     @ParameterizedTest

@@ -1,5 +1,6 @@
 package io.furrow.connect;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Set;
@@ -29,16 +30,12 @@ class PluginIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static ConnectRig rig;
 
     @BeforeAll
     static void startWorker() {
         rig = ConnectRig.start(directory);
-    }
-
-    @AfterAll
-    static void stopWorker() {
-        rig.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.replay;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -42,16 +43,12 @@ class ReplayOnKafkaIT {
     @TempDir
     Path directory;
 
+    @AutoClose
     private ReplaySuite suite;
 
     @BeforeEach
     void start() throws Exception {
         suite = ReplaySuite.start(directory);
-    }
-
-    @AfterEach
-    void stop() {
-        suite.close();
     }
 
     private void awaitStatus(String mission, State state, long sequence) {

@@ -1,5 +1,6 @@
 package io.furrow.replay;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -31,16 +32,12 @@ class StoredSavepointIT {
     @TempDir
     Path directory;
 
+    @AutoClose
     private ReplaySuite suite;
 
     @BeforeEach
     void start() throws Exception {
         suite = ReplaySuite.start(directory.resolve("suite"));
-    }
-
-    @AfterEach
-    void stop() {
-        suite.close();
     }
 
     /** {@code -Dstore.savepoint=0.2.0} writes that of a release. */

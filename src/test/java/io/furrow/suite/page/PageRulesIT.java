@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.io.InputStream;
 import java.net.URI;
@@ -33,7 +34,9 @@ class PageRulesIT {
               value: attributes && { id, type, ...attributes } });
             """;
 
+    @AutoClose
     private static Chromium chromium;
+
     private static Page page;
 
     @BeforeAll
@@ -46,11 +49,6 @@ class PageRulesIT {
                 .newPage();
         page.route("**/*", PageRulesIT::answer);
         page.navigate(FARM);
-    }
-
-    @AfterAll
-    static void close() {
-        chromium.close();
     }
 
     @Test

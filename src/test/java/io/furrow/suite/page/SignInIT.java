@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.net.URLDecoder;
 import java.nio.charset.StandardCharsets;
@@ -48,7 +49,9 @@ class SignInIT {
 
     private Path tokens;
     private Properties client;
+    @AutoClose
     private RestApi api;
+
     private volatile boolean signedIn;
 
     @BeforeEach
@@ -59,11 +62,6 @@ class SignInIT {
         api = RestApi.start(
                 ControlSettings.of(client), RestSettings.on(0).withTokens(tokens), new Readiness(Clock.systemUTC()));
         await().until(api::isReady);
-    }
-
-    @AfterEach
-    void stop() {
-        api.close();
     }
 
     private void allow(String lines) throws Exception {

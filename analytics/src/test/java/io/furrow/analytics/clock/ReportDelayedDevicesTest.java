@@ -1,5 +1,6 @@
 package io.furrow.analytics.clock;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.Map;
@@ -25,7 +26,9 @@ class ReportDelayedDevicesTest {
     private static final long MINUTE = 60 * SECOND;
     private static final long HOUR = 60 * MINUTE;
 
+    @AutoClose
     private OneInputStreamOperatorTestHarness<TopicRecord, ClockReport> harness;
+
     private long now = START;
 
     @BeforeEach
@@ -33,11 +36,6 @@ class ReportDelayedDevicesTest {
         harness = new OneInputStreamOperatorTestHarness<>(new ProcessOperator<>(
                 new ReportDelayedDevices(new ReceiptTime(Duration.ofSeconds(10)), Duration.ofMinutes(1))));
         harness.open();
-    }
-
-    @AfterEach
-    void stop() throws Exception {
-        harness.close();
     }
 
     @Test

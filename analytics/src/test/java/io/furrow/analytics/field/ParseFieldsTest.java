@@ -1,5 +1,6 @@
 package io.furrow.analytics.field;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.util.List;
 
@@ -25,16 +26,12 @@ class ParseFieldsTest {
     private static final String SPRING = "2026-03-01T00:00:00.000Z";
 
     private final FieldRecords topic = new FieldRecords();
+    @AutoClose
     private OneInputStreamOperatorTestHarness<TopicRecord, TopicRecord> operator;
 
     @BeforeEach
     void create() throws Exception {
         operator = new OneInputStreamOperatorTestHarness<>(new ProcessOperator<>(new ParseFields("presence")));
-    }
-
-    @AfterEach
-    void close() throws Exception {
-        operator.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.analytics.temperature;
 
+import org.junit.jupiter.api.AutoClose;
 import java.util.List;
 
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
@@ -18,12 +19,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class AssignFieldsTest {
     private final FieldRecords fields = new FieldRecords();
+    @AutoClose
     private TwoInputStreamOperatorTestHarness<Reading, TopicRecord, FieldReading> operator;
-
-    @AfterEach
-    void close() throws Exception {
-        operator.close();
-    }
 
     @Test
     void knowsTheFieldsBeforeTheStreamOfThemHasBroughtAny() throws Exception {

@@ -1,5 +1,6 @@
 package io.furrow.bench.http;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.EOFException;
 import java.io.IOException;
 import java.net.InetAddress;
@@ -18,7 +19,10 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class AnswerReaderTest {
     private final AnswerReader reader = new AnswerReader();
+    @AutoClose
     private SocketChannel server;
+
+    @AutoClose
     private SocketChannel client;
 
     @BeforeEach
@@ -28,12 +32,6 @@ class AnswerReaderTest {
             client = SocketChannel.open(listening.getLocalAddress());
             server = listening.accept();
         }
-    }
-
-    @AfterEach
-    void close() throws IOException {
-        client.close();
-        server.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Files;
@@ -33,17 +34,13 @@ class AgentResourceTest {
     private final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
     private final DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
 
+    @AutoClose
     private FakeAgent agent;
 
     @BeforeEach
     void start() throws IOException {
         agent = FakeAgent.start();
         desired.take(device.version().key(), device);
-    }
-
-    @AfterEach
-    void stop() {
-        agent.close();
     }
 
     @ParameterizedTest

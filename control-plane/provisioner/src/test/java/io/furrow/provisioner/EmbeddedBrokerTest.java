@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Map;
@@ -36,6 +37,7 @@ class EmbeddedBrokerTest {
     private static final long TIMEOUT_MS = 20_000;
     private static final FarmSecret.Login DEVICE = DesiredDeviceFixture.SECRET.device("hoeing", "d");
 
+    @AutoClose
     private static EmbeddedMqtt mqtt;
 
     private final Map<String, String> heard = new ConcurrentHashMap<>();
@@ -64,11 +66,6 @@ class EmbeddedBrokerTest {
                 return ACCOUNTS.mayRead(user, filter);
             }
         });
-    }
-
-    @AfterAll
-    static void stopBroker() {
-        mqtt.close();
     }
 
     @BeforeEach

@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -40,8 +41,11 @@ class MosquittoIT {
     @TempDir
     Path directory;
 
+    @AutoClose
     private ProvisionedMosquitto broker;
+
     private MosquittoFiles files;
+    @AutoClose
     private MqttPeer agent;
 
     @BeforeEach
@@ -54,12 +58,6 @@ class MosquittoIT {
 
     ProvisionedMosquitto start(Path folder) throws Exception {
         return new ProvisionedMosquitto(folder);
-    }
-
-    @AfterEach
-    void stop() throws Exception {
-        agent.close();
-        broker.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -32,7 +33,9 @@ class ProvisioningFailuresTest {
 
     private final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
 
+    @AutoClose
     private FakeAgent agent;
+
     private ProvisioningReconciler provisioning;
     private volatile long now;
 
@@ -40,11 +43,6 @@ class ProvisioningFailuresTest {
     void start() throws IOException {
         agent = FakeAgent.start();
         provisioning = provisioning();
-    }
-
-    @AfterEach
-    void stop() {
-        agent.close();
     }
 
     @ParameterizedTest

@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
@@ -41,18 +42,15 @@ abstract class ProvisioningFixture {
     /** How much later it is than by the clock. */
     final AtomicLong passed = new AtomicLong();
 
+    @AutoClose
     FakeAgent agent;
+
     ProvisioningReconciler provisioning;
 
     @BeforeEach
     void start() throws IOException {
         agent = FakeAgent.start();
         provisioning = provisioning();
-    }
-
-    @AfterEach
-    void stop() {
-        agent.close();
     }
 
     ProvisioningReconciler provisioning() {

@@ -1,5 +1,6 @@
 package io.furrow.control;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
@@ -28,18 +29,15 @@ import static org.assertj.core.api.Assertions.assertThat;
 class AuditTopicTest {
     private static final Instant START = Instant.parse("2026-03-01T08:00:00Z");
 
+    @AutoClose
     private final TopologyTestDriver driver = new TopologyTestDriver(
+
             ControlTopology.of(
                     Duration.ofHours(1),
                     new MissionSettings(Duration.ofMinutes(1), FiwareScope.DEFAULT, false),
                     ReplaySettings.DEFAULT),
             settings(),
             START);
-
-    @AfterEach
-    void close() {
-        driver.close();
-    }
 
     @Test
     void reportsForEachCommandWhoGaveItWhatItWasWhenAndWhatCameOfIt() throws Exception {

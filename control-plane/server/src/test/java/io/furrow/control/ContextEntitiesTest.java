@@ -1,5 +1,6 @@
 package io.furrow.control;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
@@ -24,12 +25,8 @@ class ContextEntitiesTest {
             + "'deviceCount':3,'running':true,'start':5,'created':1,'sequence':2}";
     private static final Duration SECOND = Duration.ofSeconds(1);
 
+    @AutoClose
     private final FarmWatchFixture farm = new FarmWatchFixture();
-
-    @AfterEach
-    void close() {
-        farm.close();
-    }
 
     @Test
     void makesADomainAnEntityWithItsMissionsAndWhatItsFieldsAreLike() throws Exception {

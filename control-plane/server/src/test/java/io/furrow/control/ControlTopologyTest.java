@@ -1,5 +1,6 @@
 package io.furrow.control;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -28,12 +29,8 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ControlTopologyTest {
+    @AutoClose
     private final ManagerFixture farm = new ManagerFixture();
-
-    @AfterEach
-    void close() {
-        farm.close();
-    }
 
     /** As the WeLASER dashboard asks. */
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.control;
 
+import org.junit.jupiter.api.AutoClose;
 import java.time.Duration;
 import java.util.List;
 
@@ -15,12 +16,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 class ReadAgainTest {
     private static final String LINE = FarmWatch.APPLICATION + "-collisions-repartition";
 
+    @AutoClose
     private final FarmWatchFixture farm = new FarmWatchFixture();
-
-    @AfterEach
-    void close() {
-        farm.close();
-    }
 
     @Test
     void raisesNoSecondAlarmOfAnEncounterThatHasEnded() throws Exception {

@@ -1,5 +1,6 @@
 package io.furrow.control;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -27,13 +28,10 @@ import static org.assertj.core.api.Assertions.assertThat;
 class ReplayGroupTopologyTest {
     private static final long NOW = ManagerFixture.START.toEpochMilli();
 
+    @AutoClose
     private final ManagerFixture farm = new ManagerFixture(true);
-    private long sequence;
 
-    @AfterEach
-    void close() {
-        farm.close();
-    }
+    private long sequence;
 
     private CommandResult request(String members) {
         farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request'," + members + "}");

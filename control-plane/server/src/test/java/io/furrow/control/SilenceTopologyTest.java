@@ -1,5 +1,6 @@
 package io.furrow.control;
 
+import org.junit.jupiter.api.AutoClose;
 import java.time.Duration;
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -19,12 +20,8 @@ class SilenceTopologyTest {
     private static final Duration REMEMBERED = Duration.ofHours(1);
     private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:m-1";
 
+    @AutoClose
     private final FarmWatchFixture farm = new FarmWatchFixture();
-
-    @AfterEach
-    void close() {
-        farm.close();
-    }
 
     @Test
     void raisesAnAlarmOfADeviceThatIsSilentAndEndsItWhenItReportsAgain() throws Exception {

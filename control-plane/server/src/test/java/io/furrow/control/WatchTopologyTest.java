@@ -1,5 +1,6 @@
 package io.furrow.control;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
@@ -24,12 +25,8 @@ class WatchTopologyTest {
     private static final Duration WINDOW = Duration.ofSeconds(30);
     private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:m-1";
 
+    @AutoClose
     private final FarmWatchFixture farm = new FarmWatchFixture();
-
-    @AfterEach
-    void close() {
-        farm.close();
-    }
 
     @Test
     void publishesWhenADeviceWasLastSeenAndHowFullItsBatteryIs() throws Exception {

@@ -1,5 +1,6 @@
 package io.furrow.ingest.latest;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
@@ -24,17 +25,13 @@ import static org.assertj.core.api.Assertions.assertThat;
 class MergeLatestTest {
     private static final Duration KEPT = Duration.ofMillis(1000);
 
+    @AutoClose
     private KeyedOneInputStreamOperatorTestHarness<String, ReportedEvent, TopicRecord> operator;
 
     @BeforeEach
     void open() throws Exception {
         create(LatestKey.ID);
         operator.open();
-    }
-
-    @AfterEach
-    void close() throws Exception {
-        operator.close();
     }
 
     @Test

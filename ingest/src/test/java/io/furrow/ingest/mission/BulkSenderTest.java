@@ -1,5 +1,6 @@
 package io.furrow.ingest.mission;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Clock;
@@ -38,9 +39,13 @@ class BulkSenderTest {
     @TempDir
     private Path directory;
 
+    @AutoClose
     private EmbeddedMongo mongo;
+
     private MongoAccess access;
+    @AutoClose
     private MongoClient client;
+
     private MissionCollections collections;
 
     @BeforeEach
@@ -54,12 +59,6 @@ class BulkSenderTest {
                 mongo.uri() + "/?serverSelectionTimeoutMS=2000", MongoAccess.Waits.of(Duration.ofSeconds(20)));
         client = access.open();
         collections = new MissionCollections(client, retention, Clock.systemUTC());
-    }
-
-    @AfterEach
-    void stop() {
-        client.close();
-        mongo.close();
     }
 
     @Test

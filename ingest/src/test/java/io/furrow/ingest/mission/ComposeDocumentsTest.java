@@ -1,5 +1,6 @@
 package io.furrow.ingest.mission;
 
+import org.junit.jupiter.api.AutoClose;
 import java.util.List;
 import java.util.stream.Stream;
 
@@ -22,17 +23,13 @@ import static org.junit.jupiter.params.provider.Arguments.arguments;
 class ComposeDocumentsTest {
     private static final String FEW_BYTES_OF_JSON_MANY_OF_BSON = "0,".repeat(1_500_000) + "0";
 
+    @AutoClose
     private OneInputStreamOperatorTestHarness<MissionEvent, MissionDocument> harness;
 
     @BeforeEach
     void open() throws Exception {
         harness = new OneInputStreamOperatorTestHarness<>(new ProcessOperator<>(new ComposeDocuments()));
         harness.open();
-    }
-
-    @AfterEach
-    void close() throws Exception {
-        harness.close();
     }
 
     static Stream<Arguments> whatNoDocumentCanHold() {

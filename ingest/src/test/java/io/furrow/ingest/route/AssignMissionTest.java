@@ -1,5 +1,6 @@
 package io.furrow.ingest.route;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -37,17 +38,13 @@ class AssignMissionTest {
     private final ArrayList<TopicRecord> domains = new ArrayList<>();
     private final ArrayList<TopicRecord> missions = new ArrayList<>();
     private final HashSet<String> topics = new HashSet<>();
+    @AutoClose
     private KeyedTwoInputStreamOperatorTestHarness<String, ReportedEvent, DeviceChange, ReportedEvent> operator;
 
     @BeforeEach
     void open() throws Exception {
         create();
         operator.open();
-    }
-
-    @AfterEach
-    void close() throws Exception {
-        operator.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.connect.sink;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -31,22 +32,15 @@ class NgsiSinkIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static ConnectRig rig;
+
+    @AutoClose
     private final FakeContextBroker broker = new FakeContextBroker();
 
     @BeforeAll
     static void startWorker() {
         rig = ConnectRig.start(directory);
-    }
-
-    @AfterAll
-    static void stopWorker() {
-        rig.close();
-    }
-
-    @AfterEach
-    void stopBroker() {
-        broker.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.connect.source;
 
+import org.junit.jupiter.api.AutoClose;
 import java.net.http.HttpResponse;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
@@ -36,16 +37,12 @@ class NgsiOffsetsIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static ConnectRig rig;
 
     @BeforeAll
     static void startWorker() {
         rig = ConnectRig.start(directory, Map.of("exactly.once.source.support", "enabled"));
-    }
-
-    @AfterAll
-    static void stopWorker() {
-        rig.close();
     }
 
     @Tag("full")

@@ -1,5 +1,6 @@
 package io.furrow.connect.source;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -41,23 +42,15 @@ class NgsiRepairIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static ConnectRig rig;
 
+    @AutoClose
     private final Broker broker = new Broker(FiwareSettings.httpOnly().withConnections(Connections.TRANSIENT), "agri");
 
     @BeforeAll
     static void startWorker() {
         rig = ConnectRig.start(directory);
-    }
-
-    @AfterAll
-    static void stopWorker() {
-        rig.close();
-    }
-
-    @AfterEach
-    void stopBroker() {
-        broker.close();
     }
 
     @Test

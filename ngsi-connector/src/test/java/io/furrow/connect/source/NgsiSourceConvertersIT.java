@@ -1,5 +1,6 @@
 package io.furrow.connect.source;
 
+import org.junit.jupiter.api.AutoClose;
 import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.util.HashMap;
@@ -28,16 +29,12 @@ class NgsiSourceConvertersIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static ConnectRig rig;
 
     @BeforeAll
     static void startWorker() {
         rig = ConnectRig.start(directory);
-    }
-
-    @AfterAll
-    static void stopWorker() {
-        rig.close();
     }
 
     @Test

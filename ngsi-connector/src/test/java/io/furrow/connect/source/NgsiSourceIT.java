@@ -1,5 +1,6 @@
 package io.furrow.connect.source;
 
+import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
@@ -34,6 +35,7 @@ class NgsiSourceIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static ConnectRig rig;
 
     private final HttpClient client =
@@ -43,11 +45,6 @@ class NgsiSourceIT {
     @BeforeAll
     static void startWorker() {
         rig = ConnectRig.start(directory);
-    }
-
-    @AfterAll
-    static void stopWorker() {
-        rig.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.connect.source;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -35,12 +36,8 @@ class SubscriptionManagerTest {
     @TempDir
     private Path directory;
 
+    @AutoClose
     private final Broker broker = new Broker(FiwareSettings.httpOnly(), "");
-
-    @AfterEach
-    void stopBroker() {
-        broker.close();
-    }
 
     @Test
     void carryTheSecretAndTheHttpsAddressOfTheListener() throws Exception {

@@ -1,5 +1,6 @@
 package io.furrow.replay.source;
 
+import org.junit.jupiter.api.AutoClose;
 import java.util.List;
 import java.util.concurrent.CopyOnWriteArrayList;
 
@@ -24,7 +25,9 @@ class PageReaderTest {
 
     private final MemoryRecordings missions = new MemoryRecordings().with("m", TIME, TIME + 10, TIME + 20, TIME + 30);
     private final List<ReadResult> answers = new CopyOnWriteArrayList<>();
+    @AutoClose
     private final PageReader pages = new PageReader(
+
             DesiredReplay.started("m", Topics.replay("m", "0a1b2c3d"), ReplayPlan.PLAIN, 1, 0, 1),
             () -> {},
             new RunningReplay.Reading(
@@ -36,11 +39,6 @@ class PageReaderTest {
                     ReplayClock.SYSTEM,
                     replay -> {}),
             answers::add);
-
-    @AfterEach
-    void close() {
-        pages.close();
-    }
 
     @Test
     void abandonsWhatASeekReadsForANewerOne() {

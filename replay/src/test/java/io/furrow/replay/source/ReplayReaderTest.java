@@ -1,5 +1,6 @@
 package io.furrow.replay.source;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
@@ -40,6 +41,7 @@ class ReplayReaderTest {
     private final List<Long> times = new ArrayList<>();
     private final OnePartition topics = new OnePartition();
     private final AtomicLong ahead = new AtomicLong();
+    @AutoClose
     private ReplayReader reader = newReader(ReplayClock.SYSTEM);
 
     private ReplayReader newReader(ReplayClock clock) {
@@ -47,11 +49,6 @@ class ReplayReaderTest {
                 new ReplayReader(context, RecordingSources.of(missions), new PageLimits(2, 1_000), topics, clock);
         fresh.start();
         return fresh;
-    }
-
-    @AfterEach
-    void close() {
-        reader.close();
     }
 
     static DesiredReplay desired(String mission, double speed, State state, long sequence) {

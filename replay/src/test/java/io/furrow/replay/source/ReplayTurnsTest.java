@@ -1,5 +1,6 @@
 package io.furrow.replay.source;
 
+import org.junit.jupiter.api.AutoClose;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
@@ -33,7 +34,9 @@ class ReplayTurnsTest {
     private final MemoryRecordings missions = new MemoryRecordings();
     private final FakeContext context = new FakeContext();
     private final List<TopicRecord> records = new ArrayList<>();
+    @AutoClose
     private final ReplayReader reader = new ReplayReader(
+
             context,
             RecordingSources.of(missions),
             new PageLimits(EVENTS, 1_000_000),
@@ -47,11 +50,6 @@ class ReplayTurnsTest {
 
     ReplayTurnsTest() {
         reader.start();
-    }
-
-    @AfterEach
-    void close() {
-        reader.close();
     }
 
     /** Paused, with its first page read. */

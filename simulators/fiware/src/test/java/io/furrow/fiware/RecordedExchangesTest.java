@@ -1,5 +1,6 @@
 package io.furrow.fiware;
 
+import org.junit.jupiter.api.AutoClose;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -16,12 +17,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The stand-in is asked what Orion and the IoT Agent were asked, in the same order, and answers the same. */
 class RecordedExchangesTest {
+    @AutoClose
     private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
-
-    @AfterEach
-    void stop() {
-        standIn.close();
-    }
 
     @TestFactory
     Stream<DynamicTest> answersAsRecorded() throws Exception {

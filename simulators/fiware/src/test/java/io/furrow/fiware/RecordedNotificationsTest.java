@@ -1,5 +1,6 @@
 package io.furrow.fiware;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.net.URISyntaxException;
 import java.nio.file.Files;
@@ -28,8 +29,12 @@ class RecordedNotificationsTest {
     private static final int SUBSCRIPTIONS = 7;
 
     private final SettableClock clock = new SettableClock();
+    @AutoClose
     private final NotificationReceiver receiver = new NotificationReceiver();
+
+    @AutoClose
     private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly(), clock);
+
     private final Client client = Client.of(standIn.contextBroker());
 
     @BeforeEach
@@ -42,12 +47,6 @@ class RecordedNotificationsTest {
                 "onlyChangedAttrs": true,
                 "metadata": ["dateCreated", "dateModified", "actionType", "previousValue", "*"]""");
         subscribe("withdates", "\"attrs\": [\"moisture\", \"dateModified\", \"dateCreated\", \"servicePath\"]");
-    }
-
-    @AfterEach
-    void stop() {
-        standIn.close();
-        receiver.close();
     }
 
     @Test

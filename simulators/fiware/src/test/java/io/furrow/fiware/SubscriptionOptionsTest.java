@@ -1,5 +1,6 @@
 package io.furrow.fiware;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.net.InetAddress;
 import java.net.ServerSocket;
@@ -21,15 +22,13 @@ import static org.awaitility.Awaitility.await;
 
 /** What a client may ask of a subscription, and what it is notified of its life. */
 class SubscriptionOptionsTest {
+    @AutoClose
     private final NotificationReceiver receiver = new NotificationReceiver();
-    private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
-    private final Client client = Client.of(standIn.contextBroker());
 
-    @AfterEach
-    void stop() {
-        standIn.close();
-        receiver.close();
-    }
+    @AutoClose
+    private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
+
+    private final Client client = Client.of(standIn.contextBroker());
 
     @ParameterizedTest
     @CsvSource(

@@ -1,5 +1,6 @@
 package io.furrow.cli;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.ByteArrayInputStream;
 import java.io.PrintWriter;
 import java.io.StringWriter;
@@ -40,16 +41,12 @@ class CatalogIT {
     @TempDir
     static Path folder;
 
+    @AutoClose
     private static EmbeddedKafka kafka;
 
     @BeforeAll
     static void start() throws Exception {
         kafka = EmbeddedKafka.start(folder, 0);
-    }
-
-    @AfterAll
-    static void stop() throws Exception {
-        kafka.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.cli;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.PrintWriter;
 import java.io.StringWriter;
 import java.nio.charset.StandardCharsets;
@@ -42,16 +43,12 @@ class DeadLettersIT {
     /** Not long ago: the broker's retention goes by the record timestamp. */
     private static final long TIME = System.currentTimeMillis() - 60_000;
 
+    @AutoClose
     private static EmbeddedKafka kafka;
 
     @BeforeAll
     static void start() {
         kafka = EmbeddedKafka.start(directory);
-    }
-
-    @AfterAll
-    static void stop() {
-        kafka.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision.grid;
 
+import org.junit.jupiter.api.AutoClose;
 import java.util.List;
 import java.util.Map;
 
@@ -27,17 +28,13 @@ class AssignCarriersTest {
     private static final long DAY = 86_400_000;
     private static final long KEPT = 30 * DAY;
 
+    @AutoClose
     private KeyedTwoInputStreamOperatorTestHarness<Device, PositionFix, DeviceChange, PositionFix> operator;
 
     @BeforeEach
     void start() throws Exception {
         create();
         operator.open();
-    }
-
-    @AfterEach
-    void stop() throws Exception {
-        operator.close();
     }
 
     @Test

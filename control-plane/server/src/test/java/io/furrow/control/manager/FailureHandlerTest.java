@@ -1,5 +1,6 @@
 package io.furrow.control.manager;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Properties;
@@ -31,12 +32,8 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** A processor that fails where nobody expected it. */
 class FailureHandlerTest {
+    @AutoClose
     private TopologyTestDriver driver;
-
-    @AfterEach
-    void close() {
-        driver.close();
-    }
 
     private static final class Failing extends ContextualProcessor<String, byte[], String, byte[]> {
         @Override

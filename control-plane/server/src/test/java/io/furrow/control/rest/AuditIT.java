@@ -1,5 +1,6 @@
 package io.furrow.control.rest;
 
+import org.junit.jupiter.api.AutoClose;
 import java.net.http.HttpResponse;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
@@ -35,6 +36,7 @@ class AuditIT {
     private static final int ENTRIES = AuditHistory.READ + 3 * StateView.AUDITED;
     private static final Pattern NEXT = Pattern.compile("<(/[^>]+)>; ?rel=\"next\"");
 
+    @AutoClose
     private RunningApi running;
 
     @BeforeAll
@@ -55,11 +57,6 @@ class AuditIT {
         String mission = i == 0 || i == ENTRIES - 5 ? "rare" : "usual";
         return """
                 {"time":%d,"user":"olga","target":"device","command":"on","about":{"mission":"%s"},"result":"sent"}""".formatted(i, mission).getBytes(StandardCharsets.UTF_8);
-    }
-
-    @AfterAll
-    void stop() {
-        running.close();
     }
 
     private record Page(List<Integer> times, String next) {}

@@ -1,5 +1,6 @@
 package io.furrow.control.rest;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.file.Path;
 import java.time.Clock;
 
@@ -19,18 +20,15 @@ import static org.awaitility.Awaitility.await;
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 @Tag("full")
 class RefusedRequestsIT {
+    @AutoClose
     private RunningApi running;
+
     private ApiClient client;
 
     @BeforeAll
     void start(@TempDir Path directory) throws Exception {
         running = new RunningApi(directory);
         client = running.client();
-    }
-
-    @AfterAll
-    void stop() throws Exception {
-        running.close();
     }
 
     /** The answer of another request would say that something was done which was not. */

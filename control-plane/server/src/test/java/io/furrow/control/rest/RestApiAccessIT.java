@@ -1,5 +1,6 @@
 package io.furrow.control.rest;
 
+import org.junit.jupiter.api.AutoClose;
 import java.net.Socket;
 import java.net.SocketTimeoutException;
 import java.net.URI;
@@ -29,7 +30,9 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class RestApiAccessIT {
     private Path directory;
+    @AutoClose
     private RunningApi running;
+
     private ApiClient client;
 
     @BeforeAll
@@ -37,11 +40,6 @@ class RestApiAccessIT {
         directory = temporary;
         running = new RunningApi(directory);
         client = running.client();
-    }
-
-    @AfterAll
-    void stop() {
-        running.close();
     }
 
     /** Each would occupy a thread for as long as it likes. */

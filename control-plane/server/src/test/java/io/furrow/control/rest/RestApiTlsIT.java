@@ -1,5 +1,6 @@
 package io.furrow.control.rest;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.io.InputStream;
 import java.net.URI;
@@ -46,7 +47,9 @@ import static org.awaitility.Awaitility.await;
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 class RestApiTlsIT {
     private Path directory;
+    @AutoClose
     private EmbeddedKafka kafka;
+
     private SelfSignedCertificate first;
     private SelfSignedCertificate second;
     private RestApi api;
@@ -64,11 +67,6 @@ class RestApiTlsIT {
         if (api != null) {
             api.close();
         }
-    }
-
-    @AfterAll
-    void stopKafka() {
-        kafka.close();
     }
 
     @Test

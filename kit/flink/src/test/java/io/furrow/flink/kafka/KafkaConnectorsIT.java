@@ -1,5 +1,6 @@
 package io.furrow.flink.kafka;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -40,7 +41,9 @@ class KafkaConnectorsIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static EmbeddedKafka embedded;
+
     private static String bootstrapServers;
 
     /** A record without what two copies may differ in. */
@@ -52,13 +55,6 @@ class KafkaConnectorsIT {
         if (bootstrapServers == null) {
             embedded = EmbeddedKafka.start(directory);
             bootstrapServers = embedded.bootstrapServers();
-        }
-    }
-
-    @AfterAll
-    static void stop() {
-        if (embedded != null) {
-            embedded.close();
         }
     }
 

@@ -1,5 +1,6 @@
 package io.furrow.flink.kafka;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
@@ -49,19 +50,16 @@ class LimitRecordSizeIT {
     @TempDir
     static Path directory;
 
+    @AutoClose
     private static EmbeddedKafka kafka;
+
+    @AutoClose
     private static Admin admin;
 
     @BeforeAll
     static void start() {
         kafka = EmbeddedKafka.start(directory);
         admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()));
-    }
-
-    @AfterAll
-    static void stop() {
-        admin.close();
-        kafka.close();
     }
 
     @Test

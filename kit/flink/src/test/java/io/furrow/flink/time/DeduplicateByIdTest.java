@@ -1,5 +1,6 @@
 package io.furrow.flink.time;
 
+import org.junit.jupiter.api.AutoClose;
 import java.time.Duration;
 import java.util.Map;
 
@@ -25,17 +26,13 @@ class DeduplicateByIdTest {
     private static final long FORGOTTEN = WINDOW.toMillis() * 12 / 10;
 
     private OperatorMetrics metrics;
+    @AutoClose
     private KeyedOneInputStreamOperatorTestHarness<String, String, String> operator;
 
     @BeforeEach
     void open() throws Exception {
         create();
         operator.open();
-    }
-
-    @AfterEach
-    void close() throws Exception {
-        operator.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.kafka.secret;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Instant;
@@ -37,16 +38,12 @@ class SecretTopicIT {
 
     private final FarmSecret first = FarmSecret.generate();
     private final FarmSecret second = first.rotated(NOW, NOW.plusSeconds(60), false);
+    @AutoClose
     private EmbeddedKafka kafka;
 
     @BeforeAll
     void start(@TempDir Path directory) throws IOException {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
-    }
-
-    @AfterAll
-    void stop() {
-        kafka.close();
     }
 
     @BeforeEach

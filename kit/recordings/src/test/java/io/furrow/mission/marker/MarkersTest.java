@@ -1,5 +1,6 @@
 package io.furrow.mission.marker;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.ByteArrayOutputStream;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
@@ -25,19 +26,16 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class MarkersTest {
     private static final long TIME = RandomEvents.TIME;
 
+    @AutoClose
     private static EmbeddedMongo mongo;
+
+    @AutoClose
     private static MongoClient client;
 
     @BeforeAll
     static void connect() {
         mongo = EmbeddedMongo.inMemory();
         client = MongoClients.create(mongo.uri());
-    }
-
-    @AfterAll
-    static void leaveNothingBehind() {
-        client.close();
-        mongo.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.mission.mongo;
 
+import org.junit.jupiter.api.AutoClose;
 import java.time.Duration;
 import java.util.Arrays;
 import java.util.Date;
@@ -25,19 +26,16 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class EventDensityTest {
     private static final long TIME = RandomEvents.TIME;
 
+    @AutoClose
     private static EmbeddedMongo mongo;
+
+    @AutoClose
     private static MongoClient client;
 
     @BeforeAll
     static void connect() {
         mongo = EmbeddedMongo.inMemory();
         client = MongoClients.create(mongo.uri());
-    }
-
-    @AfterAll
-    static void leaveNothingBehind() {
-        client.close();
-        mongo.close();
     }
 
     private static MongoCollection<Document> collection(String database, String mission) {

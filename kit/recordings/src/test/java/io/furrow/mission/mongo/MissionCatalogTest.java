@@ -1,5 +1,6 @@
 package io.furrow.mission.mongo;
 
+import org.junit.jupiter.api.AutoClose;
 import java.time.Duration;
 import java.util.List;
 import java.util.Optional;
@@ -32,8 +33,12 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class MissionCatalogTest {
     private static final String LONG = "Fräse und Striegel auf dem nördlichen Feld hinter dem großen Hügel";
 
+    @AutoClose
     private EmbeddedMongo mongo;
+
+    @AutoClose
     private MongoClient client;
+
     private MongoDatabase database;
 
     @BeforeEach
@@ -41,12 +46,6 @@ class MissionCatalogTest {
         mongo = EmbeddedMongo.inMemory();
         client = MongoClients.create(mongo.uri());
         database = client.getDatabase(MongoAccess.DATABASE);
-    }
-
-    @AfterEach
-    void disconnect() {
-        client.close();
-        mongo.close();
     }
 
     @Test

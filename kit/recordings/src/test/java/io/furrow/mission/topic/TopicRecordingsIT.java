@@ -1,5 +1,6 @@
 package io.furrow.mission.topic;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.ByteArrayInputStream;
 import java.io.ByteArrayOutputStream;
 import java.io.ObjectInputStream;
@@ -51,19 +52,16 @@ class TopicRecordingsIT {
     @TempDir
     Path temporary;
 
+    @AutoClose
     private static EmbeddedKafka kafka;
+
+    @AutoClose
     private static Admin admin;
 
     @BeforeAll
     static void start() {
         kafka = EmbeddedKafka.start(log);
         admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()));
-    }
-
-    @AfterAll
-    static void stop() {
-        admin.close();
-        kafka.close();
     }
 
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.connect.source.http;
 
+import org.junit.jupiter.api.AutoClose;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -22,14 +23,11 @@ class AdmissionQueueTest {
     private static final CompletableFuture<Void> DURABLE = CompletableFuture.completedFuture(null);
 
     private final Ledger ledger = new Ledger();
+    @AutoClose
     private final AdmissionQueue admissionQueue = new AdmissionQueue(this::take, ledger);
+
     private volatile boolean room;
     private volatile boolean broken;
-
-    @AfterEach
-    void close() {
-        admissionQueue.close();
-    }
 
     @Test
     void goesOnAfterAnErrorWhileSomeWait() {

@@ -1,5 +1,6 @@
 package io.furrow.connect.source.http;
 
+import org.junit.jupiter.api.AutoClose;
 import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
@@ -21,12 +22,8 @@ import static org.awaitility.Awaitility.await;
 class NotificationServerTest {
     private static final int MAX_BODY = 100_000;
 
+    @AutoClose
     private final NotificationRig rig = new NotificationRig("max.body.bytes", Integer.toString(MAX_BODY));
-
-    @AfterEach
-    void stop() {
-        rig.close();
-    }
 
     @Test
     void answersOnlyWhenTheRecordsAreDurable() {

@@ -1,5 +1,6 @@
 package io.furrow.simulators.fleet;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
 import java.net.URI;
@@ -47,8 +48,12 @@ class FarmFleetTest {
                 {"type": "WeatherStation", "id": "w", "at": {"latitude": 40.3, "longitude": -3.4}, "period": "PT0.05S"}]}]}
             """;
 
+    @AutoClose
     private static EmbeddedMqtt mqtt;
+
+    @AutoClose
     private static FiwareStandIn fiware;
+
     private FarmFleet fleet;
     private MqttTestClient listener;
 
@@ -56,12 +61,6 @@ class FarmFleetTest {
     static void startEnds() throws Exception {
         mqtt = EmbeddedMqtt.start(Map.of("farmer", "plough"));
         fiware = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "farmer", "plough"));
-    }
-
-    @AfterAll
-    static void stopEnds() {
-        fiware.close();
-        mqtt.close();
     }
 
     @AfterEach

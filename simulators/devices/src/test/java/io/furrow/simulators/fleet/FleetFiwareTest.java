@@ -1,5 +1,6 @@
 package io.furrow.simulators.fleet;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
 import java.net.URI;
@@ -36,16 +37,12 @@ class FleetFiwareTest {
             {"type": "Robot", "id": "r1", "period": "PT0.05S", "route": [{"latitude": 40.31, "longitude": -3.48}]}
             """;
 
+    @AutoClose
     private static FiwareServers ends;
 
     @BeforeAll
     static void start() throws IOException {
         ends = new FiwareServers();
-    }
-
-    @AfterAll
-    static void stop() {
-        ends.close();
     }
 
     @BeforeEach

@@ -1,5 +1,6 @@
 package io.furrow.simulators.host;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
@@ -32,18 +33,15 @@ class DeviceHostIT {
     @TempDir
     private static Path directory;
 
+    @AutoClose
     private static HostFixture bench;
+
     private DeviceHost host;
     private MqttTestClient listener;
 
     @BeforeAll
     static void startBench() throws Exception {
         bench = new HostFixture(directory);
-    }
-
-    @AfterAll
-    static void stopBench() {
-        bench.close();
     }
 
     @BeforeEach

@@ -1,5 +1,6 @@
 package io.furrow.simulators.load;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.time.Duration;
 import java.util.List;
@@ -23,16 +24,12 @@ import static org.awaitility.Awaitility.await;
 
 @Tag("full")
 class LoadFleetTest {
+    @AutoClose
     private static FiwareServers ends;
 
     @BeforeAll
     static void start() throws IOException {
         ends = new FiwareServers();
-    }
-
-    @AfterAll
-    static void stop() {
-        ends.close();
     }
 
     @AfterEach

@@ -1,5 +1,6 @@
 package io.furrow.fiware.agent;
 
+import org.junit.jupiter.api.AutoClose;
 import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Map;
@@ -33,6 +34,7 @@ class IotAgentTest {
     private static final Map<String, String> PASSWORDS = Map.of("agent", "secret", "device", "hidden");
 
     /** One for all tests: its stop takes 2 s. */
+    @AutoClose
     private static EmbeddedMqtt mqtt;
 
     private final FiwareStandIn standIn = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "agent", "secret"));
@@ -44,11 +46,6 @@ class IotAgentTest {
     @BeforeAll
     static void startBroker() {
         mqtt = EmbeddedMqtt.start(PASSWORDS);
-    }
-
-    @AfterAll
-    static void stopBroker() {
-        mqtt.close();
     }
 
     @BeforeEach

@@ -1,5 +1,6 @@
 package io.furrow.fiware.api;
 
+import org.junit.jupiter.api.AutoClose;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -17,18 +18,15 @@ import io.furrow.fiware.http.LoopbackServer;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class NgsiV2ApiTest {
+    @AutoClose
     private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
+
     private final Client client = Client.of(standIn.contextBroker());
 
     @BeforeEach
     void storeTwoProbes() {
         create(1, 20.5);
         create(2, 30);
-    }
-
-    @AfterEach
-    void stop() {
-        standIn.close();
     }
 
     @ParameterizedTest

@@ -1,5 +1,6 @@
 package io.furrow.fiware.broker;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.net.InetAddress;
 import java.net.ServerSocket;
@@ -20,15 +21,13 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 class SubscriptionTest {
+    @AutoClose
     private final NotificationReceiver receiver = new NotificationReceiver();
-    private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
-    private final Client client = Client.of(standIn.contextBroker());
 
-    @AfterEach
-    void stop() {
-        standIn.close();
-        receiver.close();
-    }
+    @AutoClose
+    private final FiwareStandIn standIn = FiwareStandIn.start(FiwareSettings.httpOnly());
+
+    private final Client client = Client.of(standIn.contextBroker());
 
     @Test
     void notifiesEachEntityOfABatchByItself() {

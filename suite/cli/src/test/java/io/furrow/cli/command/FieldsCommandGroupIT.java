@@ -1,5 +1,6 @@
 package io.furrow.cli.command;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.PrintWriter;
 import java.io.StringWriter;
 import java.nio.charset.StandardCharsets;
@@ -39,6 +40,7 @@ class FieldsCommandGroupIT {
     @TempDir
     static Path folder;
 
+    @AutoClose
     private static EmbeddedKafka kafka;
 
     private final StringWriter err = new StringWriter();
@@ -46,11 +48,6 @@ class FieldsCommandGroupIT {
     @BeforeAll
     static void start() throws Exception {
         kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
-    }
-
-    @AfterAll
-    static void stop() throws Exception {
-        kafka.close();
     }
 
     @AfterEach

@@ -1,5 +1,6 @@
 package io.furrow.cli.command;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.PrintWriter;
 import java.io.StringWriter;
 import java.nio.charset.StandardCharsets;
@@ -29,16 +30,12 @@ class MissionCommandGroupTest {
     @TempDir
     private Path directory;
 
+    @AutoClose
     private EmbeddedMongo mongo;
 
     @BeforeEach
     void start() {
         mongo = EmbeddedMongo.start(directory.resolve("mongo"));
-    }
-
-    @AfterEach
-    void stop() {
-        mongo.close();
     }
 
     @Test

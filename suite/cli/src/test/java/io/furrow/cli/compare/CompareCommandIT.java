@@ -1,5 +1,6 @@
 package io.furrow.cli.compare;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.PrintWriter;
 import java.io.StringWriter;
 import java.nio.file.Files;
@@ -38,6 +39,7 @@ class CompareCommandIT {
     @TempDir
     static Path folder;
 
+    @AutoClose
     private static EmbeddedKafka kafka;
 
     @BeforeAll
@@ -67,11 +69,6 @@ class CompareCommandIT {
             producer.flush();
             producer.abortTransaction();
         }
-    }
-
-    @AfterAll
-    static void stops() throws Exception {
-        kafka.close();
     }
 
     private static void send(KafkaProducer<byte[], byte[]> producer, String topic, Integer epoch, Entity entity) {

@@ -1,5 +1,6 @@
 package io.furrow.launcher.command;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.PrintWriter;
 import java.io.StringWriter;
 import java.net.URI;
@@ -35,19 +36,16 @@ class ScenarioCommandIT {
 
     private final StringWriter out = new StringWriter();
     private final StringWriter err = new StringWriter();
+    @AutoClose
     private EmbeddedMqtt mqtt;
+
+    @AutoClose
     private FiwareStandIn fiware;
 
     @BeforeEach
     void start() {
         mqtt = EmbeddedMqtt.start(Map.of(Suite.MQTT_USER, Suite.MQTT_PASSWORD));
         fiware = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), Suite.MQTT_USER, Suite.MQTT_PASSWORD));
-    }
-
-    @AfterEach
-    void stop() {
-        fiware.close();
-        mqtt.close();
     }
 
     @Test

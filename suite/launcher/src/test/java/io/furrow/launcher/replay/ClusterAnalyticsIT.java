@@ -1,5 +1,6 @@
 package io.furrow.launcher.replay;
 
+import org.junit.jupiter.api.AutoClose;
 import java.io.OutputStream;
 import java.net.URI;
 import java.nio.file.Files;
@@ -36,12 +37,8 @@ class ClusterAnalyticsIT {
     @TempDir
     Path folder;
 
+    @AutoClose
     private MiniCluster cluster;
-
-    @AfterEach
-    void stop() throws Exception {
-        cluster.close();
-    }
 
     /** The jar is empty: the cluster is in this JVM, and has the job's classes. */
     @Test

@@ -1,5 +1,6 @@
 package io.furrow.control.rest.view;
 
+import org.junit.jupiter.api.AutoClose;
 import java.time.Clock;
 import java.time.Instant;
 import java.time.ZoneId;
@@ -30,12 +31,8 @@ class EventTilesTest {
 
     private final Counter counter = new Counter();
     private final SettableClock clock = new SettableClock();
+    @AutoClose
     private final EventTiles tiles = new EventTiles(counter, clock);
-
-    @AfterEach
-    void close() {
-        tiles.close();
-    }
 
     /** Counts one event in each bucket. */
     private static final class Counter implements EventTiles.Counter {
