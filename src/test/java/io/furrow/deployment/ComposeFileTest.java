@@ -46,9 +46,6 @@ class ComposeFileTest {
 
     private final ComposeFile compose = ComposeFile.read();
 
-    @TempDir
-    Path directory;
-
     ComposeFileTest() throws IOException {}
 
     @Test
@@ -114,7 +111,7 @@ class ComposeFileTest {
     }
 
     @Test
-    void takesFromTheEnvironmentWhatInitMakes() throws IOException {
+    void takesFromTheEnvironmentWhatInitMakes(@TempDir Path directory) throws IOException {
         Path file = directory.resolve(".env");
         assertThat(Furrow.commandLine().execute("init", file.toString())).isZero();
 

@@ -37,11 +37,8 @@ class MissionsIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final HttpClient HTTP = HttpClient.newHttpClient();
 
-    @TempDir
-    Path stored;
-
     @Test
-    void startsAMissionOfAHundredDevicesGoesOnAfterARestartAndStopsIt(TestReporter reporter) throws Exception {
+    void startsAMissionOfAHundredDevicesGoesOnAfterARestartAndStopsIt(TestReporter reporter, @TempDir Path stored) throws Exception {
         try (RunningSuite running = RunningSuite.start(stored)) {
             Suite suite = running.suite();
             suite.kafka()
@@ -78,7 +75,7 @@ class MissionsIT {
     }
 
     @Test
-    void goesOnReportingThroughARotationOfTheFarmsSecret() throws Exception {
+    void goesOnReportingThroughARotationOfTheFarmsSecret(@TempDir Path stored) throws Exception {
         try (RunningSuite running =
                 RunningSuite.start(stored, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();
@@ -121,7 +118,7 @@ class MissionsIT {
 
     /** As somebody who sets up a device by hand, and errs. */
     @Test
-    void reportsWhyADeviceIsSilent() throws Exception {
+    void reportsWhyADeviceIsSilent(@TempDir Path stored) throws Exception {
         try (RunningSuite running =
                 RunningSuite.start(stored, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();

@@ -20,16 +20,13 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class PartsThatAlreadyRunIT {
     @TempDir
-    Path directory;
-
-    @TempDir
     Path documents;
 
     @TempDir
     Path stored;
 
     @Test
-    void usesTheContextBrokerTheKafkaAndTheMongoThatItIsGiven() throws Exception {
+    void usesTheContextBrokerTheKafkaAndTheMongoThatItIsGiven(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory);
                 EmbeddedMongo mongo = EmbeddedMongo.start(documents);
                 FiwareStandIn orion = FiwareStandIn.start(FiwareSettings.httpOnly());

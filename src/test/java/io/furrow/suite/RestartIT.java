@@ -15,11 +15,8 @@ import static org.awaitility.Awaitility.await;
 class RestartIT {
     private static final int EVENTS = 20;
 
-    @TempDir
-    Path stored;
-
     @Test
-    void goesOnWhereItWasAfterARestart() throws Exception {
+    void goesOnWhereItWasAfterARestart(@TempDir Path stored) throws Exception {
         try (RunningSuite first = RunningSuite.start(stored)) {
             send(first, 0);
             awaitRouted(first, EVENTS);

@@ -50,11 +50,8 @@ class ImageStageJobTest {
 
     private static final long TIME = 1_700_000_000_000L;
 
-    @TempDir
-    Path folder;
-
     @Test
-    void sendsAReferenceToDomainAndMissionAndAManifest() throws Exception {
+    void sendsAReferenceToDomainAndMissionAndAManifest(@TempDir Path folder) throws Exception {
         byte[] image = png();
         TopicRecord camera = camera("c1", 0, image);
 
@@ -88,7 +85,7 @@ class ImageStageJobTest {
     }
 
     @Test
-    void storesEveryImageOfManyCameras() throws Exception {
+    void storesEveryImageOfManyCameras(@TempDir Path folder) throws Exception {
         List<TopicRecord> records = new ArrayList<>();
         byte[] image = png();
         for (int i = 0; i < 500; i++) {
@@ -123,7 +120,7 @@ class ImageStageJobTest {
     }
 
     @Test
-    void keepsACatalogueOfWhatPassed() throws Exception {
+    void keepsACatalogueOfWhatPassed(@TempDir Path folder) throws Exception {
         List<TopicRecord> records = new ArrayList<>();
         byte[] image = png();
         for (int i = 0; i < 60; i++) {

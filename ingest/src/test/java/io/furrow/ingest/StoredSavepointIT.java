@@ -27,14 +27,11 @@ import static org.assertj.core.api.Assertions.assertThat;
 /** Savepoints of released states of the job, as {@link StoredSavepoint} writes them, each restored by what the job is now. */
 @Timeout(120)
 class StoredSavepointIT {
-    @TempDir
-    Path directory;
-
     @AutoClose
     private KafkaSuite suite;
 
     @BeforeEach
-    void start() throws Exception {
+    void start(@TempDir Path directory) throws Exception {
         suite = KafkaSuite.start(directory.resolve("kafka"));
         StoredSavepoint.makeTopics(suite);
     }

@@ -40,9 +40,6 @@ class ExtremeRequestsIT {
     private static final int UNDER_WAY = 50;
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
 
-    @TempDir
-    Path directory;
-
     private final Map<String, Http.Answer> overRest = new ConcurrentHashMap<>();
     private final List<AutoCloseable> parts = new ArrayList<>();
     private EmbeddedKafka kafka;
@@ -52,7 +49,7 @@ class ExtremeRequestsIT {
     private int ordinary;
 
     @BeforeEach
-    void start() throws Exception {
+    void start(@TempDir Path directory) throws Exception {
         kafka = part(EmbeddedKafka.start(directory.resolve("kafka")));
         FiwareStandIn fiware = part(FiwareStandIn.start(FiwareSettings.httpOnly()));
         control = part(new ControlProcess(

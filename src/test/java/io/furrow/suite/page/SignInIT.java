@@ -44,9 +44,6 @@ class SignInIT {
     private static final String DASHBOARD = "the-dashboards-own-token-2";
     private static final Pattern MISSIONS = Pattern.compile(".*#/missions$");
 
-    @TempDir
-    Path folder;
-
     private Path tokens;
     private Properties client;
     @AutoClose
@@ -55,7 +52,7 @@ class SignInIT {
     private volatile boolean signedIn;
 
     @BeforeEach
-    void startAControlPlaneThatAsksForTokens(PageSuite suite) throws Exception {
+    void startAControlPlaneThatAsksForTokens(PageSuite suite, @TempDir Path folder) throws Exception {
         client = suite.running().suite().kafka().clientProperties();
         tokens = folder.resolve("tokens");
         allow("vera %s viewer%ndashboard %s admin for-users%n".formatted(VERA, DASHBOARD));

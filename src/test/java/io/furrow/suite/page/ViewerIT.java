@@ -34,11 +34,8 @@ class ViewerIT {
             "^(Stop|Resume|On|Off|Restart|Start|Delete.*|New .*|Create|Import.*|Acknowledge|Mute.*|Close|Replay|Replay .*|Play|Play again|Pause|Step .*|Loop|Add .*|Choose .*|To the moment|Show the moment .*|Start .*)$";
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
 
-    @TempDir
-    Path folder;
-
     @Test
-    void waitsForTheControlPlaneSignsInSeesTheFarmAndIsOfferedNoCommand(PageSuite suite) throws Exception {
+    void waitsForTheControlPlaneSignsInSeesTheFarmAndIsOfferedNoCommand(PageSuite suite, @TempDir Path folder) throws Exception {
         Properties client = suite.running().suite().kafka().clientProperties();
         int port = FreePort.orFree(0);
         RestSettings settings = RestSettings.on(port)

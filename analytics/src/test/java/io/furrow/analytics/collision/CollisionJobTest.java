@@ -48,9 +48,6 @@ class CollisionJobTest {
             .setNumberSlotsPerTaskManager(2)
             .build());
 
-    @TempDir
-    private Path folder;
-
     @Test
     void tellsTheLifeOfAnEncounterAsEntitiesOfItsPair() throws Exception {
         List<TopicRecord> written = run(
@@ -93,7 +90,7 @@ class CollisionJobTest {
     }
 
     @Test
-    void goesByTheTypesZonesAndLimitsOfItsOptions() throws Exception {
+    void goesByTheTypesZonesAndLimitsOfItsOptions(@TempDir Path folder) throws Exception {
         PositionFix corner = Fixes.east("", 20, 0);
         Path yard = Files.writeString(folder.resolve("yard.geojson"), """
             {"features": [{"geometry": {"type": "Polygon", "coordinates":

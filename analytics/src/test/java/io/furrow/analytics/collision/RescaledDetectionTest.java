@@ -70,11 +70,8 @@ class RescaledDetectionTest {
     private static final Gate GATE = new Gate();
     private static List<PositionFix> arrivals;
 
-    @TempDir
-    private Path savepoints;
-
     @Test
-    void tellsTheSameAsAnUndisturbedRun(@InjectMiniCluster MiniCluster cluster) throws Exception {
+    void tellsTheSameAsAnUndisturbedRun(@InjectMiniCluster MiniCluster cluster, @TempDir Path savepoints) throws Exception {
         long seed = System.nanoTime();
         LOG.info("rescaled run from seed {}", seed);
         CollisionRules rules = Worlds.rules(5, 10, false).with(new DebounceRules(1.5, DWELL));

@@ -38,9 +38,6 @@ class MosquittoIT {
             MqttAccount.device(SECRET, "hoeing", DEVICE),
             MqttAccount.device(SECRET, "weeding", "other"));
 
-    @TempDir
-    Path directory;
-
     @AutoClose
     private ProvisionedMosquitto broker;
 
@@ -49,7 +46,7 @@ class MosquittoIT {
     private MqttPeer agent;
 
     @BeforeEach
-    void startWithTheAgentAsItsOnlyUser() throws Exception {
+    void startWithTheAgentAsItsOnlyUser(@TempDir Path directory) throws Exception {
         broker = start(directory);
         files = broker.files();
         agent = broker.connect(AGENT, "agent").subscribe("#");

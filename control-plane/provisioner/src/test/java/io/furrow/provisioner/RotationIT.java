@@ -44,9 +44,6 @@ import static org.awaitility.Awaitility.await;
 class RotationIT {
     private static final Duration ACCEPTED = Duration.ofDays(30);
 
-    @TempDir
-    Path directory;
-
     private final DesiredDevice first = DesiredDeviceFixture.thermometer("hoeing", 1);
     private final DesiredDevice second = DesiredDeviceFixture.thermometer("hoeing", 2);
     private final List<AutoCloseable> open = new ArrayList<>();
@@ -60,7 +57,7 @@ class RotationIT {
     private FarmSecret old;
 
     @BeforeEach
-    void startWithTwoDevices() throws Exception {
+    void startWithTwoDevices(@TempDir Path directory) throws Exception {
         kafka = open(EmbeddedKafka.start(directory.resolve("kafka")));
         kafka.createTopics(Stream.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.MISSION_DEVICES, Topics.SECRETS)
                 .map(topic -> new NewTopic(topic, 1, (short) 1).configs(Map.of("cleanup.policy", "compact")))

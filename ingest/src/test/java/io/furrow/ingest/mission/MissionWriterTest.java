@@ -32,16 +32,13 @@ import static org.awaitility.Awaitility.await;
 class MissionWriterTest {
     private final CollectedDeadLetters dead = new CollectedDeadLetters();
 
-    @TempDir
-    private Path directory;
-
     private EmbeddedMongo mongo;
     private MongoClient client;
     private MissionCollections collections;
     private MissionWriter writer;
 
     @BeforeEach
-    void start() {
+    void start(@TempDir Path directory) {
         mongo = EmbeddedMongo.start(directory);
         client = new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=2000", MongoAccess.Waits.of(Duration.ZERO))
                 .open();

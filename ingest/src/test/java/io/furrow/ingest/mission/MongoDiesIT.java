@@ -50,11 +50,8 @@ class MongoDiesIT {
             .setNumberSlotsPerTaskManager(2)
             .build());
 
-    @TempDir
-    private Path directory;
-
     @Test
-    void leavesTheDocumentsOfARunWithoutTheFault() throws Exception {
+    void leavesTheDocumentsOfARunWithoutTheFault(@TempDir Path directory) throws Exception {
         Map<String, TreeSet<String>> undisturbed;
         try (MongoProcess mongo = new MongoProcess(directory.resolve("a"))) {
             job(mongo, Duration.ofMinutes(1), 10 * EVENTS)

@@ -29,9 +29,6 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class BrokerOptionsTest {
-    @TempDir
-    Path directory;
-
     @Test
     void letsTheUrlBeLeftOutWhereItIsOptional() {
         assertThat(options(Optional.of("Empty for none."), Map.of()).url()).isEmpty();
@@ -58,7 +55,7 @@ class BrokerOptionsTest {
     }
 
     @Test
-    void takesTheTokenFromAFileInstead() throws Exception {
+    void takesTheTokenFromAFileInstead(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(directory.resolve("token"), "Bearer x\n");
         Map<String, String> given = Map.of(
                 BrokerOptions.URL,
@@ -107,7 +104,7 @@ class BrokerOptionsTest {
 
     @ParameterizedTest
     @ValueSource(strings = {"trust.p12", "trust.jks", "trust.pem"})
-    void trustsTheCertificatesOfTheFileAndNoOthers(String file) throws Exception {
+    void trustsTheCertificatesOfTheFileAndNoOthers(String file, @TempDir Path directory) throws Exception {
         Path key = directory.resolve("key.p12");
         keytool("-genkeypair", "-alias", "b", "-keyalg", "EC", "-dname", "CN=127.0.0.1", "-ext", "san=ip:127.0.0.1")
                 .on(key);

@@ -22,9 +22,6 @@ class FailingDiskTest {
 
     private final StubbornDisk disk = new StubbornDisk();
 
-    @TempDir
-    private Path parent;
-
     private Path folder;
 
     /** Each damage is a line in the log. */
@@ -39,7 +36,7 @@ class FailingDiskTest {
     }
 
     @BeforeEach
-    void makeFolder() throws Exception {
+    void makeFolder(@TempDir Path parent) throws Exception {
         folder = Files.createDirectory(parent.resolve("0-journal"));
     }
 

@@ -28,9 +28,6 @@ class JournalDamageTest {
     private static final JournalSettings SMALL = new JournalSettings(1024 * 1024, 4 * 1024, 64 * 1024, 0);
     private static final int RECORDS = 60;
 
-    @TempDir
-    private Path parent;
-
     private Path folder;
 
     /** Each damage is a line in the log. */
@@ -45,7 +42,7 @@ class JournalDamageTest {
     }
 
     @BeforeEach
-    void writeARecordForEachNumber() throws Exception {
+    void writeARecordForEachNumber(@TempDir Path parent) throws Exception {
         folder = Files.createDirectory(parent.resolve("0-journal"));
         try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
             for (int i = 0; i < RECORDS; i++) {

@@ -23,13 +23,10 @@ import static org.awaitility.Awaitility.await;
 class JournalTest {
     private static final JournalSettings SMALL = new JournalSettings(64 * 1024, 4 * 1024, 8 * 1024, 0);
 
-    @TempDir
-    private Path parent;
-
     private Path folder;
 
     @BeforeEach
-    void makeFolder() throws IOException {
+    void makeFolder(@TempDir Path parent) throws IOException {
         folder = Files.createDirectory(parent.resolve("0-journal"));
     }
 

@@ -26,16 +26,13 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class RepairPublisherTest {
     private static final Instant T = Instant.parse("2026-11-21T12:00:00Z");
 
-    @TempDir
-    private Path folder;
-
     private final RecordTracker live = new RecordTracker(1 << 20);
     private final List<String> emitted = new ArrayList<>();
     private EntityIdSet known;
     private int refusals;
 
     @BeforeEach
-    void open() throws Exception {
+    void open(@TempDir Path folder) throws Exception {
         known = EntityIdSet.open(folder.resolve("known"), 1 << 20);
     }
 

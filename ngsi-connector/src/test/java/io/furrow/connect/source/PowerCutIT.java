@@ -38,11 +38,8 @@ class PowerCutIT {
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
     private final List<String> answered = new ArrayList<>();
 
-    @TempDir
-    private Path directory;
-
     @Test
-    void hasEveryNotificationThatWasAnsweredThoughTheTopicLostItsEnd() throws Exception {
+    void hasEveryNotificationThatWasAnsweredThoughTheTopicLostItsEnd(@TempDir Path directory) throws Exception {
         int port = FreePort.orFree(0);
         URI source = URI.create("http://127.0.0.1:" + port + "/notify");
         try (ConnectRig rig = ConnectRig.start(directory)) {

@@ -24,9 +24,6 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class JobOptionsTest {
     private static final int REFUSED = 2;
 
-    @TempDir
-    Path directory;
-
     @Test
     void haveTheDefaultsOfTheManual() {
         JobOptions options = parsed("copy");
@@ -45,7 +42,7 @@ class JobOptionsTest {
     }
 
     @Test
-    void takeWhatTheCommandLineSays() throws Exception {
+    void takeWhatTheCommandLineSays(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(directory.resolve("kafka.properties"), "security.protocol=SSL\n");
 
         JobOptions options = parsed(
@@ -135,7 +132,7 @@ class JobOptionsTest {
     }
 
     @Test
-    void refuseAPropertiesFileThatCannotBeRead() throws Exception {
+    void refuseAPropertiesFileThatCannotBeRead(@TempDir Path directory) throws Exception {
         Path missing = directory.resolve("missing.properties");
         Path latin1 = Files.write(directory.resolve("latin1"), "a=ñ".getBytes(StandardCharsets.ISO_8859_1));
         Path broken = Files.writeString(directory.resolve("broken"), "a=\\u12G4\n");

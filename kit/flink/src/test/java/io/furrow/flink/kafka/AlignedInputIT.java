@@ -61,13 +61,10 @@ class AlignedInputIT {
             .getBytes(StandardCharsets.UTF_8);
     private static final long HOUR = Duration.ofHours(1).toMillis();
 
-    @TempDir
-    private Path directory;
-
     private KafkaProducer<byte[], byte[]> producer;
 
     @Test
-    void readsAPartitionThatIsAheadOnlyWhenTheSlowestHasComeCloser() throws Exception {
+    void readsAPartitionThatIsAheadOnlyWhenTheSlowestHasComeCloser(@TempDir Path directory) throws Exception {
         long begin = System.currentTimeMillis() - 10 * HOUR;
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
             Map<String, Object> client = Map.of("bootstrap.servers", kafka.bootstrapServers());
@@ -105,7 +102,7 @@ class AlignedInputIT {
 
     /** Of a farm's rate, 125 a second: the drift of two minutes is read in a fraction of a second. */
     @Test
-    void readsABacklogOfOnePartitionNearlyAsFastAsWithoutAlignment() throws Exception {
+    void readsABacklogOfOnePartitionNearlyAsFastAsWithoutAlignment(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
             kafka.createTopics(List.of(new NewTopic("in", 1, (short) 1)));
             producer =

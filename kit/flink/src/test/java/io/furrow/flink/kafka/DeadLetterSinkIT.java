@@ -32,11 +32,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 @Timeout(120)
 @Tag("full")
 class DeadLetterSinkIT {
-    @TempDir
-    private Path directory;
-
     @Test
-    void makesTheTopicAsTheJobMakesItsTopicsAndShortensWhatItDoesNotTake() throws Exception {
+    void makesTheTopicAsTheJobMakesItsTopicsAndShortensWhatItDoesNotTake(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory);
                 Admin admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()))) {
             AtomicReference<JobOptions> options = new AtomicReference<>();

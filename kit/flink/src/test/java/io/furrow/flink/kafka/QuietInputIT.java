@@ -36,12 +36,9 @@ import static org.awaitility.Awaitility.await;
 class QuietInputIT {
     private static final int CHANGES = 30;
 
-    @TempDir
-    Path directory;
-
     /** Else the first event after a quiet time, and all that follow, would be late. */
     @Test
-    void leavesEventTimeWhereItIsThoughTheStreamBesideItGoesOn() throws Exception {
+    void leavesEventTimeWhereItIsThoughTheStreamBesideItGoesOn(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
             List<Long> seen = new ArrayList<>();
             Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers());

@@ -44,11 +44,8 @@ class PausedReplayIT {
     /** One after the other they take many times the idle timeout. */
     private static final int CHANGES = 30;
 
-    @TempDir
-    Path directory;
-
     @Test
-    void goesOnWhereItWasAndBeginsAnewAfterASeekBack() throws Exception {
+    void goesOnWhereItWasAndBeginsAnewAfterASeekBack(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
             Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers());
             kafka.createTopics(List.of(topic(REPLAY, 2), topic("changes", 1), topic("seen", 1)));

@@ -22,9 +22,6 @@ import io.furrow.model.position.Position;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class GeoJsonExportTest {
-    @TempDir
-    Path folder;
-
     @Test
     void drawsATrackOfWhatMovedAndAPointForWhatStoodStill() throws Exception {
         ByteArrayOutputStream out = new ByteArrayOutputStream();
@@ -73,7 +70,7 @@ class GeoJsonExportTest {
     }
 
     @Test
-    void writesMarkersAsFeaturesWithoutAPlace() throws Exception {
+    void writesMarkersAsFeaturesWithoutAPlace(@TempDir Path folder) throws Exception {
         ByteArrayOutputStream out = new ByteArrayOutputStream();
         Path events = folder.resolve("hoeing.ndjson");
         Files.write(events, List.of());

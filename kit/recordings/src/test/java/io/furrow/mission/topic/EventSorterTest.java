@@ -22,11 +22,8 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class EventSorterTest {
     private static final String[] SIGNS = {"a", "b", "Z", "é", "\uFFFD", "\uD83D\uDE9C"};
 
-    @TempDir
-    Path folder;
-
     @Test
-    void ordersMoreEventsThanItHoldsAndKeepsTheFirstOfDuplicates() throws Exception {
+    void ordersMoreEventsThanItHoldsAndKeepsTheFirstOfDuplicates(@TempDir Path folder) throws Exception {
         long seed = System.nanoTime();
         Random random = new Random(seed);
         for (int events : new int[] {0, 1, 30, 3_000}) {
@@ -57,7 +54,7 @@ class EventSorterTest {
     }
 
     @Test
-    void stopsMergingWhenItsThreadIsInterrupted() throws Exception {
+    void stopsMergingWhenItsThreadIsInterrupted(@TempDir Path folder) throws Exception {
         EventSorter sorter = new EventSorter(new DiskSpace(folder, 0, () -> Long.MAX_VALUE), 2_000);
         sorter.add(new SortedEvent(new Cursor(1, "a"), 0, 0, new byte[0]));
         Thread.currentThread().interrupt();
@@ -67,7 +64,7 @@ class EventSorterTest {
     }
 
     @Test
-    void leavesRoomOnTheDiskAlsoWhileItMerges() throws Exception {
+    void leavesRoomOnTheDiskAlsoWhileItMerges(@TempDir Path folder) throws Exception {
         AtomicLong free = new AtomicLong(30_000_000);
         EventSorter sorter = new EventSorter(new DiskSpace(folder, 20_000_000, free::get), 2_000);
         sorter.add(new SortedEvent(new Cursor(1, "a"), 0, 0, new byte[3_000]));

@@ -31,9 +31,6 @@ class ScenarioCommandIT {
                "where": "yard", "period": "PT0.2S", "meanCelsius": 18}]}]}
             """;
 
-    @TempDir
-    Path directory;
-
     private final StringWriter out = new StringWriter();
     private final StringWriter err = new StringWriter();
     @AutoClose
@@ -49,7 +46,7 @@ class ScenarioCommandIT {
     }
 
     @Test
-    void runsTheDevicesOfAFileUntilTheTimeIsOver() throws Exception {
+    void runsTheDevicesOfAFileUntilTheTimeIsOver(@TempDir Path directory) throws Exception {
         assertThat(run(Files.writeString(directory.resolve("farm.json"), SCENARIO), "--for", "2s"))
                 .as("%s", err)
                 .isZero();
@@ -65,7 +62,7 @@ class ScenarioCommandIT {
     }
 
     @Test
-    void reportsWhatIsWrongWithAFile() throws Exception {
+    void reportsWhatIsWrongWithAFile(@TempDir Path directory) throws Exception {
         String wrong = SCENARIO.replace("PT0.2S", "often");
 
         assertThat(run(Files.writeString(directory.resolve("farm.json"), wrong)))

@@ -28,9 +28,6 @@ class LogFileTest {
     private static final int LINES = 200;
     private static final int TIMEOUT_MS = 60_000;
 
-    @TempDir
-    Path directory;
-
     @AfterEach
     void leaveTheFile() {
         System.clearProperty("furrow.log.size");
@@ -38,7 +35,7 @@ class LogFileTest {
     }
 
     @Test
-    void beginsAnewWhenItIsFullAndRetainsFiveFormerOnes() throws IOException {
+    void beginsAnewWhenItIsFullAndRetainsFiveFormerOnes(@TempDir Path directory) throws IOException {
         System.setProperty("furrow.log.size", "1KB");
         Path log = directory.resolve("furrow.log");
 
@@ -52,7 +49,7 @@ class LogFileTest {
     }
 
     @Test
-    void neverRenamesWhatIsNoFile() throws IOException {
+    void neverRenamesWhatIsNoFile(@TempDir Path directory) throws IOException {
         System.setProperty("furrow.log.size", "1KB");
         Path device = Files.createSymbolicLink(directory.resolve("device"), Path.of("/dev/null"));
 
@@ -69,7 +66,7 @@ class LogFileTest {
     }
 
     @Test
-    void isTheErrorStreamOfAHostOfDevices() throws Exception {
+    void isTheErrorStreamOfAHostOfDevices(@TempDir Path directory) throws Exception {
         Path secret = Files.writeString(directory.resolve("secret"), "0123456789abcdef");
         Files.setPosixFilePermissions(secret, PosixFilePermissions.fromString("rw-r--r--"));
 

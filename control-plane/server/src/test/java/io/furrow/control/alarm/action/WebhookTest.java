@@ -41,9 +41,6 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class WebhookTest {
     private static final long NOW = 1_700_000_000_000L;
 
-    @TempDir
-    Path directory;
-
     private final List<byte[]> posted = Collections.synchronizedList(new ArrayList<>());
     private final List<Headers> headers = Collections.synchronizedList(new ArrayList<>());
     private final ExecutorService threads = Executors.newCachedThreadPool();
@@ -101,7 +98,7 @@ class WebhookTest {
     }
 
     @Test
-    void signsTheBodyWhereThereIsASecret() throws Exception {
+    void signsTheBodyWhereThereIsASecret(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(directory.resolve("secret"), "a-secret-of-some-length\n");
         post(settings().signedWith(file));
         String signature = WebhookSecret.read(file).signature(NOW / 1000, posted.get(0));
@@ -109,7 +106,7 @@ class WebhookTest {
     }
 
     @Test
-    void refusesToStartWithASecretThatIsNone() {
+    void refusesToStartWithASecretThatIsNone(@TempDir Path directory) {
         assertThatThrownBy(() -> new Webhook(settings().signedWith(directory.resolve("nosuch")), Clock.systemUTC()))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("nosuch cannot be read");
