@@ -93,8 +93,7 @@ public final class NumberedEvents {
 
     private static ProducerRecord<String, byte[]> event(Entity entity, long time) {
         Instant now = Instant.ofEpochMilli(time);
-        EntityEvent event =
-                EntityEvent.of(entity, SCOPE, now, EventTimeRule.within(Duration.ZERO), Origin.NOTIFICATION);
+        var event = EntityEvent.of(entity, SCOPE, now, EventTimeRule.within(Duration.ZERO), Origin.NOTIFICATION);
         var record = new ProducerRecord<>(Topics.RAW, null, time, entity.id(), entity.toBytes());
         event.headers("/soak")
                 .forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));

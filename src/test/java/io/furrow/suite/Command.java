@@ -33,8 +33,7 @@ final class Command implements AutoCloseable {
     static Command start(Map<String, String> variables, String... arguments) {
         try {
             Path output = Files.createTempFile("command", ".out");
-            ProcessBuilder builder =
-                    new ProcessBuilder(arguments).redirectErrorStream(true).redirectOutput(output.toFile());
+            var builder = new ProcessBuilder(arguments).redirectErrorStream(true).redirectOutput(output.toFile());
             builder.environment().putAll(variables);
             return new Command(List.of(arguments), builder.start(), output);
         } catch (IOException e) {

@@ -165,8 +165,7 @@ class MissionsIT {
             throws Exception {
         URI broker = suite.devices().mqtt();
         String port = Integer.toString(broker.getPort());
-        List<String> arguments =
-                List.of("mosquitto_pub", "-h", broker.getHost(), "-p", port, "-u", user, "-P", password);
+        var arguments = List.of("mosquitto_pub", "-h", broker.getHost(), "-p", port, "-u", user, "-P", password);
         List<String> about = List.of("-q", "1", "-t", topic, "-m", message);
         try (Command publisher =
                 Command.start(Stream.concat(arguments.stream(), about.stream()).toArray(String[]::new))) {

@@ -91,8 +91,7 @@ public final class Replayed {
      * @param kind {@code event}, {@code prime} or {@code end}
      */
     public static TopicRecord record(TopicRecord live, int epoch, long offset, String kind) {
-        TopicRecord stamped =
-                new TopicRecord(TOPIC, 0, 7, live.timestamp() + offset, live.key(), live.value(), live.headers());
+        var stamped = new TopicRecord(TOPIC, 0, 7, live.timestamp() + offset, live.key(), live.value(), live.headers());
         return stamped.with(Map.of(
                 HeaderNames.REPLAY_EPOCH,
                 Integer.toString(epoch),

@@ -87,8 +87,7 @@ class IngestOnKafkaIT {
         suite.makeTopic("in-devices", 1);
         suite.makeTopic("own.devices", 2);
         for (int sequence = 1; sequence <= 500; sequence++) {
-            DeviceVersion version =
-                    new DeviceVersion("robot", "", "/", "d" + sequence, "", sequence, null, sequence, null);
+            var version = new DeviceVersion("robot", "", "/", "d" + sequence, "", sequence, null, sequence, null);
             suite.write(
                     "own.devices",
                     null,

@@ -19,8 +19,7 @@ class MigratingPageTest {
 
     @Test
     void namesTestsThatExist() throws IOException {
-        List<MatchResult> named =
-                NAMED.matcher(Files.readString(PAGE)).results().toList();
+        var named = NAMED.matcher(Files.readString(PAGE)).results().toList();
 
         assertThat(named)
                 .hasSizeGreaterThan(20)

@@ -96,8 +96,7 @@ final class ReplaySuite implements AutoCloseable {
     /** Events of four devices, one after the other, so many ms apart. */
     void store(String mission, int count, long apart) throws Exception {
         try (MongoClient client = new MongoAccess(mongo.uri(), MongoAccess.Waits.of(TIMEOUT)).open()) {
-            MissionCollections missions =
-                    new MissionCollections(client, Retention.of(null, Map.of()), Clock.systemUTC());
+            var missions = new MissionCollections(client, Retention.of(null, Map.of()), Clock.systemUTC());
             List<RawBsonDocument> events = new ArrayList<>();
             for (int i = 0; i < count; i++) {
                 String id = "urn:d" + i % 4;

@@ -101,8 +101,7 @@ final class ChaosChecks {
                 agent("/iot/devices?limit=1000", "devices", "device_id"),
                 faults);
         FarmSecret secret = farm.secret();
-        Set<String> keys =
-                expected.values().stream().map(secret::apiKey).collect(Collectors.toCollection(TreeSet::new));
+        var keys = expected.values().stream().map(secret::apiKey).collect(Collectors.toCollection(TreeSet::new));
         compare("the IoT Agent's groups", keys, agent("/iot/services", "services", "apikey"), faults);
         Set<String> users = new TreeSet<>();
         desired.forEach((id, device) ->

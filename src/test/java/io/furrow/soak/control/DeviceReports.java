@@ -40,8 +40,7 @@ final class DeviceReports {
     }
 
     private void report(String id) {
-        Entity entity =
-                Entity.builder(id, "Thermometer").number("Temperature", 20).build();
+        var entity = Entity.builder(id, "Thermometer").number("Temperature", 20).build();
         ProducerRecord<String, byte[]> record = new ProducerRecord<>(Topics.RAW, id, entity.toBytes());
         record.headers().add(HeaderNames.SERVICE, "farm".getBytes(StandardCharsets.UTF_8));
         record.headers().add(HeaderNames.SERVICE_PATH, "/".getBytes(StandardCharsets.UTF_8));

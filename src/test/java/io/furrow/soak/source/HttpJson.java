@@ -21,8 +21,7 @@ final class HttpJson {
     /** What is there; an empty object while there is no answer. */
     static JsonNode get(URI uri) {
         try {
-            HttpRequest request =
-                    HttpRequest.newBuilder(uri).timeout(Duration.ofSeconds(5)).build();
+            var request = HttpRequest.newBuilder(uri).timeout(Duration.ofSeconds(5)).build();
             return NgsiJson.mapper()
                     .readTree(CLIENT.send(request, HttpResponse.BodyHandlers.ofByteArray())
                             .body());

@@ -81,8 +81,7 @@ final class Accounts {
         List<String> inMongo = new ArrayList<>();
         int expected = 0;
         int unsynced = 0;
-        Map<String, Map<Report, Integer>> topics =
-                log.all(missions.stream().map(Accounts::topic).toList());
+        var topics = log.all(missions.stream().map(Accounts::topic).toList());
         try (MongoClient mongo = MongoClients.create(farm.mongo())) {
             for (DayMission mission : missions) {
                 Map<Report, Integer> topic = topics.get(topic(mission));

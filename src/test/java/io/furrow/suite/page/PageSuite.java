@@ -81,8 +81,7 @@ final class PageSuite implements AutoCloseable {
 
     /** An answer of the control plane's REST API. */
     JsonNode rest(String path) throws Exception {
-        HttpRequest request =
-                HttpRequest.newBuilder(running.suite().control().resolve(path)).build();
+        var request = HttpRequest.newBuilder(running.suite().control().resolve(path)).build();
         return NgsiJson.mapper()
                 .readTree(HttpClient.newHttpClient()
                         .send(request, HttpResponse.BodyHandlers.ofByteArray())

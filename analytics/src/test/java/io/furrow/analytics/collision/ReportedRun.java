@@ -49,8 +49,7 @@ public final class ReportedRun {
             CollisionOptions options, AfterBroadcast.Metrics metrics, TopicRecord... records) throws Exception {
         List<TopicRecord> all = new ArrayList<>(List.of(record("the first", AfterBroadcast.FIRST - START, null)));
         all.addAll(Arrays.asList(records));
-        AfterBroadcast after =
-                new AfterBroadcast("Assign carriers", options.parallelism().orElse(2), metrics);
+        var after = new AfterBroadcast("Assign carriers", options.parallelism().orElse(2), metrics);
         return run(
                 options,
                 reports -> reports.filter(after).setParallelism(1).uid("after-devices"),

@@ -192,8 +192,7 @@ class PresenceJobTest {
                         story.rules.dwell().toMillis(),
                         story.rules.timeToLive().toMillis())
                 .split(" "));
-        List<TopicRecord> arrivals =
-                story.arrivals().stream().map(PresenceRun::report).toList();
+        var arrivals = story.arrivals().stream().map(PresenceRun::report).toList();
 
         Replayed.assertThatEpochsAreAsAlone(
                 Replayed.epochs(arrivals, middle(story)),

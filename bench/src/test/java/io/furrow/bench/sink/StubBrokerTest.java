@@ -21,8 +21,7 @@ class StubBrokerTest {
 
     @Test
     void notesTheEntitiesOfUpdatesAndKnowsNone() throws Exception {
-        NotificationRequest entities =
-                NotificationRequest.to(InetSocketAddress.createUnresolved("127.0.0.1", 0), 500, 10);
+        var entities = NotificationRequest.to(InetSocketAddress.createUnresolved("127.0.0.1", 0), 500, 10);
         String update = "{\"actionType\":\"append\",\"entities\":[%s,%s]}"
                 .formatted(text(entities.entityWith(3, 0)), text(entities.entityWith(5, 0)));
         try (StubBroker broker = StubBroker.start()) {

@@ -175,8 +175,7 @@ class EmbeddedBrokerTest {
     }
 
     private static MqttClient connect(FarmSecret.Login login) throws MqttException {
-        MqttClient client =
-                new MqttClient(mqtt.uri().toString(), MqttClient.generateClientId(), new MemoryPersistence());
+        var client = new MqttClient(mqtt.uri().toString(), MqttClient.generateClientId(), new MemoryPersistence());
         try {
             client.connect(options(login));
             return client;

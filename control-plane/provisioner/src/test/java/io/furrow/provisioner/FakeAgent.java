@@ -81,8 +81,7 @@ final class FakeAgent implements AutoCloseable {
     }
 
     static FakeAgent start() throws IOException {
-        FakeAgent agent =
-                new FakeAgent(HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0));
+        var agent = new FakeAgent(HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0));
         agent.server.createContext("/", agent::handle);
         agent.server.start();
         return agent;

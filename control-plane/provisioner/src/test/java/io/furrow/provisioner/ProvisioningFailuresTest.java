@@ -218,8 +218,7 @@ class ProvisioningFailuresTest {
         addDesired(1);
         DesiredDevice device = DesiredDeviceFixture.thermometer("old", 1);
         DeviceVersion of = device.version();
-        DeviceVersion version =
-                new DeviceVersion(of.id(), "", "/", of.domain(), of.mission(), 0, null, of.sequence(), null);
+        var version = new DeviceVersion(of.id(), "", "/", of.domain(), of.mission(), 0, null, of.sequence(), null);
         desired.take(
                 version.key(),
                 DesiredDevice.simulated(

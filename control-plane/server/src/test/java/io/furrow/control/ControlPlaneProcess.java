@@ -11,8 +11,7 @@ public final class ControlPlaneProcess {
 
     /** Runs until it is killed. */
     public static void main(String[] args) throws Exception {
-        ControlPlane plane =
-                ControlPlane.start(settings(args[0], args[1]).withStandbyReplicas(Integer.parseInt(args[2])));
+        var plane = ControlPlane.start(settings(args[0], args[1]).withStandbyReplicas(Integer.parseInt(args[2])));
         Thread.currentThread().join();
         plane.close();
     }

@@ -124,8 +124,7 @@ final class FarmWatchFixture implements AutoCloseable {
 
     void addDesired(String id, String type, String mission, boolean running) {
         Long until = running ? null : Long.valueOf(now.toEpochMilli());
-        DeviceVersion version =
-                new DeviceVersion(id, "farm", "/", "north", mission, START.toEpochMilli(), until, 1, null);
+        var version = new DeviceVersion(id, "farm", "/", "north", mission, START.toEpochMilli(), until, 1, null);
         DesiredDevice device = DesiredDevice.simulated(
                 version,
                 type,

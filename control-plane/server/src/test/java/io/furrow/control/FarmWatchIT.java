@@ -215,8 +215,7 @@ class FarmWatchIT {
     }
 
     private void addDesired() {
-        DeviceVersion version =
-                new DeviceVersion(ROBOT, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
+        var version = new DeviceVersion(ROBOT, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
         DesiredDevice device = DesiredDevice.simulated(
                 version,
                 null,

@@ -111,8 +111,7 @@ class ReplayUpkeepIT {
         MongoDatabase missions = opened(MongoClients.create(mongo.uri())).getDatabase("persistence");
         missions.getCollection("mission_weeding")
                 .insertMany(List.of(new Document("_time", new Date(1000)), new Document("_time", new Date(3000))));
-        ReplaySettings settings =
-                ReplaySettings.DEFAULT.withMongo(mongo.uri()).withPollInterval(Duration.ofMillis(100));
+        var settings = ReplaySettings.DEFAULT.withMongo(mongo.uri()).withPollInterval(Duration.ofMillis(100));
         TopicContent recordings = new TopicContent(client, Topics.RECORDINGS);
         for (int i = 0; i < 2; i++) {
             opened(RecordingWatch.start(client, settings, Clock.systemUTC()));

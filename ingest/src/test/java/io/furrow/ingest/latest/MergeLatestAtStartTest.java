@@ -220,8 +220,7 @@ class MergeLatestAtStartTest {
     }
 
     private static ReportedEvent event(String id, String type, long time, byte[] value) {
-        Map<String, String> headers =
-                Map.of(HeaderNames.CE_ID, "e" + time, HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
+        var headers = Map.of(HeaderNames.CE_ID, "e" + time, HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
         TopicRecord record = TopicRecord.of(Topics.RAW, time, id, value, headers);
         return new ReportedEvent("e" + time, "farm|/|" + id, id, type, "", "", record);
     }

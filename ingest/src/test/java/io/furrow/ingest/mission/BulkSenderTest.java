@@ -117,8 +117,7 @@ class BulkSenderTest {
     @Test
     void findsTheOneDocumentAtWhichTheServerBreaksOff() throws Exception {
         List<MissionDocument> documents = new ArrayList<>(documents(0, 9));
-        MissionDocument unfit =
-                new MissionDocument("mission_m", "unfit", new byte[] {9, 0, 0, 0, 1, 'x', 0, 0, 0}, null);
+        var unfit = new MissionDocument("mission_m", "unfit", new byte[] {9, 0, 0, 0, 1, 'x', 0, 0, 0}, null);
         documents.add(4, unfit);
 
         List<BulkSender.Refusal<MissionDocument>> refused = sender().send(documents);

@@ -102,8 +102,7 @@ class MongoDiesIT {
         settings.set(PipelineOptions.OBJECT_REUSE, true);
         StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment(settings);
         env.setParallelism(2);
-        MongoAccess access =
-                new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=200", MongoAccess.Waits.of(timeout));
+        var access = new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=200", MongoAccess.Waits.of(timeout));
         env.fromSource(
                         new DataGeneratorSource<>(
                                 n -> n, EVENTS, RateLimiterStrategy.perSecond(eventsPerSecond), Types.LONG),

@@ -56,8 +56,7 @@ class NormalizeJobTest {
                     simplifiedKeyValues  | {'id':'t','type':'Thermometer','Temperature':21.5,'Time':1700000000000}
                     """)
     void makesTheSameRecordOfEveryFormAsTheSourceWould(String form, String body) throws Exception {
-        Map<String, String> headers =
-                Map.of("Fiware-Service", "farm", "Fiware-Servicepath", "/north", "Ngsiv2-AttrsFormat", form);
+        var headers = Map.of("Fiware-Service", "farm", "Fiware-Servicepath", "/north", "Ngsiv2-AttrsFormat", form);
 
         List<TopicRecord> written = run(options(), notification(null, body, headers));
 

@@ -34,8 +34,7 @@ class JournalLockTest {
                         folder.toString())
                 .redirectError(ProcessBuilder.Redirect.INHERIT)
                 .start();
-        List<String> lines =
-                new String(process.getInputStream().readAllBytes()).lines().toList();
+        var lines = new String(process.getInputStream().readAllBytes()).lines().toList();
         return lines.get(lines.size() - 1);
     }
 }

@@ -54,8 +54,7 @@ class EntityIdSetTest {
 
     @Test
     void keepsLineBreaksAndBackslashesOfAnId() throws IOException {
-        Set<String> strange =
-                Set.of("|/|T|one\n+|/|T|two", "|/|T|a\r\nb", "|/|T|\\n", "|/|T|100%0A\r", "|/|T|\"\ud800%u");
+        var strange = Set.of("|/|T|one\n+|/|T|two", "|/|T|a\r\nb", "|/|T|\\n", "|/|T|100%0A\r", "|/|T|\"\ud800%u");
         try (EntityIdSet known = EntityIdSet.open(folder.resolve("known"), 1 << 20)) {
             for (String identity : strange) {
                 known.add(identity);

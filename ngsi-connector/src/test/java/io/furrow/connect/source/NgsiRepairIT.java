@@ -57,8 +57,7 @@ class NgsiRepairIT {
     void bringsTheLatestStateOfAllEntitiesThatChangedWhileItWasDown() {
         source("repaired", FreePort.orFree(0));
         Map<String, Integer> state = new HashMap<>();
-        List<Integer> all =
-                java.util.stream.IntStream.range(0, ENTITIES).boxed().toList();
+        var all = java.util.stream.IntStream.range(0, ENTITIES).boxed().toList();
         update(all.subList(0, ENTITIES / 2), 0, state);
         update(all.subList(ENTITIES / 2, ENTITIES), 0, state);
         try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "repaired")) {
@@ -146,8 +145,7 @@ class NgsiRepairIT {
         Random random = new Random(seed);
         for (int done = 0; done < UPDATES; done += BATCH) {
             int value = done;
-            List<Integer> some =
-                    random.ints(0, ENTITIES).distinct().limit(BATCH).boxed().toList();
+            var some = random.ints(0, ENTITIES).distinct().limit(BATCH).boxed().toList();
             update(some, value + 1, state);
         }
         for (int i = 0; i < DELETED; i++) {

@@ -45,8 +45,7 @@ class ReplayReaderTest {
     private ReplayReader reader = newReader(ReplayClock.SYSTEM);
 
     private ReplayReader newReader(ReplayClock clock) {
-        ReplayReader fresh =
-                new ReplayReader(context, RecordingSources.of(missions), new PageLimits(2, 1_000), topics, clock);
+        var fresh = new ReplayReader(context, RecordingSources.of(missions), new PageLimits(2, 1_000), topics, clock);
         fresh.start();
         return fresh;
     }

@@ -95,8 +95,7 @@ class ReplayTurnsTest {
         missions.with("fast1", LongStream.range(TIME, TIME + EVENTS).toArray());
         missions.with("fast2", LongStream.range(TIME, TIME + EVENTS).toArray());
         missions.with("slow", TIME + 3, TIME + 5);
-        List<DesiredReplay> replays =
-                List.of(ready("fast1", ReplayCommand.MAX), ready("fast2", ReplayCommand.MAX), ready("slow", 1));
+        var replays = List.of(ready("fast1", ReplayCommand.MAX), ready("fast2", ReplayCommand.MAX), ready("slow", 1));
         replays.forEach(this::resume);
         microsPerRecord = 50;
 

@@ -179,8 +179,7 @@ class ArchiveIT {
 
     private static Ended run(String... words) throws Exception {
         Path output = Files.createTempFile(directory, "out", null);
-        ProcessBuilder builder =
-                new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(output.toFile());
+        var builder = new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(output.toFile());
         builder.environment().put("JAVA_HOME", System.getProperty("java.home"));
         Process process = builder.start();
         assertThat(process.waitFor(2, TimeUnit.MINUTES))

@@ -67,8 +67,7 @@ class DebianPackageIT {
 
     private String run(String... words) throws IOException, InterruptedException {
         Path output = Files.createTempFile(root, "out", null);
-        ProcessBuilder builder =
-                new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(output.toFile());
+        var builder = new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(output.toFile());
         builder.environment().put("JAVA_HOME", System.getProperty("java.home"));
         Process process = builder.start();
         assertThat(process.waitFor(2, TimeUnit.MINUTES))

@@ -116,8 +116,7 @@ class ArchiveScriptTest {
         List<String> command = new ArrayList<>(List.of(home.resolve(script).toString()));
         command.addAll(List.of(arguments));
         Path out = directory.resolve("out");
-        ProcessBuilder builder =
-                new ProcessBuilder(command).redirectErrorStream(true).redirectOutput(out.toFile());
+        var builder = new ProcessBuilder(command).redirectErrorStream(true).redirectOutput(out.toFile());
         builder.environment().put("JAVA_HOME", jdk.toString());
         builder.environment().remove("FURROW_OPTS");
         builder.environment().remove("HADOOP_CLASSPATH");

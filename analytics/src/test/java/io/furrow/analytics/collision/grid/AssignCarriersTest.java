@@ -111,8 +111,7 @@ class AssignCarriersTest {
 
     private void create() throws Exception {
         DeviceVersion first = version(1000, 1, "robot");
-        List<TopicRecord> atStart =
-                List.of(new TopicRecord(Topics.DEVICES, 0, 0, 0, new byte[0], first.toBytes(), Map.of()));
+        var atStart = List.of(new TopicRecord(Topics.DEVICES, 0, 0, 0, new byte[0], first.toBytes(), Map.of()));
         operator = new KeyedTwoInputStreamOperatorTestHarness<>(
                 new CoBroadcastWithKeyedOperator<>(new AssignCarriers(() -> atStart), List.of(AssignCarriers.DEVICES)),
                 PositionFix::device,

@@ -177,8 +177,7 @@ class StraightCoursesTest {
         double[] from = Courses.place(centre, east, north);
         double[] towards = Courses.place(centre, east + 50 * Math.sin(course), north + 50 * Math.cos(course));
         CartesianPoint there = CartesianPoint.of(Courses.fix(id, from, 0));
-        CartesianPoint way =
-                CartesianPoint.of(Courses.fix(id, towards, 0)).minus(there).alongTheGroundAt(there);
+        var way = CartesianPoint.of(Courses.fix(id, towards, 0)).minus(there).alongTheGroundAt(there);
         return new Machine(id, there, way.times(1 / way.length()), speed / 1000, random.nextInt(1000));
     }
 

@@ -38,8 +38,7 @@ class CredentialsTest {
                 .isEqualTo("{\"type\":\"response\",\"status\":\"rotated\",\"device\":\"%s\",\"generation\":1}"
                         .formatted(DEVICE));
 
-        DesiredDevice requested =
-                DesiredDevice.read(farm.publisher.compacted(Topics.DEVICES).get("farm|/|" + DEVICE));
+        var requested = DesiredDevice.read(farm.publisher.compacted(Topics.DEVICES).get("farm|/|" + DEVICE));
         assertThat(requested.generation()).isEqualTo(1);
         assertThat(requested.version().sequence())
                 .isGreaterThan(before.version().sequence());

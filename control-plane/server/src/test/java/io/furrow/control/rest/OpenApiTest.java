@@ -120,8 +120,7 @@ class OpenApiTest {
 
     /** All classes of the package that have a path. */
     private static List<Class<?>> resources() throws Exception {
-        Path folder =
-                Path.of(RestApi.class.getResource("RestApi.class").toURI()).getParent();
+        var folder = Path.of(RestApi.class.getResource("RestApi.class").toURI()).getParent();
         List<Class<?>> types = new ArrayList<>();
         try (Stream<Path> files = Files.list(folder)) {
             for (Path file :

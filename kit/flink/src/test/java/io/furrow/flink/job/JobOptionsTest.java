@@ -80,8 +80,7 @@ class JobOptionsTest {
 
     @Test
     void refuseAReplayBesideWhatHasAnotherEventTime() {
-        TestJob.Outcome mixed =
-                TestJob.run(JobOptions::inputTopics, "copy", "--input", "data.raw,data.hoeing.replay.0a1b2c3d");
+        var mixed = TestJob.run(JobOptions::inputTopics, "copy", "--input", "data.raw,data.hoeing.replay.0a1b2c3d");
         TestJob.Outcome advanced = TestJob.run(
                 JobOptions::idleAdvance, "copy", "--input", "data.hoeing.replay.0a1b2c3d", "--idle-advance");
 
@@ -138,8 +137,7 @@ class JobOptionsTest {
         Path broken = Files.writeString(directory.resolve("broken"), "a=\\u12G4\n");
 
         for (Path file : List.of(missing, directory, latin1, broken)) {
-            TestJob.Outcome outcome =
-                    TestJob.run(JobOptions::kafkaProperties, "copy", "--kafka-properties", file.toString());
+            var outcome = TestJob.run(JobOptions::kafkaProperties, "copy", "--kafka-properties", file.toString());
 
             assertThat(outcome.exitCode()).isEqualTo(REFUSED);
             assertThat(outcome.err().lines())

@@ -52,8 +52,7 @@ class TopicRecordTest {
         TypeSerializerSnapshot.writeVersionedSnapshot(savepoint, now);
         byte[] said = savepoint.getCopyOfBuffer();
 
-        TypeSerializerSnapshot<TopicRecord> stored =
-                TypeSerializerSnapshot.readVersionedSnapshot(new DataInputDeserializer(said), loader());
+        var stored = TypeSerializerSnapshot.readVersionedSnapshot(new DataInputDeserializer(said), loader());
 
         assertThat(now.resolveSchemaCompatibility(stored).isCompatibleAsIs()).isTrue();
         assertThat(now.resolveSchemaCompatibility(new PojoSerializerSnapshot<>())
@@ -95,8 +94,7 @@ class TopicRecordTest {
 
     @Test
     void becomesAKafkaRecordWithTheKeysOwnPartition() {
-        TopicRecord record =
-                TopicRecord.of("t", -1, "k", null, Map.of("a", "1")).with("b", "ñ");
+        var record = TopicRecord.of("t", -1, "k", null, Map.of("a", "1")).with("b", "ñ");
 
         ProducerRecord<byte[], byte[]> out = new TopicRecordSchema().serialize(record, null, null);
 

@@ -74,8 +74,7 @@ class RequestsPropertyTest {
                     .as(said)
                     .isEqualTo(parsedRequest);
         } else if (parsedRequest instanceof ParsedRequest.Refused<C> refused) {
-            CommandResult answer =
-                    CommandResult.read(refused.answer().to(refused.requestId()).toBytes());
+            var answer = CommandResult.read(refused.answer().to(refused.requestId()).toBytes());
             assertThat(answer.status()).as(said).isEqualTo("error");
             assertThat(answer.error()).as(said).isPresent();
             assertThat(answer.json().path("reason").asText()).as(said).isNotBlank();

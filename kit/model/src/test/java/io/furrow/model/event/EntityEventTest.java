@@ -16,8 +16,7 @@ class EntityEventTest {
 
     @Test
     void carriesTheHeadersOfTheContract() {
-        Entity entity =
-                Entity.builder("a", "T").integer("Time", 1_795_223_399_000L).build();
+        var entity = Entity.builder("a", "T").integer("Time", 1_795_223_399_000L).build();
         EntityEvent event = EntityEvent.of(
                 entity,
                 FiwareScope.of("Agri", "/p"),

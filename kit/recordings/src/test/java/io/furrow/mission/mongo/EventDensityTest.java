@@ -98,8 +98,7 @@ class EventDensityTest {
 
     @Test
     void saysThatMongoIsAway() {
-        MongoRecordings nobody =
-                new MongoRecordings("mongodb://127.0.0.1:" + FreePort.orFree(0), "away", Duration.ofMillis(100));
+        var nobody = new MongoRecordings("mongodb://127.0.0.1:" + FreePort.orFree(0), "away", Duration.ofMillis(100));
         try (EventDensity density = EventDensity.of(nobody)) {
             assertThatThrownBy(() -> density.count("hoeing", TIME, 10, 2))
                     .isInstanceOf(RecordingException.class)

@@ -55,10 +55,8 @@ class MissionCatalogTest {
         database.createCollection("mission_sowing");
         database.createCollection("markers");
         try (MissionCatalog catalog = MissionCatalog.open(mongo.uri(), MongoAccess.DATABASE)) {
-            StoredMission encoded =
-                    new StoredMission("a.b", "mission__x-a-2Eb", Optional.of(new RecordingExtent(5, 5)));
-            StoredMission weeding =
-                    new StoredMission("weeding", "mission_weeding", Optional.of(new RecordingExtent(10, 30)));
+            var encoded = new StoredMission("a.b", "mission__x-a-2Eb", Optional.of(new RecordingExtent(5, 5)));
+            var weeding = new StoredMission("weeding", "mission_weeding", Optional.of(new RecordingExtent(10, 30)));
             assertThat(catalog.list())
                     .containsExactly(encoded, new StoredMission("sowing", "mission_sowing", Optional.empty()), weeding);
             assertThat(catalog.topicNames()).containsExactly("_x-a-2Eb", "sowing", "weeding");

@@ -131,8 +131,7 @@ class MongoAwayTest {
         try (EmbeddedMongo mongo = EmbeddedMongo.inMemory();
                 MongoClient client = listening(mongo.uri(), commands)) {
             InstantSource clock = now::get;
-            MissionCollections made =
-                    new MissionCollections(client, Retention.FOR_EVER, clock.withZone(ZoneOffset.UTC));
+            var made = new MissionCollections(client, Retention.FOR_EVER, clock.withZone(ZoneOffset.UTC));
             made.prepared("mission_hoeing");
             made.prepared("mission_hoeing").drop();
             assertThat(indexesMade(commands)).isEqualTo(2);

@@ -182,8 +182,7 @@ class DeviceLifecycleTest {
                     new DeviceVersion("urn:" + id, "farm", "/", "farm", mission, now.toEpochMilli(), null, 1, null);
             ObjectNode settings = JsonNodeFactory.instance.objectNode();
             settings.putArray("path").addArray().add(-3.5).add(40.3);
-            DesiredDevice desired =
-                    DesiredDevice.simulated(version, "Thermometer", id, true, Duration.ofMillis(50), settings);
+            var desired = DesiredDevice.simulated(version, "Thermometer", id, true, Duration.ofMillis(50), settings);
             members.add(new FarmFleet.Member(
                     new DesiredDeviceReader(Map.of(), 0).read(desired), FiwareScope.of("farm", "/"), now));
         }

@@ -133,8 +133,7 @@ class LoadFleetTest {
     @Test
     void leavesNoThreadBehindWhenItsBrokerHangs() throws Exception {
         try (SlowBroker slow = new SlowBroker()) {
-            LoadFleet load =
-                    LoadFleet.start(with(slow), plan(1, Duration.ofMillis(1), 1_000_000, Duration.ofMillis(40)));
+            var load = LoadFleet.start(with(slow), plan(1, Duration.ofMillis(1), 1_000_000, Duration.ofMillis(40)));
             await().until(() -> load.held() == 1);
             assertThat(ofLoad()).isNotEmpty();
 

@@ -44,8 +44,7 @@ class MqttConnectionTest {
     void givesUpABrokerThatAcceptsAndReportsNothing() throws Exception {
         try (ServerSocket silent = new ServerSocket(0, 10, InetAddress.getLoopbackAddress())) {
             URI uri = URI.create("tcp://127.0.0.1:" + silent.getLocalPort());
-            MqttConnection.Plan plan =
-                    new MqttConnection.Plan(new MqttAccess.Login("farmer", "plough"), "line", List.of(), 10, 1000);
+            var plan = new MqttConnection.Plan(new MqttAccess.Login("farmer", "plough"), "line", List.of(), 10, 1000);
             CompletableFuture<MqttConnection> opening = CompletableFuture.supplyAsync(() -> {
                 try {
                     return MqttConnection.open(

@@ -14,8 +14,7 @@ class ConnectorsTest {
     @Test
     void reportsWhereTheContextBrokerCannotNotify() throws Exception {
         HttpServer source = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        StringBuilder health =
-                new StringBuilder("{\"subscriptions\":[{\"url\":\"http://x/v2/notify\",\"failsInARow\":0}]}");
+        var health = new StringBuilder("{\"subscriptions\":[{\"url\":\"http://x/v2/notify\",\"failsInARow\":0}]}");
         source.createContext("/health", exchange -> {
             byte[] body = health.toString().getBytes(StandardCharsets.UTF_8);
             exchange.sendResponseHeaders(200, body.length);

@@ -58,8 +58,7 @@ class ReplayAnalyticsIT {
             SuiteSettings settings = SuiteSettings.onFreePorts("10s");
             new SuiteFields(new FieldsTopic(access.clientProperties())).write(settings, directory);
             Jobs jobs = new Jobs(flink, directory.resolve("jobs"));
-            EmbeddedAnalytics analytics =
-                    new EmbeddedAnalytics(flink, jobs, new SuiteJobs(settings, access, null, directory));
+            var analytics = new EmbeddedAnalytics(flink, jobs, new SuiteJobs(settings, access, null, directory));
             for (String id : IDS) {
                 addDesired(id, null);
                 play(id);
