@@ -1,7 +1,7 @@
 package io.furrow.soak;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -144,13 +144,13 @@ public final class BadAmongGood implements AutoCloseable {
                 notification ? Topics.NOTIFICATIONS : Topics.RAW,
                 null,
                 TIME + number,
-                id.getBytes(StandardCharsets.UTF_8),
-                value.getBytes(StandardCharsets.UTF_8));
+                id.getBytes(UTF_8),
+                value.getBytes(UTF_8));
     }
 
     private static ProducerRecord<byte[], byte[]> bad(BadRecord kind) {
         var record = new ProducerRecord<>(kind.topic(), null, TIME, kind.key(), kind.value());
-        record.headers().add(KIND, kind.kind().getBytes(StandardCharsets.UTF_8));
+        record.headers().add(KIND, kind.kind().getBytes(UTF_8));
         return record;
     }
 
@@ -249,8 +249,8 @@ public final class BadAmongGood implements AutoCloseable {
                         && deadLetter.topic().equals(Topics.dead(kind.get().topic()));
         // Of a notification of several entities each bad one is a letter of its own.
         boolean whole = Arrays.equals(deadLetter.value(), kind.get().value())
-                || new String(kind.get().value(), StandardCharsets.UTF_8)
-                        .contains(new String(deadLetter.value(), StandardCharsets.UTF_8));
+                || new String(kind.get().value(), UTF_8)
+                        .contains(new String(deadLetter.value(), UTF_8));
         return asItShould && whole
                 ? Optional.empty()
                 : Optional.of(kind.get().kind() + " became " + header(deadLetter, DeadLetter.REASON) + " on "
@@ -275,7 +275,7 @@ public final class BadAmongGood implements AutoCloseable {
 
     private static String header(ConsumerRecord<byte[], byte[]> record, String name) {
         Header header = record.headers().lastHeader(name);
-        return header == null ? "" : new String(header.value(), StandardCharsets.UTF_8);
+        return header == null ? "" : new String(header.value(), UTF_8);
     }
 
     @Override

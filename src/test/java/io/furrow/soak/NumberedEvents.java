@@ -1,6 +1,6 @@
 package io.furrow.soak;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -85,9 +85,9 @@ public final class NumberedEvents {
 
     private static ProducerRecord<String, byte[]> notification(Entity entity, long time) {
         String body =
-                "{\"subscriptionId\":\"soak\",\"data\":[" + new String(entity.toBytes(), StandardCharsets.UTF_8) + "]}";
-        var record = new ProducerRecord<>(NATIVE, null, time, entity.id(), body.getBytes(StandardCharsets.UTF_8));
-        record.headers().add(HeaderNames.SERVICE, SCOPE.service().getBytes(StandardCharsets.UTF_8));
+                "{\"subscriptionId\":\"soak\",\"data\":[" + new String(entity.toBytes(), UTF_8) + "]}";
+        var record = new ProducerRecord<>(NATIVE, null, time, entity.id(), body.getBytes(UTF_8));
+        record.headers().add(HeaderNames.SERVICE, SCOPE.service().getBytes(UTF_8));
         return record;
     }
 
@@ -96,7 +96,7 @@ public final class NumberedEvents {
         var event = EntityEvent.of(entity, SCOPE, now, EventTimeRule.within(Duration.ZERO), Origin.NOTIFICATION);
         var record = new ProducerRecord<>(Topics.RAW, null, time, entity.id(), entity.toBytes());
         event.headers("/soak")
-                .forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
+                .forEach((name, text) -> record.headers().add(name, text.getBytes(UTF_8)));
         return record;
     }
 }

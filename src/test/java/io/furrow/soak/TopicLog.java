@@ -1,6 +1,6 @@
 package io.furrow.soak;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -61,7 +61,7 @@ public final class TopicLog implements AutoCloseable {
                 entities.add(Entity.parse(record.value()));
                 Header ingested = record.headers().lastHeader(HeaderNames.TS_INGEST);
                 if (ingested != null) {
-                    ingestTimes.add(Long.parseLong(new String(ingested.value(), StandardCharsets.UTF_8)));
+                    ingestTimes.add(Long.parseLong(new String(ingested.value(), UTF_8)));
                 }
             }
         }

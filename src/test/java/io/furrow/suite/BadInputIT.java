@@ -1,7 +1,7 @@
 package io.furrow.suite;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -82,7 +82,7 @@ class BadInputIT {
                 running.suite().kafka().clientProperties(), new StringSerializer(), new StringSerializer())) {
             for (String text : List.of("(refused)", "accepted")) {
                 ProducerRecord<String, String> result = new ProducerRecord<>("data.context", 0, text, result(text));
-                result.headers().add(HeaderNames.SERVICE, "farm".getBytes(StandardCharsets.UTF_8));
+                result.headers().add(HeaderNames.SERVICE, "farm".getBytes(UTF_8));
                 producer.send(result).get();
             }
         }
@@ -196,7 +196,7 @@ class BadInputIT {
             case "deeply nested" -> "[".repeat(100_000) + "]".repeat(100_000);
             default -> throw new IllegalArgumentException(kind);
         };
-        return body.getBytes(StandardCharsets.UTF_8);
+        return body.getBytes(UTF_8);
     }
 
     private static void send(String id, String attribute) throws Exception {

@@ -1,7 +1,7 @@
 package io.furrow.suite;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
@@ -60,7 +60,7 @@ final class Command implements AutoCloseable {
     }
 
     String printed() throws IOException {
-        return Files.readString(output, StandardCharsets.UTF_8);
+        return Files.readString(output, UTF_8);
     }
 
     @Override

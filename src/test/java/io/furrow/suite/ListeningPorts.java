@@ -2,7 +2,7 @@ package io.furrow.suite;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
@@ -74,7 +74,7 @@ final class ListeningPorts {
     private static Set<Integer> fromLsof() throws IOException, InterruptedException {
         String pid = Long.toString(ProcessHandle.current().pid());
         Process lsof = new ProcessBuilder("lsof", "-a", "-p", pid, "-iTCP", "-sTCP:LISTEN", "-n", "-P", "-Fn").start();
-        String printed = new String(lsof.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+        String printed = new String(lsof.getInputStream().readAllBytes(), UTF_8);
         lsof.waitFor();
         return printed.lines()
                 .map(LSOF_NAME::matcher)

@@ -6,7 +6,7 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -132,7 +132,7 @@ class ReplayIT {
         Map<String, String> byId = new TreeMap<>();
         for (ConsumerRecord<byte[], byte[]> record : records) {
             if (kind == null || kind(record, kind)) {
-                String value = record.value() == null ? "" : new String(record.value(), StandardCharsets.UTF_8);
+                String value = record.value() == null ? "" : new String(record.value(), UTF_8);
                 byId.put(TopicLog.headers(record).get(id), record.timestamp() + " " + sorted(value));
             }
         }

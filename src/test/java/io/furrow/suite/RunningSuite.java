@@ -2,7 +2,7 @@ package io.furrow.suite;
 
 import java.io.OutputStreamWriter;
 import java.io.PrintWriter;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 
 import io.furrow.launcher.process.Progress;
@@ -27,7 +27,7 @@ public final class RunningSuite implements AutoCloseable {
 
     public static RunningSuite start(Path stored, SuiteSettings settings) throws Exception {
         RunDirectory directory = RunDirectory.open(stored);
-        PrintWriter out = new PrintWriter(new OutputStreamWriter(System.out, StandardCharsets.UTF_8));
+        PrintWriter out = new PrintWriter(new OutputStreamWriter(System.out, UTF_8));
         return new RunningSuite(directory, Suite.start(settings, directory, new Progress(out)));
     }
 

@@ -4,7 +4,7 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -147,7 +147,7 @@ class SameAnswerIT {
                 Map<String, Object> entity = NgsiJson.mapper()
                         .convertValue(
                                 ofEpochZero(entity(record), epoch), new TypeReference<TreeMap<String, Object>>() {});
-                String key = new String(record.key(), StandardCharsets.UTF_8);
+                String key = new String(record.key(), UTF_8);
                 answers.add(record.timestamp() + " " + key + " " + entity);
             }
             return answers;

@@ -1,7 +1,7 @@
 package io.furrow.suite;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -96,7 +96,7 @@ class SlowClockIT {
     /** Ids whose records go to the first partition, or to another. */
     private static Stream<String> ids(String prefix, int from) {
         return IntStream.range(0, 100).mapToObj(i -> prefix + i).filter(id -> {
-            int partition = BuiltInPartitioner.partitionForKey(id.getBytes(StandardCharsets.UTF_8), PARTITIONS);
+            int partition = BuiltInPartitioner.partitionForKey(id.getBytes(UTF_8), PARTITIONS);
             return from == 0 ? partition == 0 : partition >= from;
         });
     }

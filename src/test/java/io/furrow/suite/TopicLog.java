@@ -1,6 +1,6 @@
 package io.furrow.suite;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -46,14 +46,14 @@ final class TopicLog implements AutoCloseable {
     /** The records of one entity. */
     List<ConsumerRecord<byte[], byte[]>> of(String entityId) {
         return records().stream()
-                .filter(record -> entityId.equals(new String(record.key(), StandardCharsets.UTF_8)))
+                .filter(record -> entityId.equals(new String(record.key(), UTF_8)))
                 .toList();
     }
 
     static Map<String, String> headers(ConsumerRecord<byte[], byte[]> record) {
         Map<String, String> headers = new HashMap<>();
         record.headers()
-                .forEach(header -> headers.put(header.key(), new String(header.value(), StandardCharsets.UTF_8)));
+                .forEach(header -> headers.put(header.key(), new String(header.value(), UTF_8)));
         return headers;
     }
 

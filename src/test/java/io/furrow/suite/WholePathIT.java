@@ -2,7 +2,7 @@ package io.furrow.suite;
 
 import org.junit.jupiter.api.AutoClose;
 import java.io.ByteArrayOutputStream;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 
@@ -110,7 +110,7 @@ class WholePathIT {
             assertThat(weeding.records()).allSatisfy(record -> {
                 Entity entity = Entity.parse(record.value());
                 assertThat(entity.text("Mission")).contains("weeding");
-                assertThat(new String(record.key(), StandardCharsets.UTF_8)).isEqualTo(entity.id());
+                assertThat(new String(record.key(), UTF_8)).isEqualTo(entity.id());
                 // On a slow machine the query of a repair may overtake a notification.
                 assertThat(origin(record)).isIn("notification", "repair");
                 assertThat(TopicLog.headers(record))
@@ -136,11 +136,11 @@ class WholePathIT {
             await().untilAsserted(() -> {
                 ByteArrayOutputStream lines = new ByteArrayOutputStream();
                 missions.export("weeding", lines, ignored -> {});
-                String stored = lines.toString(StandardCharsets.UTF_8);
+                String stored = lines.toString(UTF_8);
                 assertThat(weeding.records().subList(0, 10))
                         .allSatisfy(record -> assertThat(stored)
                                 .contains(TopicLog.headers(record).get(HeaderNames.CE_ID))
-                                .contains("\"entity\":" + new String(record.value(), StandardCharsets.UTF_8)));
+                                .contains("\"entity\":" + new String(record.value(), UTF_8)));
             });
         }
     }

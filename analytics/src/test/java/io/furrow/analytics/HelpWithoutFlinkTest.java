@@ -2,7 +2,7 @@ package io.furrow.analytics;
 
 import java.io.File;
 import java.net.URISyntaxException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -76,7 +76,7 @@ class HelpWithoutFlinkTest {
         command.addAll(List.of(args));
         Process process = new ProcessBuilder(command).redirectErrorStream(true).start();
         try {
-            String output = new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+            String output = new String(process.getInputStream().readAllBytes(), UTF_8);
             assertThat(process.waitFor(120, TimeUnit.SECONDS)).isTrue();
             return new Finished(process.exitValue(), output);
         } finally {

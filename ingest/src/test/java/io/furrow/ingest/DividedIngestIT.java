@@ -1,7 +1,7 @@
 package io.furrow.ingest;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.HashSet;
 import java.util.List;
@@ -125,7 +125,7 @@ class DividedIngestIT {
                 .get()
                 .offset();
         return suite.awaitRecords("data.latest", all).stream()
-                .filter(record -> new String(record.key(), StandardCharsets.UTF_8).startsWith(domain))
+                .filter(record -> new String(record.key(), UTF_8).startsWith(domain))
                 .map(record -> KafkaSuite.headers(record).get(HeaderNames.CE_ID))
                 .toList();
     }

@@ -1,6 +1,7 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -141,8 +142,8 @@ class DividedIngestTest {
         for (TopicRecord record : written) {
             Map<String, String> headers = new TreeMap<>(record.headers());
             headers.remove(HeaderNames.TS_INGEST);
-            String key = new String(record.key(), StandardCharsets.UTF_8);
-            String value = record.value() == null ? "" : new String(record.value(), StandardCharsets.UTF_8);
+            String key = new String(record.key(), UTF_8);
+            String value = record.value() == null ? "" : new String(record.value(), UTF_8);
             String line = record.topic() + " " + key + " "
                     + value.replace(images.toString(), "").replaceAll("-[0-9a-f]{64}[.]", ".") + " " + headers;
             if (record.topic().equals(Topics.CATALOG)) {
@@ -172,7 +173,7 @@ class DividedIngestTest {
         }
         try (Stream<Path> all = Files.walk(folder)) {
             return contents(all.filter(Files::isRegularFile)).stream()
-                    .map(bytes -> new String(bytes, StandardCharsets.ISO_8859_1))
+                    .map(bytes -> new String(bytes, ISO_8859_1))
                     .toList();
         }
     }
@@ -199,6 +200,6 @@ class DividedIngestTest {
     }
 
     private static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

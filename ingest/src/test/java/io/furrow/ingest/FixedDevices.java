@@ -1,6 +1,6 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -24,7 +24,7 @@ record FixedDevices(ArrayList<byte[]> values) implements TopicSnapshot {
     public List<TopicRecord> read() {
         List<TopicRecord> records = new ArrayList<>();
         for (byte[] value : values) {
-            byte[] key = "ignored".getBytes(StandardCharsets.UTF_8);
+            byte[] key = "ignored".getBytes(UTF_8);
             records.add(new TopicRecord(Topics.DEVICES, 0, records.size(), 0, key, value, Map.of()));
         }
         return records;

@@ -2,7 +2,7 @@ package io.furrow.ingest;
 
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -61,12 +61,12 @@ class ImageStageJobTest {
                 .extracting(TopicRecord::topic)
                 .containsExactlyInAnyOrder("data.farm.realtime", "data.farm.realtime.m", "data.images");
         String manifest = value(written, "data.images");
-        String url = NgsiJson.read(manifest.getBytes(StandardCharsets.UTF_8))
+        String url = NgsiJson.read(manifest.getBytes(UTF_8))
                 .path("url")
                 .textValue();
         assertThat(Path.of(java.net.URI.create(url))).hasBinaryContent(image);
         for (String topic : List.of("data.farm.realtime", "data.farm.realtime.m")) {
-            Entity entity = Entity.parse(value(written, topic).getBytes(StandardCharsets.UTF_8));
+            Entity entity = Entity.parse(value(written, topic).getBytes(UTF_8));
             assertThat(entity.value("Image").orElseThrow().path("url").textValue())
                     .isEqualTo(url);
             assertThat(entity.text("Domain")).hasValue("farm");
@@ -107,7 +107,7 @@ class ImageStageJobTest {
                 .forEach(record -> {
                     assertThat(events.add(record.headers().get(HeaderNames.CE_ID)))
                             .isTrue();
-                    String key = new String(record.key(), StandardCharsets.UTF_8);
+                    String key = new String(record.key(), UTF_8);
                     assertThat(record.timestamp()).isGreaterThan(last.getOrDefault(key, -1L));
                     last.put(key, record.timestamp());
                 });
@@ -155,7 +155,7 @@ class ImageStageJobTest {
     private static String value(List<TopicRecord> written, String topic) {
         return written.stream()
                 .filter(record -> record.topic().equals(topic))
-                .map(record -> new String(record.value(), StandardCharsets.UTF_8))
+                .map(record -> new String(record.value(), UTF_8))
                 .findFirst()
                 .orElseThrow();
     }
@@ -169,10 +169,10 @@ class ImageStageJobTest {
                 .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forMonotonousTimestamps()
                         .withTimestampAssigner((record, ignored) -> record.timestamp()))
                 .uid("timestamps")
-                .keyBy(record -> new String(record.key(), StandardCharsets.UTF_8)); // as a topic's partitions do
+                .keyBy(record -> new String(record.key(), UTF_8)); // as a topic's partitions do
 
         DataStream<TopicRecord> noDevices = env.fromData(List.of(new TopicRecord(
-                        Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
+                        Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of())))
                 .setParallelism(1)
                 .uid("devices")
                 .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())
@@ -213,7 +213,7 @@ class ImageStageJobTest {
                 0,
                 i,
                 TIME + i,
-                id.getBytes(StandardCharsets.UTF_8),
+                id.getBytes(UTF_8),
                 entity.toBytes(),
                 new HashMap<>(Map.of(HeaderNames.CE_ID, "e" + i)));
     }

@@ -1,6 +1,6 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -179,7 +179,7 @@ class IngestJobTest {
 
         assertThat(written)
                 .filteredOn(record -> record.topic().equals(Topics.LATEST))
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8)
+                .extracting(record -> new String(record.key(), UTF_8)
                         + (record.value() == null
                                 ? ""
                                 : " is " + Entity.parse(record.value()).type()))
@@ -197,7 +197,7 @@ class IngestJobTest {
 
         assertThat(IngestRun.of(options(), FixedDevices.of(), valve, pump, deletion("d", "e-13", TIME + 1)))
                 .filteredOn(record -> record.value() == null)
-                .extracting(record -> record.topic() + " " + new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> record.topic() + " " + new String(record.key(), UTF_8))
                 .containsExactlyInAnyOrder(
                         "data.farm.realtime e-13",
                         "data.yard.realtime e-13",
@@ -227,7 +227,7 @@ class IngestJobTest {
         TopicRecord newest = written.get(2);
         Entity entity = Entity.parse(newest.value());
         assertThat(newest.timestamp()).isEqualTo(TIME + 2);
-        assertThat(newest.key()).isEqualTo("t".getBytes(StandardCharsets.UTF_8));
+        assertThat(newest.key()).isEqualTo("t".getBytes(UTF_8));
         assertThat(entity.type()).isEqualTo("Thermometer");
         assertThat(entity.number("Temperature")).contains(20.0);
         assertThat(entity.number("Latitude")).contains(40.0);

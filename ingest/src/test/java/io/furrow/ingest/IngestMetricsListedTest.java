@@ -1,6 +1,6 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.HashMap;
@@ -104,7 +104,7 @@ class IngestMetricsListedTest {
                 .text("Domain", "farm")
                 .text("Mission", "listed")
                 .build();
-        byte[] key = "t".getBytes(StandardCharsets.UTF_8);
+        byte[] key = "t".getBytes(UTF_8);
         Map<String, String> headers = new HashMap<>(Map.of(HeaderNames.CE_ID, id));
         return new TopicRecord("data.raw", 0, 0, 1_700_000_000_000L + after, key, entity.toBytes(), headers);
     }

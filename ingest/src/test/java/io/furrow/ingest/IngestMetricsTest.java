@@ -1,6 +1,6 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.Base64;
 import java.util.HashMap;
@@ -94,7 +94,7 @@ class IngestMetricsTest {
                 HeaderNames.CE_ID, id,
                 HeaderNames.TS_DEVICE, Long.toString(TIME),
                 HeaderNames.TS_SOURCE, Long.toString(TIME + 250));
-        byte[] key = "t".getBytes(StandardCharsets.UTF_8);
+        byte[] key = "t".getBytes(UTF_8);
         return new TopicRecord("data.raw", 0, 0, time, key, entity.build().toBytes(), new HashMap<>(headers));
     }
 

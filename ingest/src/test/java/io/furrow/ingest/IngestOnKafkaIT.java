@@ -1,7 +1,7 @@
 package io.furrow.ingest;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.HashSet;
 import java.util.List;
@@ -93,7 +93,7 @@ class IngestOnKafkaIT {
                     null,
                     sequence,
                     version.key(),
-                    new String(version.toBytes(), StandardCharsets.UTF_8),
+                    new String(version.toBytes(), UTF_8),
                     Map.of());
         }
         suite.write("in-devices", null, TIME, "robot", "{\"id\":\"robot\",\"type\":\"ROBOT\"}", Map.of());
@@ -128,9 +128,9 @@ class IngestOnKafkaIT {
     private static List<String> latest(String id, int atLeast) {
         return suite
                 .awaitRecords(
-                        "data.latest", record -> new String(record.key(), StandardCharsets.UTF_8).equals(id), atLeast)
+                        "data.latest", record -> new String(record.key(), UTF_8).equals(id), atLeast)
                 .stream()
-                .map(record -> new String(record.value(), StandardCharsets.UTF_8))
+                .map(record -> new String(record.value(), UTF_8))
                 .toList();
     }
 

@@ -1,6 +1,6 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -80,7 +80,7 @@ class IngestRestartTest {
 
         private void again(Arrival arrival) {
             TopicRecord first = arrival.record();
-            String key = new String(first.key(), StandardCharsets.UTF_8);
+            String key = new String(first.key(), UTF_8);
             String id = first.headers().get(HeaderNames.CE_ID);
             arrivals.add(new Arrival(entity(id, key, first.timestamp()), true));
         }
@@ -93,7 +93,7 @@ class IngestRestartTest {
                             key,
                             time,
                             null);
-                case 1 -> record(Map.of(HeaderNames.CE_ID, id), key, time, "{no json".getBytes(StandardCharsets.UTF_8));
+                case 1 -> record(Map.of(HeaderNames.CE_ID, id), key, time, "{no json".getBytes(UTF_8));
                 default -> entity(id, key, time);
             };
         }
@@ -108,7 +108,7 @@ class IngestRestartTest {
         }
 
         private static TopicRecord record(Map<String, String> headers, String key, long time, byte[] value) {
-            return new TopicRecord(Topics.RAW, 0, 7, time, key.getBytes(StandardCharsets.UTF_8), value, headers);
+            return new TopicRecord(Topics.RAW, 0, 7, time, key.getBytes(UTF_8), value, headers);
         }
 
         @Override
@@ -139,7 +139,7 @@ class IngestRestartTest {
                     .uid("no-hindrance")
                     .setParallelism(1);
             DataStream<TopicRecord> asInPartitions =
-                    records.keyBy(record -> new String(record.key(), StandardCharsets.UTF_8));
+                    records.keyBy(record -> new String(record.key(), UTF_8));
             CollectedOutput out = new CollectedOutput();
             IngestJob.define(
                     new IngestInputs(
@@ -169,7 +169,7 @@ class IngestRestartTest {
         @Override
         public String identity(TopicRecord record) {
             return Set.of(Topics.LATEST, Topics.CATALOG).contains(record.topic())
-                    ? record.topic() + " " + new String(record.key(), StandardCharsets.UTF_8)
+                    ? record.topic() + " " + new String(record.key(), UTF_8)
                     : Restarts.text(record);
         }
     }

@@ -1,6 +1,6 @@
 package io.furrow.ingest;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
@@ -30,9 +30,9 @@ final class IngestRun {
                 .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forMonotonousTimestamps()
                         .withTimestampAssigner((record, ignored) -> record.timestamp()))
                 .uid("timestamps")
-                .keyBy(record -> new String(record.key(), StandardCharsets.UTF_8)); // as a topic's partitions do
+                .keyBy(record -> new String(record.key(), UTF_8)); // as a topic's partitions do
         DataStream<TopicRecord> deviceRecords = env.fromData(List.of(new TopicRecord(
-                        Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
+                        Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of())))
                 .setParallelism(1)
                 .uid("devices")
                 .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())

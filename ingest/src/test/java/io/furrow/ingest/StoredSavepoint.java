@@ -2,7 +2,7 @@ package io.furrow.ingest;
 
 import java.io.IOException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Comparator;
@@ -73,7 +73,7 @@ final class StoredSavepoint {
 
     static void reportBefore(KafkaSuite suite) {
         DeviceVersion robot = new DeviceVersion("robot", "", "/", "farm", "weeding", 0, null, 1, null);
-        suite.write(Topics.DEVICES, 0, 0, robot.key(), new String(robot.toBytes(), StandardCharsets.UTF_8), Map.of());
+        suite.write(Topics.DEVICES, 0, 0, robot.key(), new String(robot.toBytes(), UTF_8), Map.of());
         report(suite, TIME, "first", "camera", attribute("Latitude", "40") + "," + named());
         report(suite, TIME, "first", "thermometer", named());
         report(suite, TIME, "first", "robot", attribute("n", "1"));

@@ -2,7 +2,7 @@ package io.furrow.ingest;
 
 import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -67,7 +67,7 @@ class StoredSavepointIT {
     private static List<String> told(List<ConsumerRecord<byte[], byte[]>> records) {
         List<String> told = new ArrayList<>();
         records.forEach(record -> told.add(KafkaSuite.headers(record).get(HeaderNames.CE_ID) + " "
-                + new String(record.key(), StandardCharsets.UTF_8)));
+                + new String(record.key(), UTF_8)));
         return told;
     }
 }

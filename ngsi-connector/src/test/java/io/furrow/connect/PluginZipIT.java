@@ -1,7 +1,7 @@
 package io.furrow.connect;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -59,7 +59,7 @@ class PluginZipIT {
 
     @Test
     void namesTheLicenceOfEveryJar() throws Exception {
-        String licenses = new String(read("doc/licenses.md"), StandardCharsets.UTF_8);
+        String licenses = new String(read("doc/licenses.md"), UTF_8);
 
         assertThat(jars())
                 .allSatisfy(

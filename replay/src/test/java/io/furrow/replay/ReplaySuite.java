@@ -1,7 +1,7 @@
 package io.furrow.replay;
 
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -117,7 +117,7 @@ final class ReplaySuite implements AutoCloseable {
 
     void want(DesiredReplay desired) throws Exception {
         producer.send(new ProducerRecord<>(
-                        Topics.REPLAYS, desired.replay().getBytes(StandardCharsets.UTF_8), desired.toBytes()))
+                        Topics.REPLAYS, desired.replay().getBytes(UTF_8), desired.toBytes()))
                 .get();
     }
 
@@ -188,7 +188,7 @@ final class ReplaySuite implements AutoCloseable {
     }
 
     static String text(byte[] bytes) {
-        return new String(bytes, StandardCharsets.UTF_8);
+        return new String(bytes, UTF_8);
     }
 
     @Override

@@ -1,6 +1,6 @@
 package io.furrow.replay;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -44,7 +44,7 @@ class ReplayUidsTest {
                                 .split(" "))
                 .desired();
 
-        assertThat(new String(((DesiredReplays.One) once).desired(), StandardCharsets.UTF_8))
+        assertThat(new String(((DesiredReplays.One) once).desired(), UTF_8))
                 .contains("\"from\":1000", "\"to\":2000");
     }
 

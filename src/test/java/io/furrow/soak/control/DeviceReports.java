@@ -1,6 +1,6 @@
 package io.furrow.soak.control;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
@@ -42,8 +42,8 @@ final class DeviceReports {
     private void report(String id) {
         var entity = Entity.builder(id, "Thermometer").number("Temperature", 20).build();
         ProducerRecord<String, byte[]> record = new ProducerRecord<>(Topics.RAW, id, entity.toBytes());
-        record.headers().add(HeaderNames.SERVICE, "farm".getBytes(StandardCharsets.UTF_8));
-        record.headers().add(HeaderNames.SERVICE_PATH, "/".getBytes(StandardCharsets.UTF_8));
+        record.headers().add(HeaderNames.SERVICE, "farm".getBytes(UTF_8));
+        record.headers().add(HeaderNames.SERVICE_PATH, "/".getBytes(UTF_8));
         sender.write(record);
     }
 }

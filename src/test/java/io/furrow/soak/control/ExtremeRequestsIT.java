@@ -1,6 +1,6 @@
 package io.furrow.soak.control;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -208,7 +208,7 @@ class ExtremeRequestsIT {
 
     /** @return the status in HTTP */
     private int ordinary(String topic, String command, String members) throws Exception {
-        ObjectNode json = (ObjectNode) NgsiJson.read(members.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+        ObjectNode json = (ObjectNode) NgsiJson.read(members.replace('\'', '"').getBytes(UTF_8));
         String id = "ordinary-" + ordinary++;
         return call(new ControlRequest(id, topic, command, json), 5).join().status();
     }

@@ -1,6 +1,6 @@
 package io.furrow.soak.devices;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -13,7 +13,7 @@ final class JsonReader {
 
     static JsonNode read(String text) {
         try {
-            return NgsiJson.read(text.getBytes(StandardCharsets.UTF_8));
+            return NgsiJson.read(text.getBytes(UTF_8));
         } catch (UnreadableException e) {
             throw new IllegalStateException("no JSON: " + text, e);
         }

@@ -2,7 +2,7 @@ package io.furrow.soak.devices;
 
 import java.io.IOException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashSet;
@@ -86,7 +86,7 @@ final class LoginChecks {
         List<String> differences = new ArrayList<>();
         for (ProgramPlan.Device each : devices) {
             URI uri = farm.up().api("/api/devices/" + each.id() + "/commands");
-            Http.Answer answer = Http.send("POST", uri, "{\"command\":\"on\"}".getBytes(StandardCharsets.UTF_8))
+            Http.Answer answer = Http.send("POST", uri, "{\"command\":\"on\"}".getBytes(UTF_8))
                     .join();
             if (answer.status() != 202) {
                 differences.add("command to %s: %d %s".formatted(each.id(), answer.status(), answer.body()));

@@ -4,7 +4,7 @@ import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.Base64;
 import java.util.List;
@@ -68,7 +68,7 @@ final class FarmLoad {
     }
 
     static boolean isClosing(byte[] key) {
-        return new String(key, StandardCharsets.UTF_8).startsWith("closing-");
+        return new String(key, UTF_8).startsWith("closing-");
     }
 
     private static String belonging(int number) {
@@ -139,6 +139,6 @@ final class FarmLoad {
     }
 
     static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

@@ -2,7 +2,7 @@ package io.furrow.soak.ingest;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -139,7 +139,7 @@ public record IngestOutcome(SortedMap<String, List<String>> lines) {
     }
 
     private static String text(byte[] bytes) {
-        return bytes == null ? "nothing" : new String(bytes, StandardCharsets.UTF_8);
+        return bytes == null ? "nothing" : new String(bytes, UTF_8);
     }
 
     int size(String place) {

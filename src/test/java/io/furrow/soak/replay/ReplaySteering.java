@@ -1,6 +1,6 @@
 package io.furrow.soak.replay;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -97,7 +97,7 @@ public final class ReplaySteering {
     }
 
     private static void desire(SteeredReplay replay, KafkaProducer<byte[], byte[]> producer) throws Exception {
-        byte[] key = replay.desired().replay().getBytes(StandardCharsets.UTF_8);
+        byte[] key = replay.desired().replay().getBytes(UTF_8);
         producer.send(new ProducerRecord<>(Topics.REPLAYS, key, replay.desired().toBytes()))
                 .get();
     }
@@ -117,7 +117,7 @@ public final class ReplaySteering {
                         throw new IllegalStateException("a replay failed: " + status.reason());
                     }
                     if (status.state() == ReplayStatus.State.STOPPED && status.settled()) {
-                        open.remove(new String(record.key(), StandardCharsets.UTF_8));
+                        open.remove(new String(record.key(), UTF_8));
                     }
                 }
                 if (System.nanoTime() > until) {

@@ -1,6 +1,6 @@
 package io.furrow.soak.source;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.BitSet;
 import java.util.HashMap;
 import java.util.Map;
@@ -27,7 +27,7 @@ final class DeliveredNotifications implements AutoCloseable {
 
     private void count(ConsumerRecord<String, byte[]> record) {
         int number = Integer.parseInt(record.key().substring(record.key().lastIndexOf(':') + 1));
-        String event = new String(record.headers().lastHeader(HeaderNames.CE_ID).value(), StandardCharsets.UTF_8);
+        String event = new String(record.headers().lastHeader(HeaderNames.CE_ID).value(), UTF_8);
         String before = events.putIfAbsent(number, event);
         if (before != null) {
             repeated++;

@@ -1,6 +1,6 @@
 package io.furrow.suite.page;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.List;
 import java.util.concurrent.atomic.AtomicInteger;
@@ -183,7 +183,7 @@ class AlarmsIT {
             suite.produce("data.raw", id, """
                     {"id": "%s", "type": "Robot", "Time": {"type": "Number", "value": %d},
                      "Latitude": {"type": "Number", "value": %s}, "Longitude": {"type": "Number", "value": -3.4822}}""".formatted(id, Instant.now().toEpochMilli(), latitude)
-                    .getBytes(StandardCharsets.UTF_8));
+                    .getBytes(UTF_8));
         }
         return number;
     }

@@ -1,6 +1,6 @@
 package io.furrow.suite.page;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.regex.Pattern;
 
@@ -227,6 +227,6 @@ class CardsIT {
         return """
                 {"id": "%s", "type": "ROBOT", "Domain": {"type": "String", "value": "farm"}, "Time": {"type": "Integer", "value": %d},
                  "Latitude": {"type": "Float", "value": 40.3125}, "Longitude": {"type": "Float", "value": -3.4822},
-                 "state": {"type": "String", "value": "%s"}, "cmd": {"type": "String", "value": ""}}""".formatted(id, time.toEpochMilli(), state).getBytes(StandardCharsets.UTF_8);
+                 "state": {"type": "String", "value": "%s"}, "cmd": {"type": "String", "value": ""}}""".formatted(id, time.toEpochMilli(), state).getBytes(UTF_8);
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.suite.page;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -87,7 +87,7 @@ class HostileEntitiesIT {
             suite.produce("data.raw", id, """
                     {"id": "%s", "type": "Thermometer", "Time": {"type": "Integer", "value": %d}, "Temperature": {"type": "Float", "value": 1e308},
                      "Longitude": {"type": "Float", "value": %s}, "Latitude": {"type": "Float", "value": %s}}""".formatted(id, Instant.now().toEpochMilli(), place[0], place[1])
-                    .getBytes(StandardCharsets.UTF_8));
+                    .getBytes(UTF_8));
         }
 
         FarmPage farm = suite.open("");
@@ -112,12 +112,12 @@ class HostileEntitiesIT {
             "{\"id\": {\"a\": 1}, \"type\": []}",
             "{\"id\": \"__proto__\", \"type\": \"constructor\"}"
         }) {
-            suite.produce("data.raw", "odd", value.getBytes(StandardCharsets.UTF_8));
+            suite.produce("data.raw", "odd", value.getBytes(UTF_8));
         }
 
         FarmPage farm = suite.open("");
         for (String value : new String[] {"no JSON", "[]", "5", "{}"}) {
-            suite.produce("data.raw", "odd", value.getBytes(StandardCharsets.UTF_8));
+            suite.produce("data.raw", "odd", value.getBytes(UTF_8));
         }
         alive(farm);
         suite.forget("odd");

@@ -1,6 +1,6 @@
 package io.furrow.suite.page;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
@@ -72,7 +72,7 @@ final class Marks {
                 produce(producer, number);
             }
             farm.page().waitForTimeout(3_000);
-            producer.send(new ProducerRecord<>("data.raw", ID.getBytes(StandardCharsets.UTF_8), null))
+            producer.send(new ProducerRecord<>("data.raw", ID.getBytes(UTF_8), null))
                     .get();
         }
         Delays delays = new Delays(delays(farm, "canvas", sent), delays(farm, "card", sent));
@@ -110,7 +110,7 @@ final class Marks {
                 {"id": "%s", "type": "Thermometer", "Time": {"type": "Integer", "value": %d}, "Temperature": {"type": "Float", "value": %d},
                  "Latitude": {"type": "Float", "value": %s}, "Longitude": {"type": "Float", "value": %s}}""".formatted(ID, System.currentTimeMillis(), number, place.get(1), place.get(0));
         producer.send(new ProducerRecord<>(
-                        "data.raw", ID.getBytes(StandardCharsets.UTF_8), entity.getBytes(StandardCharsets.UTF_8)))
+                        "data.raw", ID.getBytes(UTF_8), entity.getBytes(UTF_8)))
                 .get();
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.suite.page;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -198,7 +198,7 @@ class MissionsIT {
     }
 
     private static FilePayload file(String name, String content) {
-        return new FilePayload(name, "application/geo+json", content.getBytes(StandardCharsets.UTF_8));
+        return new FilePayload(name, "application/geo+json", content.getBytes(UTF_8));
     }
 
     @Tag("full")
@@ -234,7 +234,7 @@ class MissionsIT {
             for (int i = from; i < to; i++) {
                 String entry = """
                         {"time":%d,"user":"olga","target":"device","command":"command-%d","about":{"mission":"long-ago"},"result":"sent"}""".formatted(1_700_000_000_000L + i, i);
-                producer.send(new ProducerRecord<>(Topics.AUDIT, entry.getBytes(StandardCharsets.UTF_8)));
+                producer.send(new ProducerRecord<>(Topics.AUDIT, entry.getBytes(UTF_8)));
             }
         }
     }

@@ -1,7 +1,7 @@
 package io.furrow.suite.page;
 
 import java.lang.management.ManagementFactory;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -140,7 +140,7 @@ public final class PageSoak {
                         40.31 + number / 40 * 0.0002 + 0.00005 * Math.sin(angle),
                         -3.49 + number % 40 * 0.0003 + 0.00005 * Math.cos(angle));
         return new ProducerRecord<>(
-                "data.raw", id.getBytes(StandardCharsets.UTF_8), entity.getBytes(StandardCharsets.UTF_8));
+                "data.raw", id.getBytes(UTF_8), entity.getBytes(UTF_8));
     }
 
     private static boolean heap(PageSuite suite, int devices, int minutes) throws Exception {

@@ -3,7 +3,7 @@ package io.furrow.suite.page;
 import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.net.URLDecoder;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Clock;
@@ -151,7 +151,7 @@ class SignInIT {
                 String.valueOf(route.request().headers().get("accept")).contains("application/json");
         if (uri.getPath().equals("/oauth2/start")) {
             signedIn = true;
-            lead(route, URLDecoder.decode(uri.getRawQuery().substring("rd=".length()), StandardCharsets.UTF_8));
+            lead(route, URLDecoder.decode(uri.getRawQuery().substring("rd=".length()), UTF_8));
         } else if (uri.getPath().equals("/oauth2/sign_out")) {
             signedIn = false;
             route.fulfill(new Route.FulfillOptions()

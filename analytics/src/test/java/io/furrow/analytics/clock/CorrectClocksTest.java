@@ -1,6 +1,6 @@
 package io.furrow.analytics.clock;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -151,7 +151,7 @@ class CorrectClocksTest {
     }
 
     private static String key(TopicRecord record) {
-        return new String(record.key(), StandardCharsets.UTF_8);
+        return new String(record.key(), UTF_8);
     }
 
     private static long received(TopicRecord record) {

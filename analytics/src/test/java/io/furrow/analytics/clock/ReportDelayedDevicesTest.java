@@ -1,7 +1,7 @@
 package io.furrow.analytics.clock;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.Map;
 import java.util.function.LongUnaryOperator;
@@ -111,7 +111,7 @@ class ReportDelayedDevicesTest {
 
     private TopicRecord record(String device, long time) {
         byte[] entity = ("{\"id\":\"" + device + "\",\"type\":\"Thermometer\",\"Mission\":{\"value\":\"m\"}}")
-                .getBytes(StandardCharsets.UTF_8);
+                .getBytes(UTF_8);
         return TopicRecord.of("data.raw", time, device, entity, Map.of(HeaderNames.TS_SOURCE, Long.toString(now)));
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.analytics.collision;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Comparator;
@@ -70,7 +70,7 @@ class CollisionJobTest {
                 .extracting(record -> entity(record).id())
                 .containsOnly(entity(written.get(0)).id());
         TopicRecord end = written.get(2);
-        assertThat(new String(end.key(), StandardCharsets.UTF_8)).isEqualTo("r1-r2");
+        assertThat(new String(end.key(), UTF_8)).isEqualTo("r1-r2");
         assertThat(entity(end).number("minDistance"))
                 .hasValueSatisfying(d -> assertThat(d).isBetween(1.99, 2.01));
         assertThat(entity(end).number("distance"))
@@ -111,7 +111,7 @@ class CollisionJobTest {
         assertThat(written)
                 .filteredOn(record -> record.topic().equals("data.collision"))
                 .as("r3 and r4 are in the yard, r5 is nearer to r2 than to r1")
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsOnly("r1-r2", "r2-r5");
         TopicRecord overflow = written.stream()
                 .filter(record -> record.topic().equals("data.collision.overflow"))
@@ -194,7 +194,7 @@ class CollisionJobTest {
 
         // The camera on the first robot is also close to the second: two pairs, each with a start and an end.
         assertThat(written)
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsExactlyInAnyOrder("c1-r2", "c1-r2", "r1-r2", "r1-r2");
     }
 
@@ -202,12 +202,12 @@ class CollisionJobTest {
     void asksServiceDevicesWhatCarriesADevice() throws Exception {
         List<TopicRecord> written = run(options(), robot("r1", 0, 0), robot("l1", 1, 0), robot("r2", 2, 0));
         assertThat(written)
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsExactlyInAnyOrder("l1-r2", "l1-r2", "r1-r2", "r1-r2");
         List<TopicRecord> before = run(options(), robot("r1", 0, -9), robot("l1", 1, -9), robot("r2", 2, -9));
         assertThat(before)
                 .as("as of the position's time")
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsExactlyInAnyOrder("l1-r1", "l1-r1", "r1-r2", "r1-r2");
     }
 
@@ -222,7 +222,7 @@ class CollisionJobTest {
                 robot("r4", 300, 0));
 
         assertThat(written)
-                .extracting(TopicRecord::topic, record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(TopicRecord::topic, record -> new String(record.key(), UTF_8))
                 .containsExactly(tuple(replay + ".collision", "r2-r3"), tuple(replay + ".collision", "r2-r3"));
     }
 

@@ -1,6 +1,6 @@
 package io.furrow.analytics.collision;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -95,7 +95,7 @@ class CollisionRestartTest {
         public DataStream<TopicRecord> define(
                 StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) {
             TopicRecord nobody = new TopicRecord(
-                    Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of());
+                    Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of());
             DataStream<TopicRecord> devices = env.fromData(List.of(nobody), TypeInformation.of(TopicRecord.class))
                     .uid("read-devices")
                     .setParallelism(1);

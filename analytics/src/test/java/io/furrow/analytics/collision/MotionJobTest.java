@@ -1,6 +1,6 @@
 package io.furrow.analytics.collision;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
@@ -169,7 +169,7 @@ class MotionJobTest {
     }
 
     private static String text(TopicRecord record) {
-        return record.timestamp() + " " + new String(record.value(), StandardCharsets.UTF_8);
+        return record.timestamp() + " " + new String(record.value(), UTF_8);
     }
 
     private static List<TopicRecord> run(CollisionOptions options, List<TopicRecord> records) throws Exception {
@@ -184,7 +184,7 @@ class MotionJobTest {
                 .setParallelism(1)
                 .uid("timestamps");
         // A device that nobody knows; a source of nothing ends before it begins.
-        byte[] key = "farm|/|nobody".getBytes(StandardCharsets.UTF_8);
+        byte[] key = "farm|/|nobody".getBytes(UTF_8);
         TopicRecord gone = new TopicRecord(Topics.DEVICES, 0, 1, START, key, null, Map.of());
         DataStream<TopicRecord> devices = env.fromData(List.of(gone), TypeInformation.of(TopicRecord.class))
                 .setParallelism(1)
@@ -207,7 +207,7 @@ class MotionJobTest {
         EntityBuilder robot =
                 Entity.builder(id, type).number("Latitude", place.latitude()).number("Longitude", place.longitude());
         Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/north");
-        byte[] key = id.getBytes(StandardCharsets.UTF_8);
+        byte[] key = id.getBytes(UTF_8);
         return new TopicRecord(
                 "data.raw", 0, 7, START + time, key, robot.build().toBytes(), headers);
     }

@@ -1,6 +1,6 @@
 package io.furrow.analytics.collision;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
@@ -90,7 +90,7 @@ public final class ReportedRun {
                 0,
                 version.sequence(),
                 version.from(),
-                version.key().getBytes(StandardCharsets.UTF_8),
+                version.key().getBytes(UTF_8),
                 version.toBytes(),
                 Map.of());
     }
@@ -113,13 +113,13 @@ public final class ReportedRun {
     }
 
     static String text(EntityBuilder entity) {
-        return new String(entity.build().toBytes(), StandardCharsets.UTF_8);
+        return new String(entity.build().toBytes(), UTF_8);
     }
 
     static TopicRecord record(String key, long time, String value) {
-        byte[] bytes = value == null ? null : value.getBytes(StandardCharsets.UTF_8);
+        byte[] bytes = value == null ? null : value.getBytes(UTF_8);
         Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/north");
-        return new TopicRecord("data.raw", 0, 7, START + time, key.getBytes(StandardCharsets.UTF_8), bytes, headers);
+        return new TopicRecord("data.raw", 0, 7, START + time, key.getBytes(UTF_8), bytes, headers);
     }
 
     static Entity entity(TopicRecord record) {

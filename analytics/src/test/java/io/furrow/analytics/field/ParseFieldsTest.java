@@ -1,7 +1,7 @@
 package io.furrow.analytics.field;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 
 import org.apache.flink.streaming.api.operators.ProcessOperator;
@@ -96,6 +96,6 @@ class ParseFieldsTest {
     private static byte[] feature(String id, String geometry) {
         return ("{\"type\":\"Feature\",\"id\":\"" + id + "\",\"geometry\":" + geometry
                         + ",\"properties\":{\"validFrom\":\"" + SPRING + "\"}}")
-                .getBytes(StandardCharsets.UTF_8);
+                .getBytes(UTF_8);
     }
 }

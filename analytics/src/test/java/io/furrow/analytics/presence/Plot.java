@@ -1,7 +1,7 @@
 package io.furrow.analytics.presence;
 
 import java.io.Serializable;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.List;
 import java.util.Locale;
@@ -56,6 +56,6 @@ record Plot(String id, long validFrom, List<Box> parts, Box hole) implements Ser
     }
 
     private static byte[] bytes(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

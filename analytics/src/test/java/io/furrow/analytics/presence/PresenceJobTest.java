@@ -1,6 +1,6 @@
 package io.furrow.analytics.presence;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Predicate;
@@ -95,7 +95,7 @@ class PresenceJobTest {
         assertThat(left.number("startTime")).contains(1000.0);
         assertThat(left.number("time")).contains(4000.0);
         assertThat(left.text("stay")).isEqualTo(entered.text("stay"));
-        assertThat(new String(written.get(1).key(), StandardCharsets.UTF_8)).isEqualTo("r1");
+        assertThat(new String(written.get(1).key(), UTF_8)).isEqualTo("r1");
         assertThat(written.get(1).timestamp()).isEqualTo(4000);
         assertThat(written.get(1).headers())
                 .containsEntry(HeaderNames.SERVICE, "farm")

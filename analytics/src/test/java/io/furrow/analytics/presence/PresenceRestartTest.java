@@ -1,6 +1,6 @@
 package io.furrow.analytics.presence;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -88,7 +88,7 @@ class PresenceRestartTest {
                     .number("Longitude", fix.longitude())
                     .build();
             Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
-            byte[] key = device.getBytes(StandardCharsets.UTF_8);
+            byte[] key = device.getBytes(UTF_8);
             return new TopicRecord(Topics.RAW, 0, 7, time, key, entity.toBytes(), headers);
         }
 

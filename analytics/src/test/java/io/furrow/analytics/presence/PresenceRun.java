@@ -1,6 +1,6 @@
 package io.furrow.analytics.presence;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
@@ -109,13 +109,13 @@ final class PresenceRun {
                 .number("Latitude", fix.latitude())
                 .number("Longitude", fix.longitude())
                 .build();
-        return record(fix.id(), fix.time(), new String(entity.toBytes(), StandardCharsets.UTF_8));
+        return record(fix.id(), fix.time(), new String(entity.toBytes(), UTF_8));
     }
 
     static TopicRecord record(String key, long time, String value) {
-        byte[] bytes = value == null ? null : value.getBytes(StandardCharsets.UTF_8);
+        byte[] bytes = value == null ? null : value.getBytes(UTF_8);
         Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
-        return new TopicRecord("data.raw", 0, 7, time, key.getBytes(StandardCharsets.UTF_8), bytes, headers);
+        return new TopicRecord("data.raw", 0, 7, time, key.getBytes(UTF_8), bytes, headers);
     }
 
     /** As {@link PresenceOracle#line}. */

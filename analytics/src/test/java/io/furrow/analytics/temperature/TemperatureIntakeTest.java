@@ -1,6 +1,6 @@
 package io.furrow.analytics.temperature;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -72,8 +72,8 @@ class TemperatureIntakeTest {
     @Test
     void setsGarbageAsideAndLeavesTheRestUnharmed() throws Exception {
         List<TopicRecord> arrivals = new ArrayList<>(Farm.FOUR_DEVICES_ONE_DEFECTIVE);
-        byte[] noJson = "temperature=18".getBytes(StandardCharsets.UTF_8);
-        byte[] otherSchema = "{\"sensor\": 5, \"readings\": [18.1]}".getBytes(StandardCharsets.UTF_8);
+        byte[] noJson = "temperature=18".getBytes(UTF_8);
+        byte[] otherSchema = "{\"sensor\": 5, \"readings\": [18.1]}".getBytes(UTF_8);
         arrivals.add(1, Farm.garbage(noJson, 1_500).to("reports"));
         arrivals.add(2, Farm.garbage(otherSchema, 1_500).to("reports"));
         arrivals.add(3, Farm.garbage(noJson, 1_500));

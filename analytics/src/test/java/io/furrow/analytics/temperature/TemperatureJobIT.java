@@ -1,6 +1,6 @@
 package io.furrow.analytics.temperature;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -47,7 +47,7 @@ class TemperatureJobIT {
     /** A topic that ingest does not read. */
     private static final String OTHER = "reports";
 
-    private static final byte[] GARBAGE = "temperature=18".getBytes(StandardCharsets.UTF_8);
+    private static final byte[] GARBAGE = "temperature=18".getBytes(UTF_8);
 
     @Test
     void readsReportedChangesAndWritesAveragesAndDeadLetters(@TempDir Path dir) throws Exception {
@@ -74,7 +74,7 @@ class TemperatureJobIT {
             ConsumerRecord<byte[], byte[]> result = first(kafka, Topics.TEMPERATURE);
             assertThat(Entity.parse(result.value()).number("averageTemperature"))
                     .contains(19.0);
-            assertThat(result.key()).isEqualTo("north".getBytes(StandardCharsets.UTF_8));
+            assertThat(result.key()).isEqualTo("north".getBytes(UTF_8));
             assertThat(result.timestamp()).isEqualTo(59_999);
             assertThat(header(result, HeaderNames.CE_SOURCE)).isEqualTo("/analytics/temperature");
 
@@ -159,7 +159,7 @@ class TemperatureJobIT {
             for (TopicRecord record : records) {
                 var out = new ProducerRecord<>(record.topic(), null, record.timestamp(), record.key(), record.value());
                 record.headers()
-                        .forEach((name, text) -> out.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
+                        .forEach((name, text) -> out.headers().add(name, text.getBytes(UTF_8)));
                 producer.send(out);
             }
             producer.flush();
@@ -195,6 +195,6 @@ class TemperatureJobIT {
 
     private static String header(ConsumerRecord<byte[], byte[]> record, String name) {
         Header header = record.headers().lastHeader(name);
-        return new String(header.value(), StandardCharsets.UTF_8);
+        return new String(header.value(), UTF_8);
     }
 }

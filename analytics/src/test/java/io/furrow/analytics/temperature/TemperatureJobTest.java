@@ -1,6 +1,6 @@
 package io.furrow.analytics.temperature;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
@@ -45,12 +45,12 @@ class TemperatureJobTest {
              "windowEnd": {"type": "Integer", "value": 60000, "metadata": {}},
              "quality": {"type": "String", "value": "robust", "metadata": {}},
              "Domain": {"type": "TextUnrestricted", "value": "canary", "metadata": {}}}\
-            """.getBytes(StandardCharsets.UTF_8));
+            """.getBytes(UTF_8));
         assertThat(run.records()).hasSize(1);
         TopicRecord result = run.records().get(0);
         assertThat(NgsiJson.read(result.value())).isEqualTo(expected);
         assertThat(result.topic()).isEqualTo(Topics.TEMPERATURE);
-        assertThat(new String(result.key(), StandardCharsets.UTF_8)).isEqualTo("north");
+        assertThat(new String(result.key(), UTF_8)).isEqualTo("north");
         assertThat(result.timestamp()).as("the window's last instant").isEqualTo(59_999);
         assertThat(result.headers())
                 .containsEntry(HeaderNames.CE_SOURCE, "/analytics/temperature")

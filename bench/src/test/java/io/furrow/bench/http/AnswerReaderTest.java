@@ -8,7 +8,7 @@ import java.net.InetSocketAddress;
 import java.nio.ByteBuffer;
 import java.nio.channels.ServerSocketChannel;
 import java.nio.channels.SocketChannel;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.US_ASCII;
 
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
@@ -76,6 +76,6 @@ class AnswerReaderTest {
     }
 
     private void answer(String text) throws IOException {
-        server.write(ByteBuffer.wrap(text.getBytes(StandardCharsets.US_ASCII)));
+        server.write(ByteBuffer.wrap(text.getBytes(US_ASCII)));
     }
 }

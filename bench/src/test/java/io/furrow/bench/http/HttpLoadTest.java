@@ -7,7 +7,7 @@ import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.ServerSocket;
 import java.net.Socket;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import java.time.Duration;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.TimeUnit;
@@ -97,7 +97,7 @@ class HttpLoadTest {
     /** One connection. */
     private static void serve(ServerSocket listening, int status, Duration delayOfTheFirst) {
         byte[] answer =
-                ("HTTP/1.1 " + status + " Status\r\nContent-Length: 0\r\n\r\n").getBytes(StandardCharsets.US_ASCII);
+                ("HTTP/1.1 " + status + " Status\r\nContent-Length: 0\r\n\r\n").getBytes(US_ASCII);
         try (Socket socket = listening.accept()) {
             InputStream in = socket.getInputStream();
             readRequest(in);

@@ -2,7 +2,7 @@ package io.furrow.bench.http;
 
 import java.net.InetSocketAddress;
 import java.nio.ByteBuffer;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -27,7 +27,7 @@ class NotificationRequestTest {
 
         assertThat(request).contains("Content-Length: " + bytes + "\r\n");
         assertThat(body(request)).hasSize(bytes);
-        assertThat(Notification.read(body(request).getBytes(StandardCharsets.UTF_8), "normalized")
+        assertThat(Notification.read(body(request).getBytes(UTF_8), "normalized")
                         .entities())
                 .hasSize(1);
     }
@@ -58,7 +58,7 @@ class NotificationRequestTest {
     @ParameterizedTest
     @ValueSource(strings = {"", "{}", "\"sequence\":{\"type\":\"Number\",\"value\":12"})
     void findsNoNumberWhereThereIsNone(String record) {
-        assertThat(NotificationRequest.numberIn(record.getBytes(StandardCharsets.UTF_8)))
+        assertThat(NotificationRequest.numberIn(record.getBytes(UTF_8)))
                 .isEqualTo(-1);
     }
 
@@ -78,6 +78,6 @@ class NotificationRequestTest {
     }
 
     private static String text(ByteBuffer request) {
-        return StandardCharsets.UTF_8.decode(request).toString();
+        return UTF_8.decode(request).toString();
     }
 }

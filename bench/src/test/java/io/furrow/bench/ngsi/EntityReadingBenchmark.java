@@ -1,6 +1,6 @@
 package io.furrow.bench.ngsi;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Set;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Collectors;
@@ -63,7 +63,7 @@ public class EntityReadingBenchmark {
             default -> measured();
         };
         bytes = ("{\"id\":\"urn:ngsi-ld:Device:17\",\"type\":\"Device\"," + attributes + "}")
-                .getBytes(StandardCharsets.UTF_8);
+                .getBytes(UTF_8);
         reader = new EntityReader(ATTRIBUTES);
     }
 

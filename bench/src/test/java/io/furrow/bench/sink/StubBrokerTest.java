@@ -7,7 +7,7 @@ import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
 import java.net.http.HttpResponse.BodyHandlers;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.BitSet;
 
 import org.junit.jupiter.api.Test;
@@ -46,6 +46,6 @@ class StubBrokerTest {
     }
 
     private static String text(byte[] json) {
-        return new String(json, StandardCharsets.UTF_8);
+        return new String(json, UTF_8);
     }
 }

@@ -1,7 +1,7 @@
 package io.furrow.fields;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.sql.Connection;
@@ -308,7 +308,7 @@ public class FieldFilesTest {
     }
 
     private void assertUnusable(String content, String message) throws IOException {
-        Path file = Files.writeString(folder.resolve("file"), content, StandardCharsets.UTF_8);
+        Path file = Files.writeString(folder.resolve("file"), content, UTF_8);
         assertThatThrownBy(() -> FieldFiles.read(file, PLAIN))
                 .isInstanceOf(InvalidFileException.class)
                 .hasMessageContaining(message);

@@ -1,6 +1,6 @@
 package io.furrow.provisioner;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -13,7 +13,7 @@ import io.furrow.model.event.FiwareScope;
 
 /** Wanted devices for tests. */
 public final class DesiredDeviceFixture {
-    public static final FarmSecret SECRET = new FarmSecret("sixteen bytes or more".getBytes(StandardCharsets.UTF_8));
+    public static final FarmSecret SECRET = new FarmSecret("sixteen bytes or more".getBytes(UTF_8));
     static final FiwareScope SCOPE = new FiwareScope("farm", "/");
 
     private DesiredDeviceFixture() {}

@@ -1,7 +1,7 @@
 package io.furrow.provisioner;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
@@ -77,7 +77,7 @@ class EmbeddedBrokerTest {
                 Set.of());
         agent = connect(new FarmSecret.Login("agent", "plough"));
         agent.subscribe(
-                "#", 1, (topic, message) -> heard.put(topic, new String(message.getPayload(), StandardCharsets.UTF_8)));
+                "#", 1, (topic, message) -> heard.put(topic, new String(message.getPayload(), UTF_8)));
     }
 
     @AfterEach
@@ -88,8 +88,8 @@ class EmbeddedBrokerTest {
     @Test
     void letsADevicePublishAsItselfOnly() throws MqttException {
         MqttClient device = connect(DEVICE);
-        device.publish(KEY + "/e/attrs", "forged".getBytes(StandardCharsets.UTF_8), 0, false);
-        device.publish(KEY + "/d/attrs", "1".getBytes(StandardCharsets.UTF_8), 1, false);
+        device.publish(KEY + "/e/attrs", "forged".getBytes(UTF_8), 0, false);
+        device.publish(KEY + "/d/attrs", "1".getBytes(UTF_8), 1, false);
 
         await().until(() -> "1".equals(heard.get(KEY + "/d/attrs")));
         assertThat(heard).doesNotContainKey(KEY + "/e/attrs");
@@ -102,8 +102,8 @@ class EmbeddedBrokerTest {
     void acknowledgesAndDiscardsWhatADeviceMayNotPublish(int qos) throws MqttException {
         MqttClient device = connect(DEVICE);
         device.setTimeToWait(TIMEOUT_MS);
-        device.publish(KEY + "/e/attrs", "forged".getBytes(StandardCharsets.UTF_8), qos, true);
-        device.publish(KEY + "/d/attrs", "qos %d".formatted(qos).getBytes(StandardCharsets.UTF_8), qos, false);
+        device.publish(KEY + "/e/attrs", "forged".getBytes(UTF_8), qos, true);
+        device.publish(KEY + "/d/attrs", "qos %d".formatted(qos).getBytes(UTF_8), qos, false);
 
         await().until(() -> "qos %d".formatted(qos).equals(heard.get(KEY + "/d/attrs")));
         assertThat(heard).doesNotContainKey(KEY + "/e/attrs");
@@ -115,7 +115,7 @@ class EmbeddedBrokerTest {
         MqttClient device = new MqttClient(mqtt.uri().toString(), "forger", new MemoryPersistence());
         for (String topic : List.of("/e/attrs", "/d/attrs")) {
             MqttConnectOptions options = options(DEVICE);
-            options.setWill(KEY + topic, "gone".getBytes(StandardCharsets.UTF_8), 1, false);
+            options.setWill(KEY + topic, "gone".getBytes(UTF_8), 1, false);
             device.connect(options);
             device.disconnectForcibly(0, TIMEOUT_MS, false);
         }
@@ -146,9 +146,9 @@ class EmbeddedBrokerTest {
         device.subscribe(
                 KEY + "/d/cmd",
                 1,
-                (topic, message) -> commands.put(topic, new String(message.getPayload(), StandardCharsets.UTF_8)));
-        agent.publish(KEY + "/e/cmd", "on".getBytes(StandardCharsets.UTF_8), 1, false);
-        agent.publish(KEY + "/d/cmd", "off".getBytes(StandardCharsets.UTF_8), 1, false);
+                (topic, message) -> commands.put(topic, new String(message.getPayload(), UTF_8)));
+        agent.publish(KEY + "/e/cmd", "on".getBytes(UTF_8), 1, false);
+        agent.publish(KEY + "/d/cmd", "off".getBytes(UTF_8), 1, false);
 
         await().until(() -> "off".equals(commands.get(KEY + "/d/cmd")));
         assertThat(commands).containsOnlyKeys(KEY + "/d/cmd");

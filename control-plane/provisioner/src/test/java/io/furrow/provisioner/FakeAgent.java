@@ -5,7 +5,7 @@ import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
 import java.net.URLDecoder;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.HashSet;
 import java.util.LinkedHashMap;
@@ -126,7 +126,7 @@ final class FakeAgent implements AutoCloseable {
                 throw new Refusal(proxy, "PROXY", "no token");
             }
             if (garbage != null && exchange.getRequestMethod().equals("GET")) {
-                answer(exchange, 200, garbage.getBytes(StandardCharsets.UTF_8));
+                answer(exchange, 200, garbage.getBytes(UTF_8));
                 return;
             }
             answer(exchange, exchange.getRequestMethod().equals("POST") ? 201 : 200, NgsiJson.write(route(exchange)));
@@ -169,7 +169,7 @@ final class FakeAgent implements AutoCloseable {
     }
 
     private static String id(String path) {
-        return URLDecoder.decode(path.substring("/iot/devices/".length()), StandardCharsets.UTF_8);
+        return URLDecoder.decode(path.substring("/iot/devices/".length()), UTF_8);
     }
 
     private static Map<String, String> query(HttpExchange exchange) {
@@ -177,7 +177,7 @@ final class FakeAgent implements AutoCloseable {
         for (String part :
                 String.valueOf(exchange.getRequestURI().getRawQuery()).split("&")) {
             String[] pair = part.split("=", 2);
-            query.put(pair[0], pair.length == 1 ? null : URLDecoder.decode(pair[1], StandardCharsets.UTF_8));
+            query.put(pair[0], pair.length == 1 ? null : URLDecoder.decode(pair[1], UTF_8));
         }
         return query;
     }

@@ -1,6 +1,6 @@
 package io.furrow.provisioner;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
@@ -39,12 +39,12 @@ final class MqttPeer implements AutoCloseable {
         client.subscribe(
                 filter,
                 1,
-                (topic, message) -> newest.put(topic, new String(message.getPayload(), StandardCharsets.UTF_8)));
+                (topic, message) -> newest.put(topic, new String(message.getPayload(), UTF_8)));
         return this;
     }
 
     void publish(String topic, String message) throws MqttException {
-        client.publish(topic, message.getBytes(StandardCharsets.UTF_8), 1, false);
+        client.publish(topic, message.getBytes(UTF_8), 1, false);
     }
 
     /** Empty if nothing came. */

@@ -2,7 +2,7 @@ package io.furrow.provisioner;
 
 import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.HashSet;
@@ -85,7 +85,7 @@ abstract class ProvisioningFixture {
     }
 
     boolean authenticates(FarmSecret.Login login) {
-        return accounts.authenticates(login.user(), login.password().getBytes(StandardCharsets.UTF_8));
+        return accounts.authenticates(login.user(), login.password().getBytes(UTF_8));
     }
 
     /** Counts accounts at each change, and refuses users that somebody else has. */

@@ -3,7 +3,7 @@ package io.furrow.control;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -157,7 +157,7 @@ class AlarmStormIT {
     private long silent() {
         return new TopicContent(client(), Topics.DEVICES_HEALTH)
                 .newest().values().stream()
-                        .filter(health -> new String(health, StandardCharsets.UTF_8).contains("\"silent\":true"))
+                        .filter(health -> new String(health, UTF_8).contains("\"silent\":true"))
                         .count();
     }
 

@@ -1,7 +1,7 @@
 package io.furrow.control;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -98,13 +98,13 @@ class AuditTopicTest {
     }
 
     private static byte[] bytes(String json) {
-        return json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        return json.replace('\'', '"').getBytes(UTF_8);
     }
 
     private static JsonNode json(String template) throws Exception {
         String json =
                 template.formatted(START.toEpochMilli()).replace('\'', '"').replace('\u0001', '\'');
-        return NgsiJson.read(json.getBytes(StandardCharsets.UTF_8));
+        return NgsiJson.read(json.getBytes(UTF_8));
     }
 
     private static Properties settings() {

@@ -1,6 +1,6 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -285,7 +285,7 @@ class ControlPlaneIT {
     @Test
     void putsTheCleanupPolicyOfItsTopicsRight() throws Exception {
         try (KafkaProducer<String, byte[]> producer = producer()) {
-            producer.send(new ProducerRecord<>(Topics.DEVICES, "k", "{}".getBytes(StandardCharsets.UTF_8)))
+            producer.send(new ProducerRecord<>(Topics.DEVICES, "k", "{}".getBytes(UTF_8)))
                     .get();
         }
         ServiceTopics.prepare(ControlPlaneProcess.settings(kafka.bootstrapServers(), directory.toString()));
@@ -337,7 +337,7 @@ class ControlPlaneIT {
     private List<CommandResult> answers(String topic) throws Exception {
         List<CommandResult> answers = new ArrayList<>();
         for (ConsumerRecord<String, byte[]> record : records(topic)) {
-            if (new String(record.value(), StandardCharsets.UTF_8).contains("\"type\":\"response\"")) {
+            if (new String(record.value(), UTF_8).contains("\"type\":\"response\"")) {
                 answers.add(CommandResult.read(record.value()));
             }
         }

@@ -1,7 +1,7 @@
 package io.furrow.control;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -82,8 +82,8 @@ class ControlTopologyTest {
         FieldVersion field = new FieldVersion(
                 "f",
                 0,
-                (ObjectNode) NgsiJson.read("{\"type\":\"Polygon\"}".getBytes(StandardCharsets.UTF_8)),
-                (ObjectNode) NgsiJson.read("{\"Domain\":\"north\"}".getBytes(StandardCharsets.UTF_8)));
+                (ObjectNode) NgsiJson.read("{\"type\":\"Polygon\"}".getBytes(UTF_8)),
+                (ObjectNode) NgsiJson.read("{\"Domain\":\"north\"}".getBytes(UTF_8)));
         farm.pipe(Topics.FIELDS, field.key(), field.toBytes());
         farm.pipe(Topics.FIELDS, "g", new byte[] {'?'});
         farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
@@ -193,9 +193,9 @@ class ControlTopologyTest {
 
         String heard = "{\"id\":\"urn:ngsi-ld:Camera:m-1\",\"heard\":%d}"
                 .formatted(ManagerFixture.START.plus(Duration.ofMinutes(1)).toEpochMilli());
-        farm.pipe(Topics.DEVICES_HEALTH, "farm|/|urn:ngsi-ld:Camera:m-1", heard.getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.DEVICES_HEALTH, "farm|/|urn:ngsi-ld:Camera:m-1", heard.getBytes(UTF_8));
         assertThat(farm.state("m")).isEqualTo("running");
-        farm.pipe(Topics.DEVICES_HEALTH, "x", "[]".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.DEVICES_HEALTH, "x", "[]".getBytes(UTF_8));
         assertThat(farm.read(Topics.dead(Topics.DEVICES_HEALTH))).hasSize(1);
     }
 
@@ -217,7 +217,7 @@ class ControlTopologyTest {
 
     @Test
     void setsAsideWhatIsNoStatus() {
-        farm.pipe(Topics.DEVICES_STATUS, "farm|/|x", "{\"sequence\":1}".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.DEVICES_STATUS, "farm|/|x", "{\"sequence\":1}".getBytes(UTF_8));
         farm.pipe(Topics.DEVICES_STATUS, "farm|/|x", null);
 
         TestRecord<String, byte[]> dead = farm.only(Topics.dead(Topics.DEVICES_STATUS));
@@ -265,16 +265,16 @@ class ControlTopologyTest {
                 .endsWith("\"sequence\":7}");
 
         farm.pipe(
-                Topics.REPLAYS_STATUS, replay, "{\"sequence\":6,\"state\":\"ended\"}".getBytes(StandardCharsets.UTF_8));
+                Topics.REPLAYS_STATUS, replay, "{\"sequence\":6,\"state\":\"ended\"}".getBytes(UTF_8));
         farm.pipe(
                 Topics.REPLAYS_STATUS,
                 replay,
-                "{\"sequence\":7,\"state\":\"stopped\",\"settled\":false}".getBytes(StandardCharsets.UTF_8));
+                "{\"sequence\":7,\"state\":\"stopped\",\"settled\":false}".getBytes(UTF_8));
         assertThat(farm.read(Topics.REPLAYS)).as("older, or not settled").isEmpty();
         farm.pipe(
                 Topics.REPLAYS_STATUS,
                 replay,
-                "{\"sequence\":7,\"state\":\"stopped\"}".getBytes(StandardCharsets.UTF_8));
+                "{\"sequence\":7,\"state\":\"stopped\"}".getBytes(UTF_8));
         assertThat(farm.only(Topics.REPLAYS).value()).isNull();
         farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'stop','replay':'" + replay + "'}");
         assertThat(ManagerFixture.error(farm.only(Topics.REPLAY_MANAGER))).isEqualTo("unknown-replay");
@@ -300,7 +300,7 @@ class ControlTopologyTest {
     private void report(String replay, long sequence, ReplayStatus.State state, boolean settled) {
         String status = """
                 {"sequence":%d,"state":"%s","settled":%s,"progress":{"position":9000,"from":1000,"to":9000}}""".formatted(sequence, state.code(), settled);
-        farm.pipe(Topics.REPLAYS_STATUS, replay, status.getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.REPLAYS_STATUS, replay, status.getBytes(UTF_8));
     }
 
     @Test

@@ -1,6 +1,6 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -99,7 +99,7 @@ final class FarmWatchFixture implements AutoCloseable {
     }
 
     void pipe(String topic, String key, String json) {
-        pipe(topic, key, json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+        pipe(topic, key, json.replace('\'', '"').getBytes(UTF_8));
     }
 
     void pipe(String topic, String key, byte[] value) {
@@ -109,7 +109,7 @@ final class FarmWatchFixture implements AutoCloseable {
     void pipe(String topic, String tenant, String key, byte[] value) {
         RecordHeaders headers = new RecordHeaders();
         Map.of(HeaderNames.SERVICE, tenant, HeaderNames.SERVICE_PATH, "/")
-                .forEach((name, text) -> headers.add(name, text.getBytes(StandardCharsets.UTF_8)));
+                .forEach((name, text) -> headers.add(name, text.getBytes(UTF_8)));
         pipe(topic, new TestRecord<>(key, value, headers, now));
     }
 

@@ -3,7 +3,7 @@ package io.furrow.control;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -203,7 +203,7 @@ class FarmWatchIT {
             });
         }
         List<String> opened = records(Topics.ALARMS).stream()
-                .filter(record -> new String(record.value(), StandardCharsets.UTF_8).contains("\"opened\""))
+                .filter(record -> new String(record.value(), UTF_8).contains("\"opened\""))
                 .map(ConsumerRecord::key)
                 .toList();
         assertThat(opened).startsWith("silent-device-1").doesNotHaveDuplicates();
@@ -259,7 +259,7 @@ class FarmWatchIT {
 
     private List<String> audited() {
         return records(Topics.AUDIT).stream()
-                .map(record -> new String(record.value(), StandardCharsets.UTF_8))
+                .map(record -> new String(record.value(), UTF_8))
                 .toList();
     }
 

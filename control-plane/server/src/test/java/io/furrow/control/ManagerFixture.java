@@ -1,6 +1,6 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -66,7 +66,7 @@ final class ManagerFixture implements AutoCloseable {
     }
 
     void request(String topic, String key, String json) {
-        pipe(topic, key, json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+        pipe(topic, key, json.replace('\'', '"').getBytes(UTF_8));
     }
 
     void pipe(String topic, String key, byte[] value) {
@@ -118,7 +118,7 @@ final class ManagerFixture implements AutoCloseable {
     }
 
     static String text(byte[] bytes) {
-        return new String(bytes, StandardCharsets.UTF_8);
+        return new String(bytes, UTF_8);
     }
 
     private static Properties settings() {

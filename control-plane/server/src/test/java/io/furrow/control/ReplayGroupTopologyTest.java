@@ -1,7 +1,7 @@
 package io.furrow.control;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashSet;
@@ -271,7 +271,7 @@ class ReplayGroupTopologyTest {
     void findsMissionsAsLongAsTheyAreListed() throws Exception {
         start("");
         farm.pipe(Topics.RECORDINGS, "a", null);
-        farm.pipe(Topics.RECORDINGS, "b", "no JSON".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.RECORDINGS, "b", "no JSON".getBytes(UTF_8));
         assertThat(request("'command':'start','mission':'a'").error()).contains("unknown-mission");
         assertThat(request("'command':'start','mission':'b'").error()).contains("unknown-mission");
         assertThat(request("'command':'start','mission':'a','source':{'file':'a.jsonl'}")

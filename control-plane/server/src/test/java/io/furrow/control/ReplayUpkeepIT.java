@@ -1,6 +1,6 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -184,7 +184,7 @@ class ReplayUpkeepIT {
                 .toList());
         long now = System.currentTimeMillis();
         for (String mission : List.of("weeding", "mowing", "sowing", "played")) {
-            send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(StandardCharsets.UTF_8));
+            send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(UTF_8));
             long reported =
                     mission.equals("sowing") ? now + Duration.ofMinutes(30).toMillis() : now - 1_000;
             producer.send(new ProducerRecord<>("data.farm.realtime." + mission, 0, reported, "d", new byte[1]))
@@ -248,7 +248,7 @@ class ReplayUpkeepIT {
                 .get();
         for (String topic : Stream.concat(guarded.stream(), Stream.of(free)).toList()) {
             String mission = topic.substring(topic.lastIndexOf('.') + 1);
-            send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(StandardCharsets.UTF_8));
+            send(Topics.MISSIONS, mission, "{\"domain\":\"farm\"}".getBytes(UTF_8));
             send(Topics.MISSIONS, mission, null);
         }
 

@@ -1,6 +1,6 @@
 package io.furrow.control;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -27,7 +27,7 @@ class StateRecordsTest {
             """)
     void areWrittenAsTheyWereRead(String type, String record) throws ClassNotFoundException {
         String json = record.replace('\'', '"');
-        Object read = StateJson.read(json.getBytes(StandardCharsets.UTF_8), Class.forName("io.furrow.control." + type));
-        assertThat(new String(StateJson.write(read), StandardCharsets.UTF_8)).isEqualTo(json);
+        Object read = StateJson.read(json.getBytes(UTF_8), Class.forName("io.furrow.control." + type));
+        assertThat(new String(StateJson.write(read), UTF_8)).isEqualTo(json);
     }
 }

@@ -1,7 +1,7 @@
 package io.furrow.control;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 import java.util.Set;
@@ -190,7 +190,7 @@ class WatchTopologyTest {
         assertThat(closedClocks()).isZero();
         farm.pass(Duration.ofSeconds(1));
         assertThat(closedClocks()).isEqualTo(1);
-        farm.pipe(Topics.CLOCKS, "x", "{}".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.CLOCKS, "x", "{}".getBytes(UTF_8));
         assertThat(farm.read(Topics.dead(Topics.CLOCKS))).hasSize(1);
     }
 
@@ -390,11 +390,11 @@ class WatchTopologyTest {
 
     @Test
     void setsAsideWhatItCannotReadOnce() {
-        farm.pipe(Topics.COLLISION, "a-b", "{}".getBytes(StandardCharsets.UTF_8));
-        farm.pipe(Topics.TEMPERATURE, "f", "[".getBytes(StandardCharsets.UTF_8));
-        farm.pipe(Topics.RAW, "x", "[".getBytes(StandardCharsets.UTF_8));
-        farm.pipe(Topics.DEVICES, "|/|x", "[".getBytes(StandardCharsets.UTF_8));
-        farm.pipe(Topics.RAW, "x", "[".getBytes(StandardCharsets.UTF_8));
+        farm.pipe(Topics.COLLISION, "a-b", "{}".getBytes(UTF_8));
+        farm.pipe(Topics.TEMPERATURE, "f", "[".getBytes(UTF_8));
+        farm.pipe(Topics.RAW, "x", "[".getBytes(UTF_8));
+        farm.pipe(Topics.DEVICES, "|/|x", "[".getBytes(UTF_8));
+        farm.pipe(Topics.RAW, "x", "[".getBytes(UTF_8));
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
         farm.encounter("started", 3.2);
         assertThat(farm.read(Topics.ALARMS)).hasSize(1);
@@ -423,7 +423,7 @@ class WatchTopologyTest {
     }
 
     private static String header(TestRecord<String, byte[]> record, String name) {
-        return new String(record.headers().lastHeader(name).value(), StandardCharsets.UTF_8);
+        return new String(record.headers().lastHeader(name).value(), UTF_8);
     }
 
     /** State and offsets are found by these names. */

@@ -1,6 +1,6 @@
 package io.furrow.dashboard.feed;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.Test;
@@ -18,9 +18,9 @@ class FeedRecordTest {
     }
 
     private static String key(String json) {
-        byte[] value = json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        byte[] value = json.replace('\'', '"').getBytes(UTF_8);
         ConsumerRecord<byte[], byte[]> record =
-                new ConsumerRecord<>("t", 0, 0, "c".getBytes(StandardCharsets.UTF_8), value);
+                new ConsumerRecord<>("t", 0, 0, "c".getBytes(UTF_8), value);
         return new FeedRecord(record, FeedRecord.NO_SEQUENCE, 1_000).key();
     }
 }

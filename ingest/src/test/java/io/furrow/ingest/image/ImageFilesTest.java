@@ -1,7 +1,7 @@
 package io.furrow.ingest.image;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.FileTime;
@@ -156,7 +156,7 @@ class ImageFilesTest {
     }
 
     private static Image image(byte[] bytes) throws Exception {
-        return Image.of(Pictures.base64(bytes).getBytes(StandardCharsets.US_ASCII), 1_000_000);
+        return Image.of(Pictures.base64(bytes).getBytes(US_ASCII), 1_000_000);
     }
 
     private List<String> everything() throws IOException {

@@ -1,6 +1,6 @@
 package io.furrow.ingest.image;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Set;
@@ -90,10 +90,10 @@ class ImageRangeTest {
     }
 
     private static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 
     private static String text(byte[] utf8) {
-        return new String(utf8, StandardCharsets.UTF_8);
+        return new String(utf8, UTF_8);
     }
 }

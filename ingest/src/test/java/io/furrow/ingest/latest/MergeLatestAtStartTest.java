@@ -1,6 +1,6 @@
 package io.furrow.ingest.latest;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -115,7 +115,7 @@ class MergeLatestAtStartTest {
                 report("e-13", 200, Entity.builder("e-13", "Valve").number("rate", 4)));
 
         assertThat(written)
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsExactly("e-13 Pump", "e-13");
         assertThat(Entity.parse(written.get(0).value()).number("level")).contains(2.0);
     }
@@ -226,6 +226,6 @@ class MergeLatestAtStartTest {
     }
 
     private static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

@@ -1,7 +1,7 @@
 package io.furrow.ingest.latest;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -94,9 +94,9 @@ class MergeLatestTest {
                 "{\"id\":\"robot\",\"type\":\"Robot\",\"a \\\"quote\":{\"type\":\"Number\",\"value\":1.10,\"metadata\":{}},"
                         + "\"n\":{\"type\":\"Number\",\"value\":123456789012345678901234567890,\"metadata\":{}},"
                         + "\"t\":{\"type\":\"Text\",\"value\":\"\\u0000 ñ 🚜\",\"metadata\":{}}}";
-        event(100, reported.getBytes(StandardCharsets.UTF_8));
+        event(100, reported.getBytes(UTF_8));
 
-        assertThat(Entity.parse(last().value())).isEqualTo(Entity.parse(reported.getBytes(StandardCharsets.UTF_8)));
+        assertThat(Entity.parse(last().value())).isEqualTo(Entity.parse(reported.getBytes(UTF_8)));
         assertThat(values().get(0)).contains("\"value\":1.10,");
     }
 
@@ -106,7 +106,7 @@ class MergeLatestTest {
         event(200, null);
 
         assertThat(last().value()).isNull();
-        assertThat(last().key()).isEqualTo("robot".getBytes(StandardCharsets.UTF_8));
+        assertThat(last().key()).isEqualTo("robot".getBytes(UTF_8));
         operator.processWatermark(1199);
         assertThat(operator.numKeyedStateEntries())
                 .as("older events may still come")
@@ -181,7 +181,7 @@ class MergeLatestTest {
         operator.open();
         report(100, robot().number("speed", 1));
 
-        assertThat(last().key()).isEqualTo("farm|/|robot".getBytes(StandardCharsets.UTF_8));
+        assertThat(last().key()).isEqualTo("farm|/|robot".getBytes(UTF_8));
     }
 
     @Test
@@ -249,7 +249,7 @@ class MergeLatestTest {
 
     private List<String> values() {
         return operator.extractOutputValues().stream()
-                .map(record -> new String(record.value(), StandardCharsets.UTF_8))
+                .map(record -> new String(record.value(), UTF_8))
                 .toList();
     }
 }

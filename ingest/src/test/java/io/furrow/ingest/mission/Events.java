@@ -1,6 +1,6 @@
 package io.furrow.ingest.mission;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.HashMap;
 import java.util.Map;
 
@@ -23,7 +23,7 @@ final class Events {
     }
 
     static MissionEvent event(String mission, String id, long time, String json) {
-        byte[] value = json == null ? null : json.getBytes(StandardCharsets.UTF_8);
+        byte[] value = json == null ? null : json.getBytes(UTF_8);
         Map<String, String> headers = new HashMap<>(Map.of(
                 HeaderNames.CE_ID,
                 id,
@@ -42,7 +42,7 @@ final class Events {
         return new MissionEvent(
                 "farm",
                 mission,
-                new TopicRecord("data.raw", 0, 7, time, "t1".getBytes(StandardCharsets.UTF_8), value, headers));
+                new TopicRecord("data.raw", 0, 7, time, "t1".getBytes(UTF_8), value, headers));
     }
 
     static MissionDocument document(String mission, int number) {

@@ -3,7 +3,7 @@ package io.furrow.ingest.mission;
 import java.io.ByteArrayInputStream;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.time.Clock;
 import java.time.Duration;
@@ -75,7 +75,7 @@ class MissionArchiveTest {
         missions.importFrom("copy", new ByteArrayInputStream(exported), "test", ignored -> {});
         missions.importFrom("copy", new ByteArrayInputStream(exported), "test", ignored -> {});
 
-        assertThat(new String(exported, StandardCharsets.UTF_8).lines()).hasSameSizeAs(awkward());
+        assertThat(new String(exported, UTF_8).lines()).hasSameSizeAs(awkward());
         assertThat(exported("copy")).isEqualTo(exported);
         assertThat(documents("mission_copy")).isEqualTo(documents("mission_m"));
     }
@@ -90,7 +90,7 @@ class MissionArchiveTest {
         store(shuffled);
 
         List<StoredEvent> lines = new ArrayList<>();
-        for (String line : new String(exported("m"), StandardCharsets.UTF_8).split("\n")) {
+        for (String line : new String(exported("m"), UTF_8).split("\n")) {
             lines.add(ArchiveLine.read(line));
         }
         assertThat(lines).hasSize(300).isSortedAccordingTo(EventOrder.COMPARATOR);
@@ -207,7 +207,7 @@ class MissionArchiveTest {
     void saysWhichLineIsNoEvent() throws Exception {
         store(List.of(at("a", 0)));
         byte[] lines =
-                (new String(exported("m"), StandardCharsets.UTF_8) + "{\"id\":1}\n").getBytes(StandardCharsets.UTF_8);
+                (new String(exported("m"), UTF_8) + "{\"id\":1}\n").getBytes(UTF_8);
 
         assertThatThrownBy(() -> missions.importFrom("m", new ByteArrayInputStream(lines), "file.ndjson", n -> {}))
                 .isInstanceOf(IOException.class)

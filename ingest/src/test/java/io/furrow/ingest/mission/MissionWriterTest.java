@@ -1,6 +1,6 @@
 package io.furrow.ingest.mission;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -88,7 +88,7 @@ class MissionWriterTest {
                     .containsEntry(DeadLetter.REASON, "refused")
                     .containsEntry(DeadLetter.STAGE, "missions")
                     .containsEntry(DeadLetter.SOURCE, "data.raw-0@7");
-            assertThat(new String(record.value(), StandardCharsets.UTF_8)).contains("\"Temperature\"");
+            assertThat(new String(record.value(), UTF_8)).contains("\"Temperature\"");
         });
     }
 

@@ -1,6 +1,6 @@
 package io.furrow.ingest.mission;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -135,7 +135,7 @@ class MongoDiesIT {
             for (String name : collections.names()) {
                 TreeSet<String> documents = new TreeSet<>();
                 for (RawBsonDocument document : collections.get(name).find()) {
-                    documents.add(new String(document.getByteBuffer().array(), StandardCharsets.ISO_8859_1));
+                    documents.add(new String(document.getByteBuffer().array(), ISO_8859_1));
                 }
                 all.put(name, documents);
             }

@@ -1,6 +1,6 @@
 package io.furrow.ingest.normalize;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.Arrays;
@@ -64,7 +64,7 @@ class NormalizeJobTest {
                 ("{'id':'t','type':'Thermometer','Temperature':{'type':'Number','value':21.5,'metadata':{}},"
                                 + "'Time':{'type':'Number','value':1700000000000,'metadata':{}}}")
                         .replace('\'', '"')
-                        .getBytes(StandardCharsets.UTF_8));
+                        .getBytes(UTF_8));
         Map<String, String> asTheSource = EntityEvent.of(
                         entity,
                         FiwareScope.of("farm", "/north"),
@@ -74,7 +74,7 @@ class NormalizeJobTest {
                 .headers(form.startsWith("simplified") ? "/ngsi/normalize" : "/ngsi/s1");
         assertThat(written).singleElement().satisfies(record -> {
             assertThat(record.topic()).isEqualTo("data.raw");
-            assertThat(record.key()).isEqualTo("t".getBytes(StandardCharsets.UTF_8));
+            assertThat(record.key()).isEqualTo("t".getBytes(UTF_8));
             assertThat(record.timestamp()).isEqualTo(TIME);
             assertThat(record.value()).isEqualTo(entity.toBytes());
             assertThat(record.headers()).isEqualTo(asTheSource).containsEntry("origin", "kafka");
@@ -125,7 +125,7 @@ class NormalizeJobTest {
                 .filteredOn(record -> "not-json".equals(record.headers().get(DeadLetter.REASON)))
                 .singleElement()
                 .satisfies(dead -> {
-                    assertThat(new String(dead.value(), StandardCharsets.UTF_8)).isEqualTo("{not json");
+                    assertThat(new String(dead.value(), UTF_8)).isEqualTo("{not json");
                     assertThat(dead.headers())
                             .containsEntry("trace", "7")
                             .containsEntry(DeadLetter.STAGE, "normalize")
@@ -139,7 +139,7 @@ class NormalizeJobTest {
 
         assertThat(run(options(), notification(null, echo, Map.of()))).hasSize(1);
         assertThat(run(options("--exclude-types", "T"), notification(null, echo, Map.of())))
-                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .extracting(record -> new String(record.key(), UTF_8))
                 .containsExactly("a");
     }
 
@@ -192,8 +192,8 @@ class NormalizeJobTest {
                 0,
                 3,
                 RECEIVED,
-                key == null ? null : key.getBytes(StandardCharsets.UTF_8),
-                body == null ? null : body.replace('\'', '"').getBytes(StandardCharsets.UTF_8),
+                key == null ? null : key.getBytes(UTF_8),
+                body == null ? null : body.replace('\'', '"').getBytes(UTF_8),
                 new HashMap<>(headers));
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.ingest.normalize;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.HashMap;
 import java.util.List;
@@ -69,7 +69,7 @@ class NormalizeMetricsTest {
     }
 
     private static TopicRecord notification(String body) {
-        byte[] value = body.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        byte[] value = body.replace('\'', '"').getBytes(UTF_8);
         return new TopicRecord("ngsi.notifications", 0, 3, RECEIVED, null, value, new HashMap<>());
     }
 

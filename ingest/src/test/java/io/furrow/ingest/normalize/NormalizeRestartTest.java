@@ -1,6 +1,6 @@
 package io.furrow.ingest.normalize;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -68,7 +68,7 @@ class NormalizeRestartTest {
                     "ngsi.notifications",
                     received,
                     "s",
-                    body.replace('\'', '"').getBytes(StandardCharsets.UTF_8),
+                    body.replace('\'', '"').getBytes(UTF_8),
                     Map.of("Fiware-Service", "farm", "Fiware-Servicepath", "/north"));
         }
 

@@ -1,7 +1,7 @@
 package io.furrow.ingest.route;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashSet;
@@ -298,7 +298,7 @@ class AssignMissionTest {
     }
 
     private static TopicRecord managed(String name, String json) {
-        return onService(name, json.replace('\'', '"').getBytes(StandardCharsets.UTF_8));
+        return onService(name, json.replace('\'', '"').getBytes(UTF_8));
     }
 
     private static TopicRecord deleted(String name) {
@@ -306,7 +306,7 @@ class AssignMissionTest {
     }
 
     private static TopicRecord onService(String name, byte[] value) {
-        return new TopicRecord("service", 0, 0, 0, name.getBytes(StandardCharsets.UTF_8), value, Map.of());
+        return new TopicRecord("service", 0, 0, 0, name.getBytes(UTF_8), value, Map.of());
     }
 
     private void create() throws Exception {
@@ -345,7 +345,7 @@ class AssignMissionTest {
     }
 
     private void onTheTopic(long offset, DeviceChange end) {
-        byte[] key = end.key().getBytes(StandardCharsets.UTF_8);
+        byte[] key = end.key().getBytes(UTF_8);
         onTheTopic.add(new TopicRecord(Topics.DEVICES, 0, offset, end.time(), key, null, Map.of()));
     }
 

@@ -3,7 +3,7 @@ package io.furrow.stores;
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.Base64;
 import java.util.HashMap;
@@ -102,7 +102,7 @@ final class StoredByJob {
                 0,
                 time,
                 time,
-                id.getBytes(StandardCharsets.UTF_8),
+                id.getBytes(UTF_8),
                 entity.toBytes(),
                 new HashMap<>(Map.of("ce_id", id + time)));
         return new ReportedEvent(id + time, "|/|" + id, id, "Camera", "north", "weeding", record);

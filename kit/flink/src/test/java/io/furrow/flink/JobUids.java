@@ -3,7 +3,7 @@ package io.furrow.flink;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.UncheckedIOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -38,7 +38,7 @@ public final class JobUids {
             if (list == null) {
                 throw new AssertionError("src/test/resources" + resource + " is missing; write the job's uids there");
             }
-            return new String(list.readAllBytes(), StandardCharsets.UTF_8)
+            return new String(list.readAllBytes(), UTF_8)
                     .lines()
                     .toList();
         } catch (IOException e) {

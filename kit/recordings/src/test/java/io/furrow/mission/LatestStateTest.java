@@ -1,6 +1,6 @@
 package io.furrow.mission;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Collection;
@@ -91,6 +91,6 @@ class LatestStateTest {
 
     private static String text(StoredEvent event) {
         return event.id() + " " + event.time() + " "
-                + new String(io.furrow.model.ngsi.NgsiJson.write(event.entity()), StandardCharsets.UTF_8);
+                + new String(io.furrow.model.ngsi.NgsiJson.write(event.entity()), UTF_8);
     }
 }

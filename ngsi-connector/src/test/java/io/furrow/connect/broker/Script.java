@@ -1,6 +1,7 @@
 package io.furrow.connect.broker;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayDeque;
 import java.util.Arrays;
 import java.util.Deque;
@@ -18,7 +19,7 @@ public final class Script {
     /** One answer. */
     public record Reply(int status, Map<String, List<String>> headers, byte[] body) {
         public static Reply of(int status, String body) {
-            return new Reply(status, Map.of(), body.getBytes(StandardCharsets.UTF_8));
+            return new Reply(status, Map.of(), body.getBytes(UTF_8));
         }
     }
 
@@ -51,7 +52,7 @@ public final class Script {
 
     private static Reply reply(byte[] input) {
         int status = STATUSES[input[0] & 15];
-        String text = new String(input, 1, input.length - 1, StandardCharsets.ISO_8859_1);
+        String text = new String(input, 1, input.length - 1, ISO_8859_1);
         int end = text.indexOf("\n\n");
         Map<String, List<String>> headers = new TreeMap<>(String.CASE_INSENSITIVE_ORDER);
         if (end >= 0) {

@@ -1,7 +1,7 @@
 package io.furrow.connect.journal;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -278,13 +278,13 @@ class JournalTest {
 
     static List<byte[]> payloads(String... texts) {
         return Stream.of(texts)
-                .map(text -> text.getBytes(StandardCharsets.UTF_8))
+                .map(text -> text.getBytes(UTF_8))
                 .toList();
     }
 
     static List<String> read(JournalReader reader) throws InterruptedException {
         return reader.read(100_000, Long.MAX_VALUE, Duration.ZERO).stream()
-                .map(record -> record.sequence() + " " + new String(record.payload(), StandardCharsets.UTF_8))
+                .map(record -> record.sequence() + " " + new String(record.payload(), UTF_8))
                 .toList();
     }
 

@@ -1,7 +1,7 @@
 package io.furrow.connect.ledger;
 
 import java.lang.management.ManagementFactory;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import javax.management.AttributeNotFoundException;
 import javax.management.InstanceNotFoundException;
 import javax.management.MBeanServer;
@@ -32,7 +32,7 @@ class LedgerTest {
         ledger.rejectedUnavailable.add(3);
         ledger.gauge("pendingBytes", "Bytes that wait", () -> 7);
 
-        String page = new String(new PrometheusPage(ledger, "a \"b\"", 2).write(), StandardCharsets.UTF_8);
+        String page = new String(new PrometheusPage(ledger, "a \"b\"", 2).write(), UTF_8);
 
         assertThat(page)
                 .contains("# TYPE furrow_ngsi_source_rejected_unavailable_total counter\n")

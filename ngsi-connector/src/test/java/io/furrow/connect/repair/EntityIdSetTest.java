@@ -1,7 +1,7 @@
 package io.furrow.connect.repair;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
@@ -201,7 +201,7 @@ class EntityIdSetTest {
         watermark.advanceTo(time.minusSeconds(1));
 
         assertThat(Watermark.open(file).time()).contains(time);
-        Files.write(file, "no time".getBytes(StandardCharsets.UTF_8));
+        Files.write(file, "no time".getBytes(UTF_8));
         assertThat(Watermark.open(file).time()).isEmpty();
     }
 

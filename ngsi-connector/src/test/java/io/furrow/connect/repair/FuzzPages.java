@@ -2,7 +2,7 @@ package io.furrow.connect.repair;
 
 import java.io.IOException;
 import java.net.URLEncoder;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -46,7 +46,7 @@ public final class FuzzPages {
 
     /** Called by the fuzzer first: loading classes takes long on a busy machine, and no input hangs because of it. */
     public static void fuzzerInitialize() throws IOException, InterruptedException {
-        fuzzerTestOneInput("0[{\"id\": \"a\"}]".getBytes(StandardCharsets.UTF_8));
+        fuzzerTestOneInput("0[{\"id\": \"a\"}]".getBytes(UTF_8));
     }
 
     /** The answers to one repair; throws whatever is wrong. */
@@ -121,7 +121,7 @@ public final class FuzzPages {
             require(
                     broker.exchanges().stream()
                             .filter(exchange -> exchange.path()
-                                    .contains("id=" + URLEncoder.encode(id, StandardCharsets.UTF_8) + "&"))
+                                    .contains("id=" + URLEncoder.encode(id, UTF_8) + "&"))
                             .anyMatch(exchange -> shown(exchange)
                                     .filter(list -> !list.findValuesAsText("id").stream()
                                             .map(FuzzPages::printable)
@@ -144,7 +144,7 @@ public final class FuzzPages {
 
     /** As it is after a way through UTF-8. */
     private static String printable(String text) {
-        return new String(text.getBytes(StandardCharsets.UTF_8), StandardCharsets.UTF_8);
+        return new String(text.getBytes(UTF_8), UTF_8);
     }
 
     /** The list of entities in a success; empty if there is none. */

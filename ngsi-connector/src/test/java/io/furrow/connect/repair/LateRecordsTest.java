@@ -1,7 +1,7 @@
 package io.furrow.connect.repair;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Instant;
@@ -58,7 +58,7 @@ class LateRecordsTest {
     @ParameterizedTest
     @ValueSource(strings = {"yesterday", "", "\u00ff\u0000"})
     void readsAllAgainWhereItsFileIsUnreadable(String damaged) throws IOException {
-        Files.write(folder.resolve("late"), damaged.getBytes(StandardCharsets.ISO_8859_1));
+        Files.write(folder.resolve("late"), damaged.getBytes(ISO_8859_1));
 
         open();
 

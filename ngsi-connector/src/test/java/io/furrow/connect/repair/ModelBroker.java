@@ -2,7 +2,7 @@ package io.furrow.connect.repair;
 
 import java.net.URLDecoder;
 import java.net.http.HttpHeaders;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.time.ZoneOffset;
 import java.time.format.DateTimeFormatter;
@@ -165,7 +165,7 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
             int equals = parameter.indexOf('=');
             query.put(
                     parameter.substring(0, equals),
-                    URLDecoder.decode(parameter.substring(equals + 1), StandardCharsets.UTF_8));
+                    URLDecoder.decode(parameter.substring(equals + 1), UTF_8));
         }
         return done(NgsiJson.write(page(query)));
     }
@@ -246,7 +246,7 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
     }
 
     private Outcome done(String json) {
-        return done(json.getBytes(StandardCharsets.UTF_8));
+        return done(json.getBytes(UTF_8));
     }
 
     private Outcome done(byte[] json) {

@@ -5,7 +5,7 @@ import java.io.OutputStream;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
@@ -139,7 +139,7 @@ final class PressedRepair {
         int limit = IMAGES + 2;
         Matcher from = FROM.matcher(path);
         if (from.find()) {
-            Instant time = Instant.parse(java.net.URLDecoder.decode(from.group(1), StandardCharsets.UTF_8));
+            Instant time = Instant.parse(java.net.URLDecoder.decode(from.group(1), UTF_8));
             first = (int) Math.max(0, Duration.between(T, time).toMillis());
         }
         Matcher number = NUMBER.matcher(path);
@@ -157,7 +157,7 @@ final class PressedRepair {
             limit = 1;
         }
         for (int i = first; i < Math.min(first + limit, IMAGES + 2); i++) {
-            body.write((i > first ? "," : "").getBytes(StandardCharsets.UTF_8));
+            body.write((i > first ? "," : "").getBytes(UTF_8));
             entity(i, path.contains("attrs=*"), body);
         }
     }
@@ -166,17 +166,17 @@ final class PressedRepair {
         String date = "{\"type\": \"DateTime\", \"value\": \"" + T.plusMillis(number) + "\", \"metadata\": {}}";
         String head = "{\"id\": \"e%d\", \"type\": \"Camera\", \"dateModified\": %s, \"dateCreated\": %s"
                 .formatted(number, date, date);
-        body.write(head.getBytes(StandardCharsets.UTF_8));
+        body.write(head.getBytes(UTF_8));
         if (whole) {
             boolean isList = number == IMAGES + 1;
             int bytes = number == IMAGES ? 9 * MIB : isList ? 4 * MIB : MIB;
             body.write((", \"v\": {\"type\": \"Text\", \"metadata\": {}, \"value\": " + (isList ? "[" : "\""))
-                    .getBytes(StandardCharsets.UTF_8));
-            byte[] part = (isList ? "[],".repeat(1000) : "iVBORw0KGgo=".repeat(100)).getBytes(StandardCharsets.UTF_8);
+                    .getBytes(UTF_8));
+            byte[] part = (isList ? "[],".repeat(1000) : "iVBORw0KGgo=".repeat(100)).getBytes(UTF_8);
             for (int written = 0; written < bytes; written += part.length) {
                 body.write(part);
             }
-            body.write((isList ? "0]}" : "\"}").getBytes(StandardCharsets.UTF_8));
+            body.write((isList ? "0]}" : "\"}").getBytes(UTF_8));
         }
         body.write('}');
     }

@@ -1,6 +1,6 @@
 package io.furrow.connect.repair;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.concurrent.TimeUnit;
 
@@ -26,7 +26,7 @@ class RepairMemoryTest {
                 .redirectErrorStream(true)
                 .start();
         try {
-            String out = new String(repair.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+            String out = new String(repair.getInputStream().readAllBytes(), UTF_8);
 
             assertThat(repair.waitFor()).as(out).isZero();
             assertThat(out)

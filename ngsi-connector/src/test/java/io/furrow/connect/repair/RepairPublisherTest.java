@@ -1,6 +1,6 @@
 package io.furrow.connect.repair;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
@@ -107,7 +107,7 @@ class RepairPublisherTest {
             @Override
             public byte[] serialize(String subscription, MissedChange finding) {
                 assertThat(Thread.holdsLock(live)).isFalse();
-                return EntityKeys.id(finding.identity()).getBytes(StandardCharsets.UTF_8);
+                return EntityKeys.id(finding.identity()).getBytes(UTF_8);
             }
 
             @Override
@@ -117,7 +117,7 @@ class RepairPublisherTest {
                     return Optional.empty();
                 }
                 assertThat(records).hasSizeLessThanOrEqualTo(100);
-                records.forEach(record -> emitted.add(new String(record, StandardCharsets.UTF_8)));
+                records.forEach(record -> emitted.add(new String(record, UTF_8)));
                 return Optional.of(durable);
             }
         };

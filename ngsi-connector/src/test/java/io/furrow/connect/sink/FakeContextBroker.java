@@ -2,7 +2,7 @@ package io.furrow.connect.sink;
 
 import java.io.IOException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -100,12 +100,12 @@ final class FakeContextBroker implements AutoCloseable {
     }
 
     private Reply take(Request request) throws IOException {
-        String body = Content.Source.asString(request, StandardCharsets.UTF_8);
+        String body = Content.Source.asString(request, UTF_8);
         String path = request.getHttpURI().getPathQuery();
         try {
             JsonNode json = body.isEmpty()
                     ? NgsiJson.mapper().missingNode()
-                    : NgsiJson.read(body.getBytes(StandardCharsets.UTF_8));
+                    : NgsiJson.read(body.getBytes(UTF_8));
             if (path.startsWith("/v2/op/query")) {
                 queries.incrementAndGet();
                 return found(json.path("entities").findValuesAsText("id"));

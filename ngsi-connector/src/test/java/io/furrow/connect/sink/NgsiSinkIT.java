@@ -1,7 +1,7 @@
 package io.furrow.connect.sink;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -61,7 +61,7 @@ class NgsiSinkIT {
                             letter.headers()
                                     .lastHeader("__connect.errors.exception.message")
                                     .value(),
-                            StandardCharsets.UTF_8))
+                            UTF_8))
                     .asString()
                     .contains("forbidden characters");
         }
@@ -127,8 +127,8 @@ class NgsiSinkIT {
                 byte[] entity =
                         Entity.builder("e" + i, "T").integer("x", i).build().toBytes();
                 ProducerRecord<String, byte[]> record = new ProducerRecord<>(topic, "e" + i, entity);
-                record.headers().add("fiware-service", "agri".getBytes(StandardCharsets.UTF_8));
-                record.headers().add("fiware-servicepath", "/plot1".getBytes(StandardCharsets.UTF_8));
+                record.headers().add("fiware-service", "agri".getBytes(UTF_8));
+                record.headers().add("fiware-servicepath", "/plot1".getBytes(UTF_8));
                 producer.send(record);
             }
         }

@@ -3,7 +3,7 @@ package io.furrow.connect.source;
 import java.io.IOException;
 import java.net.InetAddress;
 import java.net.Socket;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Map;
 
 import org.apache.kafka.common.config.ConfigException;
@@ -96,7 +96,7 @@ class AccessTest {
         return ask(
                 rig,
                 "POST " + path + " HTTP/1.1\r\nContent-Type: application/json; charset=utf-8\r\nContent-Length: "
-                        + recorded.body().getBytes(StandardCharsets.UTF_8).length + "\r\n" + headers + "\r\n",
+                        + recorded.body().getBytes(UTF_8).length + "\r\n" + headers + "\r\n",
                 recorded.body());
     }
 
@@ -108,9 +108,9 @@ class AccessTest {
         try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), rig.port())) {
             socket.setSoTimeout((int) NotificationRig.TIMEOUT.toMillis());
             socket.getOutputStream()
-                    .write((head + "Connection: close\r\n\r\n" + body).getBytes(StandardCharsets.UTF_8));
+                    .write((head + "Connection: close\r\n\r\n" + body).getBytes(UTF_8));
             socket.getOutputStream().flush();
-            return new String(socket.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+            return new String(socket.getInputStream().readAllBytes(), UTF_8);
         }
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.connect.source;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.Arrays;
 import java.util.List;
@@ -32,8 +32,8 @@ public final class FuzzBodies {
 
     /** Called by the fuzzer first: loading classes takes long on a busy machine, and no input hangs because of it. */
     public static void fuzzerInitialize() throws UnreadableException {
-        fuzzerTestOneInput("\0{\"id\": \"a\", \"t\": {\"value\": 1}}".getBytes(StandardCharsets.UTF_8));
-        fuzzerTestOneInput("\0no JSON".getBytes(StandardCharsets.UTF_8));
+        fuzzerTestOneInput("\0{\"id\": \"a\", \"t\": {\"value\": 1}}".getBytes(UTF_8));
+        fuzzerTestOneInput("\0no JSON".getBytes(UTF_8));
     }
 
     /** One body; throws whatever is wrong. */
@@ -68,7 +68,7 @@ public final class FuzzBodies {
             Entity entity = Entity.parse(record.value());
             require(entity.id().equals(record.key()), "the key is not the id");
             byte[] again = entity.toBytes();
-            require(Arrays.equals(again, record.value()), new String(again, StandardCharsets.UTF_8));
+            require(Arrays.equals(again, record.value()), new String(again, UTF_8));
         }
     }
 

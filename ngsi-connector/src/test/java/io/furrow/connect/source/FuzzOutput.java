@@ -1,6 +1,6 @@
 package io.furrow.connect.source;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
@@ -45,7 +45,7 @@ public final class FuzzOutput implements RepairOutput {
             throw new IllegalStateException("a record of " + record.bytes() + " bytes");
         }
         if (record.topic().equals(SETTINGS.deadLetterTopic())) {
-            told.add(new String(record.value(), StandardCharsets.UTF_8));
+            told.add(new String(record.value(), UTF_8));
         } else if (record.value() == null) {
             deleted.add(record.key());
         } else {

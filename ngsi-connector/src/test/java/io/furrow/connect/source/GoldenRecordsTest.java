@@ -1,7 +1,7 @@
 package io.furrow.connect.source;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Instant;
@@ -67,7 +67,7 @@ class GoldenRecordsTest {
                 .collect(Collectors.toMap(
                         header -> header[0].toLowerCase(Locale.ROOT), header -> header[1], (a, b) -> a, TreeMap::new));
         UnaryOperator<String> header = name -> headers.get(name.toLowerCase(Locale.ROOT));
-        byte[] body = headAndBody[1].strip().getBytes(StandardCharsets.UTF_8);
+        byte[] body = headAndBody[1].strip().getBytes(UTF_8);
         NotificationTranslator translator = new NotificationTranslator(
                 new NgsiSourceConfig(Map.of("journal.dir", "/tmp/journal")).translation(), new Ledger());
         return translator
@@ -81,7 +81,7 @@ class GoldenRecordsTest {
         json.put("timestamp", record.time().toEpochMilli());
         ObjectNode headers = json.putObject("headers");
         record.headers().forEach(headers::put);
-        json.put("value", record.value() == null ? null : new String(record.value(), StandardCharsets.UTF_8));
+        json.put("value", record.value() == null ? null : new String(record.value(), UTF_8));
         return json.toString();
     }
 }

@@ -5,7 +5,7 @@ import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.HashMap;
 import java.util.List;
@@ -140,9 +140,9 @@ class LargeRecordsIT {
             assertThat(reader.atLeast(1)).extracting(ConsumerRecord::key).containsExactly("small");
             assertThat(dead.atLeast(1)).singleElement().satisfies(letter -> {
                 assertThat(new String(
-                                letter.headers().lastHeader(DeadLetter.REASON).value(), StandardCharsets.UTF_8))
+                                letter.headers().lastHeader(DeadLetter.REASON).value(), UTF_8))
                         .isEqualTo("too-large");
-                assertThat(new String(letter.value(), StandardCharsets.UTF_8)).startsWith("{\"id\":\"large\"");
+                assertThat(new String(letter.value(), UTF_8)).startsWith("{\"id\":\"large\"");
             });
         }
     }

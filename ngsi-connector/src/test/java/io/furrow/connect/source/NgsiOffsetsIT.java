@@ -2,7 +2,7 @@ package io.furrow.connect.source;
 
 import org.junit.jupiter.api.AutoClose;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -287,7 +287,7 @@ class NgsiOffsetsIT {
     }
 
     private static String event(ConsumerRecord<String, byte[]> record) {
-        return new String(record.headers().lastHeader(HeaderNames.CE_ID).value(), StandardCharsets.UTF_8);
+        return new String(record.headers().lastHeader(HeaderNames.CE_ID).value(), UTF_8);
     }
 
     private static List<Path> journals(String connector) throws Exception {

@@ -6,7 +6,7 @@ import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -200,21 +200,21 @@ class NgsiSourceIT {
         ObjectNode headers = JsonNodeFactory.instance.objectNode();
         for (Header header : record.headers()) {
             if (!header.key().equals("ts-source")) {
-                headers.put(header.key(), new String(header.value(), StandardCharsets.UTF_8));
+                headers.put(header.key(), new String(header.value(), UTF_8));
             }
         }
         ObjectNode golden = JsonNodeFactory.instance.objectNode();
         golden.put("key", record.key()).put("timestamp", record.timestamp());
         golden.set("headers", headers);
-        golden.put("value", new String(record.value(), StandardCharsets.UTF_8));
+        golden.put("value", new String(record.value(), UTF_8));
         return golden.toString();
     }
 
     private static String header(ConsumerRecord<String, byte[]> record, String name) {
-        return new String(record.headers().lastHeader(name).value(), StandardCharsets.UTF_8);
+        return new String(record.headers().lastHeader(name).value(), UTF_8);
     }
 
     private static byte[] bytes(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

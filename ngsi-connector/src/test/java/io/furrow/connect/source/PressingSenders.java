@@ -4,7 +4,7 @@ import java.io.IOException;
 import java.io.InputStream;
 import java.io.OutputStream;
 import java.net.Socket;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -25,7 +25,7 @@ public final class PressingSenders {
         String frame = "{\"id\": \"a\", \"type\": \"T\", \"x\": \"\"}";
         String body = frame.replace("\"\"", "\"" + "x".repeat(bodyBytes - frame.length()) + "\"");
         String head = "POST /v2/notify HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + body.length() + "\r\n\r\n";
-        this.request = (head + body).getBytes(StandardCharsets.US_ASCII);
+        this.request = (head + body).getBytes(US_ASCII);
     }
 
     /** Runs as a program. */

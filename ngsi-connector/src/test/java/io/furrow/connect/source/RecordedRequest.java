@@ -4,7 +4,7 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.net.URI;
 import java.net.http.HttpRequest;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Arrays;
@@ -30,7 +30,7 @@ record RecordedRequest(String path, List<String[]> headers, String body) {
     /** The request to a server, its times set back a year: a clock that is right today is never behind them. */
     HttpRequest to(URI server) {
         HttpRequest.Builder request = HttpRequest.newBuilder(server.resolve(path))
-                .POST(HttpRequest.BodyPublishers.ofString(body.replace("\"2026-", "\"2025-"), StandardCharsets.UTF_8));
+                .POST(HttpRequest.BodyPublishers.ofString(body.replace("\"2026-", "\"2025-"), UTF_8));
         headers.stream()
                 .filter(header -> !SET_BY_THE_CLIENT.contains(header[0].toLowerCase(java.util.Locale.ROOT)))
                 .forEach(header -> request.header(header[0], header[1]));

@@ -7,7 +7,7 @@ import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse.BodyHandlers;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -89,7 +89,7 @@ class TranslationMemoryTest {
     private static CompletableFuture<Integer> post(URI uri, String body) {
         HttpRequest request = HttpRequest.newBuilder(uri)
                 .timeout(NotificationRig.TIMEOUT)
-                .POST(BodyPublishers.ofString(body, StandardCharsets.US_ASCII))
+                .POST(BodyPublishers.ofString(body, US_ASCII))
                 .build();
         return CLIENT.sendAsync(request, BodyHandlers.discarding())
                 .handle((answer, failure) -> failure == null ? answer.statusCode() : -1);

@@ -1,6 +1,6 @@
 package io.furrow.replay.playback;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -144,7 +144,7 @@ class PlaybackModelTest {
                 " ",
                 Long.toString(now),
                 Long.toString(record.timestamp()),
-                new String(record.key(), StandardCharsets.UTF_8),
+                new String(record.key(), UTF_8),
                 headers.get(HeaderNames.REPLAY_KIND) + reason,
                 "epoch " + headers.get(HeaderNames.REPLAY_EPOCH),
                 "sequence " + headers.get(HeaderNames.REPLAY_SEQUENCE),

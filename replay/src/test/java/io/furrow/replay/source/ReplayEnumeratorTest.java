@@ -1,7 +1,7 @@
 package io.furrow.replay.source;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
@@ -180,7 +180,7 @@ class ReplayEnumeratorTest {
         readers.register(0, enumerator);
         readers.register(1, enumerator);
 
-        byte[] bytes = "x".getBytes(StandardCharsets.UTF_8);
+        byte[] bytes = "x".getBytes(UTF_8);
         script.next = List.of(
                 new ReplayUpdate(null, bytes),
                 new ReplayUpdate("no name", bytes),

@@ -1,7 +1,7 @@
 package io.furrow.replay.source;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
@@ -92,7 +92,7 @@ class ReplayReaderTest {
     private ReplayStatus status(String mission) {
         return records.stream()
                 .filter(record -> record.topic().equals(Topics.REPLAYS_STATUS))
-                .filter(record -> new String(record.key(), StandardCharsets.UTF_8).equals(mission + ".0a1b2c3d"))
+                .filter(record -> new String(record.key(), UTF_8).equals(mission + ".0a1b2c3d"))
                 .reduce((older, newer) -> newer)
                 .map(record -> {
                     try {
@@ -126,7 +126,7 @@ class ReplayReaderTest {
         start(desired("stuck", 1, State.RUNNING, 1));
         start(desired("unknown", 1, State.RUNNING, 1));
         reader.addSplits(List.of(
-                new ReplaySplit("bad.0a1b2c3d", "no JSON".getBytes(StandardCharsets.UTF_8), PlaybackState.fresh())));
+                new ReplaySplit("bad.0a1b2c3d", "no JSON".getBytes(UTF_8), PlaybackState.fresh())));
         start(desired("m", 1, State.RUNNING, 1));
 
         playUntil(() -> !played("m", "end").isEmpty()
@@ -366,7 +366,7 @@ class ReplayReaderTest {
     /** Whoever asked for it can forget it then. */
     @Test
     void appliesARecordThatItCannotReadAsAFailure() throws Exception {
-        byte[] later = "{\"sequence\": 7, \"replay\": 1}".getBytes(StandardCharsets.UTF_8);
+        byte[] later = "{\"sequence\": 7, \"replay\": 1}".getBytes(UTF_8);
         reader.addSplits(List.of(new ReplaySplit("bad.0a1b2c3d", later, PlaybackState.fresh())));
         missions.with("m", TIME, TIME + 100_000);
         start(desired("m", 1, State.RUNNING, 1));

@@ -5,7 +5,7 @@ import java.io.UncheckedIOException;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
@@ -29,7 +29,7 @@ public final class NotificationReceiver implements AutoCloseable {
     public record ReceivedNotification(int sender, String path, Map<String, String> headers, String body) {
         public JsonNode json() {
             try {
-                return NgsiJson.read(body.getBytes(StandardCharsets.UTF_8));
+                return NgsiJson.read(body.getBytes(UTF_8));
             } catch (UnreadableException e) {
                 throw new AssertionError("a notification that is no JSON: " + body, e);
             }
@@ -76,7 +76,7 @@ public final class NotificationReceiver implements AutoCloseable {
     }
 
     private void receive(HttpExchange exchange) throws IOException {
-        String body = new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8);
+        String body = new String(exchange.getRequestBody().readAllBytes(), UTF_8);
         Map<String, String> headers = new TreeMap<>(String.CASE_INSENSITIVE_ORDER);
         exchange.getRequestHeaders().forEach((name, values) -> headers.put(name, String.join(",", values)));
         received.add(new ReceivedNotification(

@@ -3,7 +3,7 @@ package io.furrow.cli;
 import org.junit.jupiter.api.AutoClose;
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -241,9 +241,9 @@ class DeadLettersIT {
     }
 
     private static void deadLetter(String topic, String key, byte[] value, Map<String, String> headers) {
-        byte[] keyBytes = key == null ? null : key.getBytes(StandardCharsets.UTF_8);
+        byte[] keyBytes = key == null ? null : key.getBytes(UTF_8);
         ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, TIME, keyBytes, value);
-        headers.forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
+        headers.forEach((name, text) -> record.headers().add(name, text.getBytes(UTF_8)));
         var settings = Map.of("bootstrap.servers", kafka.bootstrapServers(), "max.request.size", 4_000_000);
         try (var producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
             producer.send(record).get();
@@ -271,7 +271,7 @@ class DeadLettersIT {
     private static Map<String, String> headers(ConsumerRecord<byte[], byte[]> record) {
         Map<String, String> headers = new TreeMap<>();
         record.headers()
-                .forEach(header -> headers.put(header.key(), new String(header.value(), StandardCharsets.UTF_8)));
+                .forEach(header -> headers.put(header.key(), new String(header.value(), UTF_8)));
         return headers;
     }
 }

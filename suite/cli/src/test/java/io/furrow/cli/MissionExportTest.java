@@ -3,7 +3,8 @@ package io.furrow.cli;
 import java.io.ByteArrayInputStream;
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
@@ -37,7 +38,7 @@ class MissionExportTest {
     void writesAMissionInEachFormat() throws Exception {
         try (EmbeddedMongo mongo = EmbeddedMongo.inMemory()) {
             try (StoredMissions missions = StoredMissions.open(mongo.uri())) {
-                byte[] lines = LINES.getBytes(StandardCharsets.UTF_8);
+                byte[] lines = LINES.getBytes(UTF_8);
                 missions.importFrom("hoeing", new ByteArrayInputStream(lines), "lines", told -> {});
             }
 
@@ -60,7 +61,7 @@ class MissionExportTest {
         try (EmbeddedMongo mongo = EmbeddedMongo.inMemory();
                 Markers markers = Markers.open(mongo.uri(), MongoAccess.DATABASE)) {
             try (StoredMissions missions = StoredMissions.open(mongo.uri())) {
-                byte[] lines = LINES.getBytes(StandardCharsets.UTF_8);
+                byte[] lines = LINES.getBytes(UTF_8);
                 missions.importFrom("hoeing", new ByteArrayInputStream(lines), "lines", told -> {});
             }
             markers.add(new Marker("m1", "hoeing", 1_700_000_000_500L, "turns", "Ada", 1_700_000_009_000L));
@@ -73,7 +74,7 @@ class MissionExportTest {
                     .contains("{\"kind\":\"marker\",\"id\":\"m1\"");
             assertThat(new String(
                             Files.readAllBytes(exported(mongo, "hoeing.mcap", "--format", "mcap")),
-                            StandardCharsets.ISO_8859_1))
+                            ISO_8859_1))
                     .contains("\"note\":\"turns\"");
 
             markers.remove("hoeing", "m1");

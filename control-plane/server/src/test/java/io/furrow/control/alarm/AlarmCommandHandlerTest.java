@@ -1,6 +1,6 @@
 package io.furrow.control.alarm;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 import java.util.Set;
@@ -41,7 +41,7 @@ class AlarmCommandHandlerTest {
     void showsAnAlarmAsClientsReadIt() {
         handler.raise(silent("urn:t:1"), NOW);
 
-        assertThat(new String(publisher.compacted(Topics.ALARMS).get("silent-device-1"), StandardCharsets.UTF_8))
+        assertThat(new String(publisher.compacted(Topics.ALARMS).get("silent-device-1"), UTF_8))
                 .isEqualTo("""
                         {"alarm":"silent-device-1","kind":"silent-device","subject":"urn:t:1","severity":"minor","state":"open",\
                         "change":"opened","text":"it is silent","devices":[{"id":"urn:t:1","type":"Thermometer"}],\

@@ -4,7 +4,7 @@ import java.io.IOException;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -62,7 +62,7 @@ class DeviceCommandsTest {
     @ValueSource(
             strings = {"3", "2.50", "840380235174088834", "true", "false", "null", "\"007\"", "{\"l\":[1,2.5]}", "[]"})
     void sendsAValueAsWhatItIs(String value) throws Exception {
-        JsonNode json = NgsiJson.read(value.getBytes(StandardCharsets.UTF_8));
+        JsonNode json = NgsiJson.read(value.getBytes(UTF_8));
 
         commands()
                 .send(new DeviceCommands.Order("t1", "Thermometer", "on", json))
@@ -171,8 +171,8 @@ class DeviceCommandsTest {
                         exchange.getRequestURI(),
                         exchange.getRequestHeaders().getFirst("Fiware-Service"),
                         exchange.getRequestHeaders().getFirst("Fiware-Servicepath"),
-                        new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8)));
-        byte[] body = answer.getBytes(StandardCharsets.UTF_8);
+                        new String(exchange.getRequestBody().readAllBytes(), UTF_8)));
+        byte[] body = answer.getBytes(UTF_8);
         exchange.sendResponseHeaders(status, body.length == 0 ? -1 : body.length);
         exchange.getResponseBody().write(body);
         exchange.close();

@@ -1,6 +1,6 @@
 package io.furrow.control.health;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.Optional;
 
@@ -78,7 +78,7 @@ class SilenceAlarmReconcilerTest {
 
     private String farm() {
         return publisher.compacted(Topics.ALARMS).values().stream()
-                .map(alarm -> new String(alarm, StandardCharsets.UTF_8))
+                .map(alarm -> new String(alarm, UTF_8))
                 .filter(alarm -> alarm.contains("silent-farm"))
                 .findFirst()
                 .orElse("");

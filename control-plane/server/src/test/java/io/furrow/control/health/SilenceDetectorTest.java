@@ -1,6 +1,6 @@
 package io.furrow.control.health;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -209,7 +209,7 @@ class SilenceDetectorTest {
         pass(1000);
         assertThat(signs).hasSize(1);
         assertThat(listener.isMonitored(KEY)).isFalse();
-        desired.put(KEY, "[".getBytes(StandardCharsets.UTF_8));
+        desired.put(KEY, "[".getBytes(UTF_8));
         pass(5000);
         assertThat(listener.isMonitored(KEY)).isFalse();
     }

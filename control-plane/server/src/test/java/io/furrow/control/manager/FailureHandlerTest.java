@@ -1,7 +1,7 @@
 package io.furrow.control.manager;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.Properties;
 
@@ -38,7 +38,7 @@ class FailureHandlerTest {
     private static final class Failing extends ContextualProcessor<String, byte[], String, byte[]> {
         @Override
         public void process(Record<String, byte[]> record) {
-            String text = new String(record.value(), StandardCharsets.UTF_8);
+            String text = new String(record.value(), UTF_8);
             if (text.contains("fault")) {
                 throw new IllegalStateException("nobody expected this");
             } else if (text.contains("away")) {
@@ -99,7 +99,7 @@ class FailureHandlerTest {
 
     private void pipe(String topic, String value) {
         driver.createInputTopic(topic, new StringSerializer(), new ByteArraySerializer())
-                .pipeInput("key", value.getBytes(StandardCharsets.UTF_8));
+                .pipeInput("key", value.getBytes(UTF_8));
     }
 
     private List<TestRecord<String, byte[]>> read(String topic) {
@@ -108,10 +108,10 @@ class FailureHandlerTest {
     }
 
     private static String text(TestRecord<String, byte[]> record) {
-        return new String(record.value(), StandardCharsets.UTF_8);
+        return new String(record.value(), UTF_8);
     }
 
     private static String header(TestRecord<String, byte[]> record, String name) {
-        return new String(record.headers().lastHeader(name).value(), StandardCharsets.UTF_8);
+        return new String(record.headers().lastHeader(name).value(), UTF_8);
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.control.mission;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -82,7 +82,7 @@ class CredentialsTest {
     @Test
     void readsTheStateOfAVersionThatRotatedNothing() {
         DeviceState state = StateJson.read(
-                "{\"wanted\":{\"mission\":\"m\"},\"confirmed\":true}".getBytes(StandardCharsets.UTF_8),
+                "{\"wanted\":{\"mission\":\"m\"},\"confirmed\":true}".getBytes(UTF_8),
                 DeviceState.class);
 
         assertThat(state.forgotten()).isFalse();

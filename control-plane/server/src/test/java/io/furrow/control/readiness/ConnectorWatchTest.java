@@ -4,7 +4,7 @@ import java.io.IOException;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Clock;
 import java.time.Instant;
 import java.time.ZoneOffset;
@@ -42,7 +42,7 @@ class ConnectorWatchTest {
     void start() throws IOException {
         connect = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
         connect.createContext("/connectors", exchange -> {
-            byte[] body = answer.get().getBytes(StandardCharsets.UTF_8);
+            byte[] body = answer.get().getBytes(UTF_8);
             boolean isAsked = "expand=status".equals(exchange.getRequestURI().getQuery());
             exchange.sendResponseHeaders(isAsked ? 200 : 404, body.length);
             exchange.getResponseBody().write(body);

@@ -1,6 +1,6 @@
 package io.furrow.control.replay;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Optional;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -60,7 +60,7 @@ class DeletedNamesTest {
                 0,
                 0,
                 key,
-                value == null ? null : value.getBytes(StandardCharsets.UTF_8),
+                value == null ? null : value.getBytes(UTF_8),
                 new RecordHeaders(),
                 Optional.empty()));
     }

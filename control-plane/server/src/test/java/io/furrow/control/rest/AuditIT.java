@@ -2,7 +2,7 @@ package io.furrow.control.rest;
 
 import org.junit.jupiter.api.AutoClose;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -56,7 +56,7 @@ class AuditIT {
     private static byte[] entry(int i) {
         String mission = i == 0 || i == ENTRIES - 5 ? "rare" : "usual";
         return """
-                {"time":%d,"user":"olga","target":"device","command":"on","about":{"mission":"%s"},"result":"sent"}""".formatted(i, mission).getBytes(StandardCharsets.UTF_8);
+                {"time":%d,"user":"olga","target":"device","command":"on","about":{"mission":"%s"},"result":"sent"}""".formatted(i, mission).getBytes(UTF_8);
     }
 
     private record Page(List<Integer> times, String next) {}

@@ -4,7 +4,7 @@ import org.junit.jupiter.api.AutoClose;
 import java.net.Socket;
 import java.net.SocketTimeoutException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Clock;
@@ -49,13 +49,13 @@ class RestApiAccessIT {
         try (Socket socket = new Socket(uri.getHost(), uri.getPort())) {
             String head =
                     "POST /api/domains HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n";
-            socket.getOutputStream().write(head.getBytes(StandardCharsets.US_ASCII));
+            socket.getOutputStream().write(head.getBytes(US_ASCII));
             socket.setSoTimeout(200);
             String answer = "";
             for (int i = 0; i < 900 && answer.isEmpty(); i++) {
                 socket.getOutputStream().write(' ');
                 try {
-                    answer = new String(socket.getInputStream().readNBytes(12), StandardCharsets.US_ASCII);
+                    answer = new String(socket.getInputStream().readNBytes(12), US_ASCII);
                 } catch (SocketTimeoutException e) {
                     // The next byte, then.
                 }
@@ -74,15 +74,15 @@ class RestApiAccessIT {
                 socket.setSoTimeout(200);
                 String head = refused
                         + " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 9\r\n\r\n";
-                socket.getOutputStream().write(head.getBytes(StandardCharsets.US_ASCII));
+                socket.getOutputStream().write(head.getBytes(US_ASCII));
                 assertThatThrownBy(() -> socket.getInputStream().read())
                         .as(refused)
                         .isInstanceOf(SocketTimeoutException.class);
                 socket.setSoTimeout((int) RunningApi.TIMEOUT.toMillis());
                 String next = "{\"a\": 1 }GET /health HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
-                socket.getOutputStream().write(next.getBytes(StandardCharsets.US_ASCII));
+                socket.getOutputStream().write(next.getBytes(US_ASCII));
 
-                assertThat(new String(socket.getInputStream().readAllBytes(), StandardCharsets.US_ASCII))
+                assertThat(new String(socket.getInputStream().readAllBytes(), US_ASCII))
                         .as(refused)
                         .startsWith("HTTP/1.1 4")
                         .contains("HTTP/1.1 200");

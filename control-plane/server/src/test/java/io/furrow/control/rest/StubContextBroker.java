@@ -4,7 +4,7 @@ import java.io.IOException;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.Executors;
 
@@ -48,7 +48,7 @@ final class StubContextBroker implements AutoCloseable {
     }
 
     private void take(HttpExchange exchange) throws IOException {
-        String body = new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8);
+        String body = new String(exchange.getRequestBody().readAllBytes(), UTF_8);
         last = exchange.getRequestURI() + " " + body;
         scope = exchange.getRequestHeaders().getFirst("Fiware-Service") + " "
                 + exchange.getRequestHeaders().getFirst("Fiware-Servicepath");

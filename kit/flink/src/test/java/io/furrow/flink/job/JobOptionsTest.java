@@ -1,6 +1,6 @@
 package io.furrow.flink.job;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -133,7 +133,7 @@ class JobOptionsTest {
     @Test
     void refuseAPropertiesFileThatCannotBeRead(@TempDir Path directory) throws Exception {
         Path missing = directory.resolve("missing.properties");
-        Path latin1 = Files.write(directory.resolve("latin1"), "a=ñ".getBytes(StandardCharsets.ISO_8859_1));
+        Path latin1 = Files.write(directory.resolve("latin1"), "a=ñ".getBytes(ISO_8859_1));
         Path broken = Files.writeString(directory.resolve("broken"), "a=\\u12G4\n");
 
         for (Path file : List.of(missing, directory, latin1, broken)) {

@@ -1,6 +1,6 @@
 package io.furrow.flink.kafka;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -58,7 +58,7 @@ class AlignedInputIT {
     private static final byte[] ENTITY = IntStream.range(0, 8)
             .mapToObj(i -> ",\"attribute" + i + "\":{\"type\":\"Number\",\"value\":" + i + ".25,\"metadata\":{}}")
             .collect(Collectors.joining("", "{\"id\":\"urn:ngsi-ld:T:1\",\"type\":\"T\"", "}"))
-            .getBytes(StandardCharsets.UTF_8);
+            .getBytes(UTF_8);
     private static final long HOUR = Duration.ofHours(1).toMillis();
 
     private KafkaProducer<byte[], byte[]> producer;
@@ -154,7 +154,7 @@ class AlignedInputIT {
     }
 
     private void write(int partition, long time, String value) throws Exception {
-        producer.send(new ProducerRecord<>("in", partition, time, null, value.getBytes(StandardCharsets.UTF_8)))
+        producer.send(new ProducerRecord<>("in", partition, time, null, value.getBytes(UTF_8)))
                 .get();
     }
 

@@ -1,6 +1,6 @@
 package io.furrow.flink.kafka;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.HashMap;
@@ -72,12 +72,12 @@ class DeadLetterSinkIT {
             while (messages.size() < letters) { // ended by the class's timeout
                 consumer.poll(Duration.ofMillis(200))
                         .forEach(record -> messages.put(
-                                new String(record.key(), StandardCharsets.UTF_8),
+                                new String(record.key(), UTF_8),
                                 new String(
                                         record.headers()
                                                 .lastHeader(DeadLetter.MESSAGE)
                                                 .value(),
-                                        StandardCharsets.UTF_8)));
+                                        UTF_8)));
             }
         }
         return messages;

@@ -1,7 +1,7 @@
 package io.furrow.flink.kafka;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -222,10 +222,10 @@ class KafkaConnectorsIT {
     }
 
     private static byte[] utf8(String text) {
-        return text == null ? null : text.getBytes(StandardCharsets.UTF_8);
+        return text == null ? null : text.getBytes(UTF_8);
     }
 
     private static String text(byte[] utf8) {
-        return utf8 == null ? null : new String(utf8, StandardCharsets.UTF_8);
+        return utf8 == null ? null : new String(utf8, UTF_8);
     }
 }

@@ -2,7 +2,7 @@ package io.furrow.flink.kafka;
 
 import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -73,7 +73,7 @@ class LimitRecordSizeIT {
             TopicRecord letter = records.of(record("small", large));
             assertThat(letter.topic()).isEqualTo("small.dead");
             assertThat(letter.value()).isEqualTo(large);
-            assertThat(letter.key()).isEqualTo("k".getBytes(StandardCharsets.UTF_8));
+            assertThat(letter.key()).isEqualTo("k".getBytes(UTF_8));
             assertThat(letter.headers())
                     .containsEntry("ce_id", "7f")
                     .containsEntry(DeadLetter.REASON, Reason.TOO_LARGE.code())

@@ -1,6 +1,6 @@
 package io.furrow.flink.kafka;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -65,7 +65,7 @@ class QuietInputIT {
                         await().until(() -> {
                             consumer.poll(Duration.ofMillis(100))
                                     .forEach(each ->
-                                            seen.add(Long.parseLong(new String(each.value(), StandardCharsets.UTF_8))));
+                                            seen.add(Long.parseLong(new String(each.value(), UTF_8))));
                             return seen.size() >= expected;
                         });
                         producer.send(record("changes")).get();
@@ -80,7 +80,7 @@ class QuietInputIT {
     }
 
     private static ProducerRecord<byte[], byte[]> record(String topic) {
-        return new ProducerRecord<>(topic, 0, null, "{}".getBytes(StandardCharsets.UTF_8));
+        return new ProducerRecord<>(topic, 0, null, "{}".getBytes(UTF_8));
     }
 
     private static JobClient job(String servers) throws Exception {
@@ -122,7 +122,7 @@ class QuietInputIT {
         @Override
         public void processElement2(TopicRecord change, Context context, Collector<TopicRecord> out) {
             byte[] time =
-                    Long.toString(context.timerService().currentWatermark()).getBytes(StandardCharsets.UTF_8);
+                    Long.toString(context.timerService().currentWatermark()).getBytes(UTF_8);
             out.collect(new TopicRecord("seen", 0, 0, 0, null, time, Map.of()));
         }
     }

@@ -1,6 +1,6 @@
 package io.furrow.flink.record;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Map;
 
 import org.junit.jupiter.api.Test;
@@ -48,7 +48,7 @@ class DeadLettersTest {
 
     private static TopicRecord record(int bytes, long offset) {
         byte[] value = new byte[bytes];
-        System.arraycopy("begun".getBytes(StandardCharsets.UTF_8), 0, value, 0, 5);
+        System.arraycopy("begun".getBytes(UTF_8), 0, value, 0, 5);
         return new TopicRecord("data.raw", 3, offset, 5, new byte[] {'k'}, value, Map.of("ce_id", "7f"));
     }
 }

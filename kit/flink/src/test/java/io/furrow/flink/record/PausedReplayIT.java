@@ -1,6 +1,6 @@
 package io.furrow.flink.record;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -87,7 +87,7 @@ class PausedReplayIT {
         List<Long> seen = new ArrayList<>();
         await().pollInSameThread().until(() -> {
             consumer.poll(Duration.ofMillis(100))
-                    .forEach(each -> seen.add(Long.parseLong(new String(each.value(), StandardCharsets.UTF_8))));
+                    .forEach(each -> seen.add(Long.parseLong(new String(each.value(), UTF_8))));
             return !seen.isEmpty();
         });
         return seen.get(0);
@@ -99,7 +99,7 @@ class PausedReplayIT {
 
     private static ProducerRecord<byte[], byte[]> event(int partition, String epoch, long time) {
         ProducerRecord<byte[], byte[]> event = new ProducerRecord<>(REPLAY, partition, time, null, new byte[0]);
-        event.headers().add(HeaderNames.REPLAY_EPOCH, epoch.getBytes(StandardCharsets.UTF_8));
+        event.headers().add(HeaderNames.REPLAY_EPOCH, epoch.getBytes(UTF_8));
         return event;
     }
 
@@ -135,7 +135,7 @@ class PausedReplayIT {
         @Override
         public void processElement2(TopicRecord change, Context context, Collector<TopicRecord> out) {
             byte[] time =
-                    Long.toString(context.timerService().currentWatermark()).getBytes(StandardCharsets.UTF_8);
+                    Long.toString(context.timerService().currentWatermark()).getBytes(UTF_8);
             out.collect(new TopicRecord("seen", 0, 0, 0, null, time, Map.of()));
         }
     }

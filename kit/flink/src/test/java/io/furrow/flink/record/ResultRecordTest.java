@@ -1,6 +1,6 @@
 package io.furrow.flink.record;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import org.junit.jupiter.api.Test;
 
@@ -19,7 +19,7 @@ class ResultRecordTest {
         TopicRecord record = result(18.5, 60_000);
 
         assertThat(record.topic()).isEqualTo("data.answers");
-        assertThat(record.key()).isEqualTo("key-1".getBytes(StandardCharsets.UTF_8));
+        assertThat(record.key()).isEqualTo("key-1".getBytes(UTF_8));
         assertThat(record.timestamp()).isEqualTo(60_000);
         assertThat(Entity.parse(record.value()).number("answer")).contains(18.5);
         assertThat(record.headers())

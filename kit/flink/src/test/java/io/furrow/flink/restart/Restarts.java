@@ -2,7 +2,7 @@ package io.furrow.flink.restart;
 
 import java.io.IOException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -324,6 +324,6 @@ public final class Restarts {
     }
 
     private static String of(byte[] bytes) {
-        return bytes == null ? "-" : new String(bytes, StandardCharsets.UTF_8);
+        return bytes == null ? "-" : new String(bytes, UTF_8);
     }
 }

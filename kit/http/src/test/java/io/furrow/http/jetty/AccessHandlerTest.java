@@ -4,7 +4,7 @@ import java.io.IOException;
 import java.net.InetAddress;
 import java.net.Socket;
 import java.nio.ByteBuffer;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import java.util.List;
 import java.util.concurrent.atomic.AtomicInteger;
 
@@ -37,7 +37,7 @@ class AccessHandlerTest {
         @Override
         public boolean handle(Request request, Response response, Callback callback) {
             handled.incrementAndGet();
-            response.write(true, ByteBuffer.wrap("hello".getBytes(StandardCharsets.US_ASCII)), callback);
+            response.write(true, ByteBuffer.wrap("hello".getBytes(US_ASCII)), callback);
             return true;
         }
     }
@@ -50,7 +50,7 @@ class AccessHandlerTest {
                 new AllowedNames(List.of(), List.of("https://map.example.org")), new OptionNames("hosts", "origins"));
         server.setHandler(new AccessHandler(
                 rule,
-                refused -> ("{\"error\":\"" + refused.error() + "\"}").getBytes(StandardCharsets.US_ASCII),
+                refused -> ("{\"error\":\"" + refused.error() + "\"}").getBytes(US_ASCII),
                 new Counting()));
         server.start();
     }
@@ -134,13 +134,13 @@ class AccessHandlerTest {
     }
 
     private static void write(Socket socket, String text) throws IOException {
-        socket.getOutputStream().write(text.getBytes(StandardCharsets.US_ASCII));
+        socket.getOutputStream().write(text.getBytes(US_ASCII));
         socket.getOutputStream().flush();
     }
 
     /** All that comes until the server closes the connection, which it does only where it is to. */
     private static String read(Socket socket) throws IOException {
-        return new String(socket.getInputStream().readAllBytes(), StandardCharsets.US_ASCII);
+        return new String(socket.getInputStream().readAllBytes(), US_ASCII);
     }
 
     private String ask(String request) throws IOException {

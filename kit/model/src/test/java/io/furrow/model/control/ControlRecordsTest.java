@@ -1,6 +1,6 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -41,7 +41,7 @@ class ControlRecordsTest {
             """)
     void areWrittenAsTheyWereRead(String kind, String record) throws Exception {
         String json = record.replace('\'', '"');
-        byte[] value = json.getBytes(StandardCharsets.UTF_8);
+        byte[] value = json.getBytes(UTF_8);
         byte[] written = switch (kind) {
             case "replay" -> DesiredReplay.read(value).toBytes();
             case "replay-status" -> ReplayStatus.read(value).toBytes();
@@ -55,6 +55,6 @@ class ControlRecordsTest {
             case "fault" -> Fault.read(value).toBytes();
             default -> SecretFingerprints.read(value).toBytes();
         };
-        assertThat(new String(written, StandardCharsets.UTF_8)).isEqualTo(json);
+        assertThat(new String(written, UTF_8)).isEqualTo(json);
     }
 }

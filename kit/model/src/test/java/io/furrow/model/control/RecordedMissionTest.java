@@ -1,6 +1,6 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -16,7 +16,7 @@ class RecordedMissionTest {
     void comesBackAsItWasWritten() throws Exception {
         RecordedMission mission = new RecordedMission("weeding", 1000, 2000);
 
-        assertThat(new String(mission.toBytes(), StandardCharsets.UTF_8))
+        assertThat(new String(mission.toBytes(), UTF_8))
                 .isEqualTo("{\"mission\":\"weeding\",\"first\":1000,\"last\":2000}");
         assertThat(RecordedMission.read(mission.toBytes())).isEqualTo(mission);
     }
@@ -25,7 +25,7 @@ class RecordedMissionTest {
     @ValueSource(
             strings = {"7", "{", "{\"mission\":\"m\",\"first\":1}", "{\"mission\":\"m\",\"first\":1,\"last\":\"2\"}"})
     void refusesWhatIsNone(String json) {
-        assertThatThrownBy(() -> RecordedMission.read(json.getBytes(StandardCharsets.UTF_8)))
+        assertThatThrownBy(() -> RecordedMission.read(json.getBytes(UTF_8)))
                 .isInstanceOf(UnreadableException.class);
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import org.junit.jupiter.api.Test;
 
@@ -56,7 +56,7 @@ class RequestIdentityTest {
         assertThat(Limits.reason("\ud800x")).isEqualTo("\ufffdx");
         String cut = Limits.reason("𝄞".repeat(600));
         assertThat(cut.codePointCount(0, cut.length())).isEqualTo(Limits.REASON_LENGTH);
-        assertThat(StandardCharsets.UTF_8.newEncoder().canEncode(cut)).isTrue();
+        assertThat(UTF_8.newEncoder().canEncode(cut)).isTrue();
     }
 
     private static String fingerprint(String json) {
@@ -68,6 +68,6 @@ class RequestIdentityTest {
     }
 
     private static byte[] bytes(String json) {
-        return json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        return json.replace('\'', '"').getBytes(UTF_8);
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.model.control;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Random;
 import java.util.function.Function;
 
@@ -68,7 +68,7 @@ class RequestsPropertyTest {
     private static <C extends Command> int refusals(
             byte[] request, Function<byte[], ParsedRequest<C>> reader, long seed) throws Exception {
         ParsedRequest<C> parsedRequest = reader.apply(request);
-        String said = "seed %d: %s".formatted(seed, new String(request, StandardCharsets.UTF_8));
+        String said = "seed %d: %s".formatted(seed, new String(request, UTF_8));
         if (parsedRequest instanceof ParsedRequest.Request<C> understood) {
             assertThat(reader.apply(Requests.write(understood.requestId(), understood.command())))
                     .as(said)
@@ -84,7 +84,7 @@ class RequestsPropertyTest {
     }
 
     private static byte[] broken(byte[] request, Random random) {
-        String text = new String(request, StandardCharsets.UTF_8);
+        String text = new String(request, UTF_8);
         int at = random.nextInt(text.length());
         int colon = text.indexOf(':', at);
         text = switch (random.nextInt(4)) {
@@ -92,7 +92,7 @@ class RequestsPropertyTest {
             case 1 -> text.substring(0, at) + (char) random.nextInt(128) + text.substring(at + 1);
             default -> colon < 0 ? text + "]" : spliced(text, colon + 1, SPLICES[random.nextInt(SPLICES.length)]);
         };
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 
     /** Puts another value in the place of a plain one. */

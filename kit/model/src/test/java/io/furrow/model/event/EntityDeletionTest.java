@@ -1,6 +1,6 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 
@@ -86,7 +86,7 @@ class EntityDeletionTest {
     }
 
     private static Entity entity(String body) throws Exception {
-        return Notification.read(body.getBytes(StandardCharsets.UTF_8), null)
+        return Notification.read(body.getBytes(UTF_8), null)
                 .entities()
                 .get(0);
     }

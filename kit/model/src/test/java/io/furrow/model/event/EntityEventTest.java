@@ -1,6 +1,6 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 
@@ -59,7 +59,7 @@ class EntityEventTest {
                 {"id": "a", "type": "T", "TimeInstant": {"value": "2026-11-20T01:00:00.000Z"},
                  "temp": {"value": 5, "metadata": {"TimeInstant": {"value": "2026-11-20T01:00:00.000Z"}}},
                  "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:00:00.000Z"}}},
-                 "Longitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:00:00.000Z"}}}}""".getBytes(StandardCharsets.UTF_8));
+                 "Longitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:00:00.000Z"}}}}""".getBytes(UTF_8));
 
         assertThat(received(entity, RECEIVED).headers("s"))
                 .containsEntry(HeaderNames.LATER_ATTRIBUTES, "Latitude,Longitude");
@@ -71,7 +71,7 @@ class EntityEventTest {
         Entity entity = Entity.parse("""
                 {"id": "a", "type": "T", "Time": {"value": 1795223399000},
                  "TimeInstant": {"value": "2026-11-21T01:10:00.000Z"},
-                 "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:10:00.000Z"}}}}""".getBytes(StandardCharsets.UTF_8));
+                 "Latitude": {"value": 1, "metadata": {"TimeInstant": {"value": "2026-11-21T01:10:00.000Z"}}}}""".getBytes(UTF_8));
 
         assertThat(received(entity, RECEIVED).headers("s")).doesNotContainKey(HeaderNames.LATER_ATTRIBUTES);
     }

@@ -1,6 +1,6 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -102,7 +102,7 @@ class EventCopiesTest {
     private static String id(String json, Origin origin, Instant received) throws UnreadableException {
         byte[] body = ("{'subscriptionId':'s','data':[" + json + "]}")
                 .replace('\'', '"')
-                .getBytes(StandardCharsets.UTF_8);
+                .getBytes(UTF_8);
         Entity entity = Notification.read(body, null).entities().get(0);
         return EntityEvent.of(entity, SCOPE, received, RULE, origin).id();
     }

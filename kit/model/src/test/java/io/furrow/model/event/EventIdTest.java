@@ -1,6 +1,6 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.HashMap;
 import java.util.List;
@@ -190,6 +190,6 @@ class EventIdTest {
     }
 
     private static byte[] utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.model.event;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -121,6 +121,6 @@ class NotificationRulesTest {
     }
 
     private static Notification notification(String json) throws UnreadableException {
-        return Notification.read(json.getBytes(StandardCharsets.UTF_8), null);
+        return Notification.read(json.getBytes(UTF_8), null);
     }
 }

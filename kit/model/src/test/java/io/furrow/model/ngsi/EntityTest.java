@@ -1,6 +1,6 @@
 package io.furrow.model.ngsi;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 
 import org.junit.jupiter.api.Test;
@@ -101,6 +101,6 @@ class EntityTest {
     }
 
     private static Entity parse(String json) throws UnreadableException {
-        return Entity.parse(json.getBytes(StandardCharsets.UTF_8));
+        return Entity.parse(json.getBytes(UTF_8));
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.model.ngsi;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -71,6 +71,6 @@ class JsonProblemTest {
     }
 
     private static byte[] bytes(String json) {
-        return json.replace('\'', '"').getBytes(StandardCharsets.UTF_8);
+        return json.replace('\'', '"').getBytes(UTF_8);
     }
 }

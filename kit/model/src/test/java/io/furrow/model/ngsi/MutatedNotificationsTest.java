@@ -1,6 +1,6 @@
 package io.furrow.model.ngsi;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -51,7 +51,7 @@ class MutatedNotificationsTest {
             } catch (RuntimeException | StackOverflowError e) {
                 fail(
                         "seed %d round %d header %s body %s",
-                        SEED, round, header, new String(body, StandardCharsets.UTF_8), e);
+                        SEED, round, header, new String(body, UTF_8), e);
             }
         }
         assertThat(read).as("entities that could be read").isGreaterThan(ROUNDS / 5);

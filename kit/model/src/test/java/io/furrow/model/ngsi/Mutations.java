@@ -1,6 +1,6 @@
 package io.furrow.model.ngsi;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
@@ -55,7 +55,7 @@ public final class Mutations {
     }
 
     public byte[] of(byte[] body) {
-        String text = new String(body, StandardCharsets.UTF_8);
+        String text = new String(body, UTF_8);
         for (int changes = 1 + random.nextInt(3); changes > 0; changes--) {
             text = switch (random.nextInt(10)) {
                 case 0, 1, 2, 3 -> replaceValue(text);
@@ -64,7 +64,7 @@ public final class Mutations {
                 default -> text;
             };
         }
-        byte[] bytes = text.getBytes(StandardCharsets.UTF_8);
+        byte[] bytes = text.getBytes(UTF_8);
         if (bytes.length > 0 && random.nextInt(5) == 0) {
             bytes[random.nextInt(bytes.length)] = (byte) random.nextInt(256);
         }

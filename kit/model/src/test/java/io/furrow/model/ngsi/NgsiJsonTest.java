@@ -1,6 +1,6 @@
 package io.furrow.model.ngsi;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.HexFormat;
 import java.util.stream.Collectors;
@@ -49,10 +49,10 @@ class NgsiJsonTest {
     void takesNestingUpToTheLimitAndNoDeeper() throws Exception {
         assertThat(NgsiJson.read(nested(NgsiJson.MAX_NESTING)).isArray()).isTrue();
         assertThat(unreadable(nested(NgsiJson.MAX_NESTING + 1)).reason()).isEqualTo(Reason.TOO_DEEP);
-        assertThat(unreadable("[".repeat(100_000).getBytes(StandardCharsets.UTF_8))
+        assertThat(unreadable("[".repeat(100_000).getBytes(UTF_8))
                         .reason())
                 .isEqualTo(Reason.TOO_DEEP);
-        assertThat(unreadable("{\"a\":".repeat(100_000).getBytes(StandardCharsets.UTF_8))
+        assertThat(unreadable("{\"a\":".repeat(100_000).getBytes(UTF_8))
                         .reason())
                 .isEqualTo(Reason.TOO_DEEP);
     }
@@ -68,7 +68,7 @@ class NgsiJsonTest {
     @ParameterizedTest
     @ValueSource(strings = {"1e9999999999", "1e-9999999999", "1e99999999999999999999", "LONG", "0.LONG"})
     void refusesNumbersThatNoNumberTypeHolds(String number) {
-        byte[] json = number.replace("LONG", "9".repeat(1001)).getBytes(StandardCharsets.UTF_8);
+        byte[] json = number.replace("LONG", "9".repeat(1001)).getBytes(UTF_8);
 
         assertThat(unreadable(json).reason()).isEqualTo(Reason.TOO_DEEP);
     }
@@ -77,7 +77,7 @@ class NgsiJsonTest {
     @ValueSource(
             strings = {"1.50", "100000000000000000000000000000000001", "0.1", "-7", "21.50000000000000000000000001"})
     void writesNumbersDigitForDigit(String number) throws Exception {
-        assertThat(NgsiJson.write(NgsiJson.read(number.getBytes(StandardCharsets.UTF_8))))
+        assertThat(NgsiJson.write(NgsiJson.read(number.getBytes(UTF_8))))
                 .asString()
                 .isEqualTo(number);
     }
@@ -98,7 +98,7 @@ class NgsiJsonTest {
 
         assertTimeout(
                 Duration.ofSeconds(5),
-                () -> assertThatThrownBy(() -> Entity.parse(entity.getBytes(StandardCharsets.UTF_8)))
+                () -> assertThatThrownBy(() -> Entity.parse(entity.getBytes(UTF_8)))
                         .isInstanceOfSatisfying(
                                 UnreadableException.class,
                                 e -> assertThat(e.reason()).isEqualTo(Reason.TOO_DEEP))
@@ -114,12 +114,12 @@ class NgsiJsonTest {
                 "{\"id\":\"a\",\"type\":\"b\\ud83d\"}"
             })
     void refusesAnEntityWithHalfACharacter(String entity) throws Exception {
-        assertThatThrownBy(() -> Entity.parse(entity.getBytes(StandardCharsets.UTF_8)))
+        assertThatThrownBy(() -> Entity.parse(entity.getBytes(UTF_8)))
                 .isInstanceOf(UnreadableException.class)
                 .hasMessageContaining("surrogate");
 
         String whole = "{\"id\":\"\\ud83d\\ude9c\"}";
-        assertThat(Entity.parse(whole.getBytes(StandardCharsets.UTF_8)).id()).isEqualTo("🚜");
+        assertThat(Entity.parse(whole.getBytes(UTF_8)).id()).isEqualTo("🚜");
     }
 
     /** The normalized form of a bare entity is one deeper than its key-value form. */
@@ -141,7 +141,7 @@ class NgsiJsonTest {
 
         Entity entity = assertTimeout(
                 Duration.ofSeconds(15),
-                () -> Notification.read(body.getBytes(StandardCharsets.UTF_8), null)
+                () -> Notification.read(body.getBytes(UTF_8), null)
                         .entities()
                         .get(0));
 
@@ -149,17 +149,17 @@ class NgsiJsonTest {
     }
 
     private static Entity bare(int depthOfValue) throws UnreadableException {
-        String value = new String(nested(depthOfValue), StandardCharsets.UTF_8);
-        byte[] body = ("{\"id\":\"a\",\"x\":" + value + "}").getBytes(StandardCharsets.UTF_8);
+        String value = new String(nested(depthOfValue), UTF_8);
+        byte[] body = ("{\"id\":\"a\",\"x\":" + value + "}").getBytes(UTF_8);
         return Notification.read(body, "simplifiedKeyValues").entities().get(0);
     }
 
     private static byte[] nested(int depth) {
-        return ("[".repeat(depth) + "]".repeat(depth)).getBytes(StandardCharsets.UTF_8);
+        return ("[".repeat(depth) + "]".repeat(depth)).getBytes(UTF_8);
     }
 
     private static byte[] quoted(String text) {
-        return ("\"" + text + "\"").getBytes(StandardCharsets.UTF_8);
+        return ("\"" + text + "\"").getBytes(UTF_8);
     }
 
     private static UnreadableException unreadable(byte[] bytes) {

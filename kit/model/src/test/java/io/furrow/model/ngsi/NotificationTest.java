@@ -1,7 +1,7 @@
 package io.furrow.model.ngsi;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
@@ -58,7 +58,7 @@ class NotificationTest {
     @MethodSource("nameless")
     void refusesTheFormThatNamesNoAttributes(RecordedNotification recorded) {
         for (String header : new String[] {"values", null}) {
-            UnreadableException refused = unreadable(new String(recorded.body(), StandardCharsets.UTF_8), header);
+            UnreadableException refused = unreadable(new String(recorded.body(), UTF_8), header);
 
             assertThat(refused.reason()).isEqualTo(Reason.UNSUPPORTED_FORM);
             assertThat(refused).hasMessageContaining("attrsFormat").hasMessageContaining("normalized");
@@ -200,6 +200,6 @@ class NotificationTest {
     }
 
     private static byte[] bytes(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

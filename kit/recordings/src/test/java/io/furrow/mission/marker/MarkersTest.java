@@ -2,7 +2,7 @@ package io.furrow.mission.marker;
 
 import org.junit.jupiter.api.AutoClose;
 import java.io.ByteArrayOutputStream;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 
@@ -178,7 +178,7 @@ class MarkersTest {
 
         MarkerFile.write(List.of(new Marker("a", "hoeing", TIME, "turns", "Ada", TIME + 1)), out);
 
-        assertThat(out.toString(StandardCharsets.UTF_8)).isEqualTo("""
+        assertThat(out.toString(UTF_8)).isEqualTo("""
                 {"id":"a","mission":"hoeing","time":1700000000000,"note":"turns","author":"Ada",\
                 "created":1700000000001}
                 """);

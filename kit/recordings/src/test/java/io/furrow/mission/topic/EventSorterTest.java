@@ -1,6 +1,6 @@
 package io.furrow.mission.topic;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -36,7 +36,7 @@ class EventSorterTest {
                         new Cursor(random.nextInt(50), id),
                         random.nextInt(3),
                         random.nextInt(10_000),
-                        line.getBytes(StandardCharsets.UTF_8));
+                        line.getBytes(UTF_8));
                 sorter.add(event);
                 expected.merge(event.at(), event, EventSorterTest::first);
             }
@@ -45,7 +45,7 @@ class EventSorterTest {
             sorter.writeLines(lines);
 
             List<String> texts = new ArrayList<>();
-            expected.values().forEach(event -> texts.add(new String(event.line(), StandardCharsets.UTF_8)));
+            expected.values().forEach(event -> texts.add(new String(event.line(), UTF_8)));
             assertThat(Files.readAllLines(lines)).as("seed %d", seed).isEqualTo(texts);
             assertThat(folder).isDirectoryContaining(lines::equals);
             Files.delete(lines);

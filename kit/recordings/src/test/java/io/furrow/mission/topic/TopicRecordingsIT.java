@@ -5,7 +5,7 @@ import java.io.ByteArrayInputStream;
 import java.io.ByteArrayOutputStream;
 import java.io.ObjectInputStream;
 import java.io.ObjectOutputStream;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.HashMap;
@@ -246,9 +246,9 @@ class TopicRecordingsIT {
     private static ProducerRecord<String, String> event(
             String topic, int partition, long time, String id, String entity) {
         ProducerRecord<String, String> event = new ProducerRecord<>(topic, partition, time, "key", entity);
-        event.headers().add("fiware-service", "farm".getBytes(StandardCharsets.UTF_8));
+        event.headers().add("fiware-service", "farm".getBytes(UTF_8));
         if (id != null) {
-            event.headers().add("ce_id", id.getBytes(StandardCharsets.UTF_8));
+            event.headers().add("ce_id", id.getBytes(UTF_8));
         }
         return event;
     }

@@ -1,6 +1,6 @@
 package io.furrow.connect.sink.api;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -37,8 +37,8 @@ public final class FuzzAnswers {
 
     /** Called by the fuzzer first: loading classes takes long on a busy machine, and no input hangs because of it. */
     public static void fuzzerInitialize() {
-        fuzzerTestOneInput("0".getBytes(StandardCharsets.UTF_8));
-        fuzzerTestOneInput("1".getBytes(StandardCharsets.UTF_8));
+        fuzzerTestOneInput("0".getBytes(UTF_8));
+        fuzzerTestOneInput("1".getBytes(UTF_8));
     }
 
     /** The answers to one delivery; throws whatever is wrong. */
@@ -125,7 +125,7 @@ public final class FuzzAnswers {
         List<String> ids = new ArrayList<>();
         if (exchange.method().equals("DELETE")) {
             ids.add(java.net.URLDecoder.decode(
-                    exchange.path().replaceAll(".*/entities/([^/?]*).*", "$1"), StandardCharsets.UTF_8));
+                    exchange.path().replaceAll(".*/entities/([^/?]*).*", "$1"), UTF_8));
         } else {
             JsonNode body = json(exchange.body()).orElseThrow();
             (body.isArray() ? body : body.path("entities"))

@@ -1,6 +1,6 @@
 package io.furrow.connect.source.http;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import org.junit.jupiter.api.Test;
 
@@ -45,6 +45,6 @@ class HeapEstimateTest {
     }
 
     private static long of(String json) {
-        return HeapEstimate.of(json.getBytes(StandardCharsets.UTF_8));
+        return HeapEstimate.of(json.getBytes(UTF_8));
     }
 }

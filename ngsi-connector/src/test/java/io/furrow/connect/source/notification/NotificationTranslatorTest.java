@@ -1,6 +1,6 @@
 package io.furrow.connect.source.notification;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.Collections;
@@ -221,10 +221,10 @@ class NotificationTranslatorTest {
     }
 
     private static byte[] bytes(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 
     private static String text(KafkaRecord record) {
-        return new String(record.value(), StandardCharsets.UTF_8);
+        return new String(record.value(), UTF_8);
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.simulators.device;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.UUID;
 import java.util.concurrent.CopyOnWriteArrayList;
@@ -82,7 +82,7 @@ public final class MqttTestClient implements MqttCallback, AutoCloseable {
     }
 
     public void publish(String topic, String json) throws MqttException {
-        client.publish(topic, json.getBytes(StandardCharsets.UTF_8), 1, false);
+        client.publish(topic, json.getBytes(UTF_8), 1, false);
     }
 
     @Override

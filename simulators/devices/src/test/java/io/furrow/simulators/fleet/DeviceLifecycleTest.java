@@ -1,7 +1,7 @@
 package io.furrow.simulators.fleet;
 
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -34,7 +34,7 @@ import static org.awaitility.Awaitility.await;
 
 @Tag("full")
 class DeviceLifecycleTest {
-    private static final FarmSecret SECRET = new FarmSecret("0123456789abcdef".getBytes(StandardCharsets.UTF_8));
+    private static final FarmSecret SECRET = new FarmSecret("0123456789abcdef".getBytes(UTF_8));
     private static final int MAX_OWN = 3;
 
     private final Map<String, String> passwords = new ConcurrentHashMap<>();
@@ -193,7 +193,7 @@ class DeviceLifecycleTest {
     private final class Devices implements EmbeddedMqtt.Users {
         @Override
         public boolean authenticates(String user, byte[] password) {
-            boolean known = new String(password, StandardCharsets.UTF_8).equals(passwords.get(user));
+            boolean known = new String(password, UTF_8).equals(passwords.get(user));
             if (known) {
                 connectedAs.add(user);
             }

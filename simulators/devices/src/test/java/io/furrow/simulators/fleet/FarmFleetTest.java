@@ -7,7 +7,7 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Clock;
 import java.time.Instant;
 import java.util.List;
@@ -219,7 +219,7 @@ class FarmFleetTest {
     }
 
     private static Farm farm() throws IOException {
-        return Farm.read(new ByteArrayInputStream(FARM.getBytes(StandardCharsets.UTF_8)), Instant.now());
+        return Farm.read(new ByteArrayInputStream(FARM.getBytes(UTF_8)), Instant.now());
     }
 
     private static FleetAccess access(String password) {

@@ -2,7 +2,7 @@ package io.furrow.simulators.fleet;
 
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
@@ -39,7 +39,7 @@ class FarmSimulationTest {
 
     @BeforeEach
     void read() throws IOException {
-        farm = Farm.read(new ByteArrayInputStream(FARM.getBytes(StandardCharsets.UTF_8)), START);
+        farm = Farm.read(new ByteArrayInputStream(FARM.getBytes(UTF_8)), START);
         simulation = simulation();
     }
 

@@ -4,7 +4,7 @@ import org.junit.jupiter.api.AutoClose;
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Clock;
@@ -171,6 +171,6 @@ class FleetFiwareTest {
         String json = """
                 {"seed": 1, "apiKey": "key", "missions": [{"domain": "farm", "mission": "weeding", "devices": [%s]}]}
                 """.formatted(device);
-        return Farm.read(new ByteArrayInputStream(json.getBytes(StandardCharsets.UTF_8)), Instant.now());
+        return Farm.read(new ByteArrayInputStream(json.getBytes(UTF_8)), Instant.now());
     }
 }

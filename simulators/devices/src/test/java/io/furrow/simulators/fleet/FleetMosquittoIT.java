@@ -2,7 +2,7 @@ package io.furrow.simulators.fleet;
 
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -116,7 +116,7 @@ class FleetMosquittoIT {
     }
 
     private static FarmFleet fleet(String scenario, FleetAccess access, int maxOwn) throws IOException {
-        Farm farm = Farm.read(new ByteArrayInputStream(scenario.getBytes(StandardCharsets.UTF_8)), Instant.now());
+        Farm farm = Farm.read(new ByteArrayInputStream(scenario.getBytes(UTF_8)), Instant.now());
         return FarmFleet.start(farm, access, maxOwn, Clock.systemUTC());
     }
 }

@@ -1,6 +1,6 @@
 package io.furrow.simulators.host;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.Map;
 
@@ -55,7 +55,7 @@ class FarmSecretCheckTest {
 
     @Test
     void passesOverWhatItCannotRead() throws Exception {
-        check.take(Map.of(SecretFingerprints.KEY, "no".getBytes(StandardCharsets.UTF_8)));
+        check.take(Map.of(SecretFingerprints.KEY, "no".getBytes(UTF_8)));
         check.take(Map.of());
 
         assertThat(check.get()).isEqualTo(first);

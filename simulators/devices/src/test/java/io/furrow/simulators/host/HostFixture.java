@@ -1,7 +1,7 @@
 package io.furrow.simulators.host;
 
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.HashMap;
@@ -43,7 +43,7 @@ import io.furrow.simulators.mqtt.MqttAccess;
 /** All that a host of devices speaks to, and who asks it for devices in the place of the control plane. */
 final class HostFixture implements AutoCloseable {
     static final String SECRET_TEXT = "0123456789abcdef";
-    static final FarmSecret SECRET = new FarmSecret(SECRET_TEXT.getBytes(StandardCharsets.UTF_8));
+    static final FarmSecret SECRET = new FarmSecret(SECRET_TEXT.getBytes(UTF_8));
 
     /** What hosts are given. */
     volatile FarmSecret secret = SECRET;
@@ -118,7 +118,7 @@ final class HostFixture implements AutoCloseable {
         long now = System.currentTimeMillis();
         DeviceVersion version = new DeviceVersion(
                 entity, "farm", "/", "farm", mission, now, running ? null : Long.valueOf(now), number, null);
-        ObjectNode json = (ObjectNode) NgsiJson.read(settings.getBytes(StandardCharsets.UTF_8));
+        ObjectNode json = (ObjectNode) NgsiJson.read(settings.getBytes(UTF_8));
         JsonNode carrier = json.remove("carriedBy");
         if (carrier != null) {
             version = new DeviceVersion(entity, "farm", "/", "farm", mission, now, null, number, carrier.textValue());
@@ -134,7 +134,7 @@ final class HostFixture implements AutoCloseable {
     /** Says which secret the farm has, as the control plane does. */
     void putFingerprints(FarmSecret farms) throws Exception {
         byte[] value = SecretFingerprints.of(farms).toBytes();
-        put(Topics.SECRETS, SecretFingerprints.KEY, new String(value, StandardCharsets.UTF_8));
+        put(Topics.SECRETS, SecretFingerprints.KEY, new String(value, UTF_8));
     }
 
     void delete(String entity) throws Exception {
@@ -142,7 +142,7 @@ final class HostFixture implements AutoCloseable {
     }
 
     void put(String topic, String key, String value) throws Exception {
-        producer.send(new ProducerRecord<>(topic, key, value.getBytes(StandardCharsets.UTF_8)))
+        producer.send(new ProducerRecord<>(topic, key, value.getBytes(UTF_8)))
                 .get();
     }
 

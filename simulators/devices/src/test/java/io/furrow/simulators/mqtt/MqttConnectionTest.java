@@ -5,7 +5,7 @@ import java.io.UncheckedIOException;
 import java.net.InetAddress;
 import java.net.ServerSocket;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.CompletableFuture;
@@ -25,8 +25,8 @@ class MqttConnectionTest {
                     new MqttAccess.Login("farmer", "plough"), "line", List.of("/k/d/cmd"), 10, 1000);
             try (MqttConnection connection =
                     MqttConnection.open(new MqttAccess(broker.uri(), null, 1), plan, (topic, payload) -> {})) {
-                connection.send("/k/d/attrs", "1".getBytes(StandardCharsets.UTF_8));
-                connection.send("/k/d/attrs", "2".getBytes(StandardCharsets.UTF_8));
+                connection.send("/k/d/attrs", "1".getBytes(UTF_8));
+                connection.send("/k/d/attrs", "2".getBytes(UTF_8));
 
                 await().until(() -> {
                     connection.push();
@@ -68,7 +68,7 @@ class MqttConnectionTest {
                     new MqttAccess.Login("farmer", "plough"), "line", List.of("/k/d/cmd"), 10, 1000);
             try (MqttConnection connection =
                     MqttConnection.open(new MqttAccess(broker.uri(), null, 1), plan, (topic, payload) -> {})) {
-                connection.send("/k/d/attrs", "1".getBytes(StandardCharsets.UTF_8));
+                connection.send("/k/d/attrs", "1".getBytes(UTF_8));
 
                 await().until(() -> {
                     connection.push();

@@ -1,7 +1,7 @@
 package io.furrow.fiware.agent;
 
 import org.junit.jupiter.api.AutoClose;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.CopyOnWriteArrayList;
@@ -64,7 +64,7 @@ class IotAgentTest {
         device = MqttDevice.connect(
                 mqtt,
                 "/k1/t1/cmd",
-                (topic, message) -> commands.add(new String(message.getPayload(), StandardCharsets.UTF_8)));
+                (topic, message) -> commands.add(new String(message.getPayload(), UTF_8)));
     }
 
     @AfterEach
@@ -279,7 +279,7 @@ class IotAgentTest {
     }
 
     private void publish(String topic, String payload) throws MqttException {
-        device.publish(topic, payload.getBytes(StandardCharsets.UTF_8), 1, false);
+        device.publish(topic, payload.getBytes(UTF_8), 1, false);
     }
 
     private void awaitValue(String entity, String attribute, String value) {

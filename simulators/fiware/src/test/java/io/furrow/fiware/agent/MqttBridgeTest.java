@@ -1,6 +1,6 @@
 package io.furrow.fiware.agent;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Map;
 
 import org.eclipse.paho.client.mqttv3.MqttClient;
@@ -43,7 +43,7 @@ class MqttBridgeTest {
             MqttClient thing = MqttDevice.connect(second, "/k2/x/cmd", (topic, message) -> {});
 
             await().until(() -> {
-                thing.publish("/k2/x/attrs", "{\"a\": 1}".getBytes(StandardCharsets.UTF_8), 1, false);
+                thing.publish("/k2/x/attrs", "{\"a\": 1}".getBytes(UTF_8), 1, false);
                 return other.counters().measures() > 0;
             });
 

@@ -3,7 +3,7 @@ package io.furrow.cli.command;
 import org.junit.jupiter.api.AutoClose;
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -86,7 +86,7 @@ class FieldsCommandGroupIT {
                         "--replace",
                         "--output",
                         "json")
-                .getBytes(StandardCharsets.UTF_8));
+                .getBytes(UTF_8));
         assertThat(report.path("validFrom").asText()).isEqualTo("2026-03-31T22:00:00Z");
         assertThat(report.path("fields"))
                 .extracting(field ->
@@ -141,7 +141,7 @@ class FieldsCommandGroupIT {
         FieldVersion bow = new FieldVersion(
                 "bow",
                 0,
-                (ObjectNode) NgsiJson.read(crossing.getBytes(StandardCharsets.UTF_8)),
+                (ObjectNode) NgsiJson.read(crossing.getBytes(UTF_8)),
                 NgsiJson.mapper().createObjectNode());
         topic.write(List.of(bow));
 
@@ -173,7 +173,7 @@ class FieldsCommandGroupIT {
         List<String> all = new ArrayList<>(List.of(args));
         all.addAll(List.of("--output", "json"));
         List<String> ids = new ArrayList<>();
-        NgsiJson.read(output(0, all.toArray(String[]::new)).getBytes(StandardCharsets.UTF_8))
+        NgsiJson.read(output(0, all.toArray(String[]::new)).getBytes(UTF_8))
                 .path("features")
                 .forEach(feature -> ids.add(feature.path("id").asText()));
         return ids;

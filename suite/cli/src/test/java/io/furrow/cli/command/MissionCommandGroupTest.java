@@ -3,7 +3,7 @@ package io.furrow.cli.command;
 import org.junit.jupiter.api.AutoClose;
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
@@ -49,7 +49,7 @@ class MissionCommandGroupTest {
                 .isZero();
         assertThat(run("stored")).isZero();
 
-        assertThat(Files.readString(directory.resolve("out.ndjson"), StandardCharsets.UTF_8))
+        assertThat(Files.readString(directory.resolve("out.ndjson"), UTF_8))
                 .isEqualTo(lines);
         assertThat(out.toString()).contains("2 events of weeding in").containsPattern("weeding +2 events");
     }

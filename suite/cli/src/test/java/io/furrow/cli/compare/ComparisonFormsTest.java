@@ -1,6 +1,6 @@
 package io.furrow.cli.compare;
 
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
@@ -105,6 +105,6 @@ class ComparisonFormsTest {
         String before = "<script id=\"data\" type=\"application/json\">";
         int begin = html.indexOf(before) + before.length();
         return NgsiJson.read(
-                html.substring(begin, html.indexOf("</script>", begin)).getBytes(StandardCharsets.UTF_8));
+                html.substring(begin, html.indexOf("</script>", begin)).getBytes(UTF_8));
     }
 }

@@ -6,7 +6,7 @@ import java.io.InputStreamReader;
 import java.net.InetAddress;
 import java.net.ServerSocket;
 import java.net.Socket;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.PosixFilePermissions;
@@ -101,7 +101,7 @@ class LogFileTest {
                     .start();
             try (Socket errors = journal.accept();
                     BufferedReader lines = new BufferedReader(
-                            new InputStreamReader(errors.getInputStream(), StandardCharsets.UTF_8))) {
+                            new InputStreamReader(errors.getInputStream(), UTF_8))) {
                 errors.setSoTimeout(TIMEOUT_MS);
                 StringBuilder others = new StringBuilder();
                 String line = lines.readLine();

@@ -3,7 +3,7 @@ package io.furrow.launcher.status;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.HashMap;
 import java.util.Map;
 import java.util.Optional;
@@ -27,7 +27,7 @@ class JobLagTest {
         flink = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
         flink.createContext("/", exchange -> {
             byte[] body = answers.getOrDefault(exchange.getRequestURI().toString(), "[]")
-                    .getBytes(StandardCharsets.UTF_8);
+                    .getBytes(UTF_8);
             exchange.sendResponseHeaders(200, body.length);
             exchange.getResponseBody().write(body);
             exchange.close();

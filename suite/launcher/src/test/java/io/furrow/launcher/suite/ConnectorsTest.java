@@ -3,7 +3,7 @@ package io.furrow.launcher.suite;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 import com.sun.net.httpserver.HttpServer;
 import org.junit.jupiter.api.Test;
@@ -16,7 +16,7 @@ class ConnectorsTest {
         HttpServer source = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
         var health = new StringBuilder("{\"subscriptions\":[{\"url\":\"http://x/v2/notify\",\"failsInARow\":0}]}");
         source.createContext("/health", exchange -> {
-            byte[] body = health.toString().getBytes(StandardCharsets.UTF_8);
+            byte[] body = health.toString().getBytes(UTF_8);
             exchange.sendResponseHeaders(200, body.length);
             exchange.getResponseBody().write(body);
             exchange.close();

@@ -1,7 +1,7 @@
 package io.furrow.control.alarm.action;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
@@ -14,7 +14,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class WebhookSecretTest {
-    private static final byte[] BODY = "{\"id\":\"collision-7:7\"}".getBytes(StandardCharsets.UTF_8);
+    private static final byte[] BODY = "{\"id\":\"collision-7:7\"}".getBytes(UTF_8);
 
     @TempDir
     Path directory;

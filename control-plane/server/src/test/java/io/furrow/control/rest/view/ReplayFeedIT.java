@@ -8,7 +8,8 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
-import java.nio.charset.StandardCharsets;
+import static java.nio.charset.StandardCharsets.US_ASCII;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -76,7 +77,7 @@ class ReplayFeedIT {
     private static BufferedReader events(HttpResponse<InputStream> answer) {
         assertThat(answer.statusCode()).isEqualTo(200);
         assertThat(answer.headers().firstValue("Content-Type")).contains("text/event-stream");
-        return new BufferedReader(new InputStreamReader(answer.body(), StandardCharsets.UTF_8));
+        return new BufferedReader(new InputStreamReader(answer.body(), UTF_8));
     }
 
     private static String until(BufferedReader events, String text) throws Exception {
@@ -139,7 +140,7 @@ class ReplayFeedIT {
                         running.api().uri().getHost(), running.api().uri().getPort());
                 socket.getOutputStream()
                         .write("GET /api/replays/events HTTP/1.1\r\nHost: localhost\r\n\r\n"
-                                .getBytes(StandardCharsets.US_ASCII));
+                                .getBytes(US_ASCII));
                 silent.add(socket);
             }
             await().until(() -> open("/api/replays/" + replay + "/events").statusCode() == 503);
