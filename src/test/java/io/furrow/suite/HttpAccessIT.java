@@ -23,17 +23,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 class HttpAccessIT {
     private static final String BOUNDARY = "frontier";
     /** Paths that change something, or show something, on one of the servers. */
-    private static final List<String> PATHS = List.of(
-            "/",
-            "/config",
-            "/connectors",
-            "/jars/upload",
-            "/jobs",
-            "/v2/entities",
-            "/v2/notify",
-            "/iot/devices",
-            "/api/domains",
-            "/nothing-is-here");
+    private static final List<String> PATHS = List.of("""
+                    / /config /connectors /jars/upload /jobs /v2/entities /v2/notify /iot/devices /api/domains
+                    /nothing-is-here""".split("\\s+"));
 
     @AutoClose
     private static RunningSuite running;

@@ -23,12 +23,9 @@ final class SourceGroup implements AutoCloseable {
 
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
     /** A killed worker keeps its tasks until the group misses it. */
-    private static final String[] SETTINGS = {
-        "session.timeout.ms=6000",
-        "heartbeat.interval.ms=2000",
-        "config.providers=env",
-        "config.providers.env.class=org.apache.kafka.common.config.provider.EnvVarConfigProvider"
-    };
+    private static final String[] SETTINGS = """
+            session.timeout.ms=6000 heartbeat.interval.ms=2000 config.providers=env
+            config.providers.env.class=org.apache.kafka.common.config.provider.EnvVarConfigProvider""".split("\\s+");
 
     private final Path folder;
     private final String bootstrapServers;

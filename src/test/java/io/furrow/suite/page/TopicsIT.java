@@ -17,13 +17,9 @@ class TopicsIT {
     void showsDomainsWithTheirMissionsAndHowMuchFlows(PageSuite suite) {
         FarmPage farm = suite.open("#/topics");
 
-        for (String topic : new String[] {
-            "data.collision",
-            "data.farm.realtime",
-            "data.farm.realtime.weeding",
-            "data.farm.realtime.scouting",
-            "data.canary.realtime.dummy"
-        }) {
+        for (String topic : """
+                data.collision data.farm.realtime data.farm.realtime.weeding data.farm.realtime.scouting
+                data.canary.realtime.dummy""".split("\\s+")) {
             assertThat(row(farm, topic)).isVisible();
         }
         assertThat(row(farm, "data.farm.realtime.weeding").locator(".topic-rate"))

@@ -248,16 +248,8 @@ class ControlTopologyTest {
                 .extracting(record -> ManagerFixture.response(record)
                         .error()
                         .orElse(ManagerFixture.response(record).status()))
-                .containsExactly(
-                        "wrong-state",
-                        "paused",
-                        "paused",
-                        "paused",
-                        "paused",
-                        "running",
-                        "wrong-state",
-                        "deleted",
-                        "wrong-state");
+                .containsExactly("""
+                                wrong-state paused paused paused paused running wrong-state deleted wrong-state""".split("\\s+"));
         List<TestRecord<String, byte[]>> desired = farm.read(Topics.REPLAYS);
         assertThat(ManagerFixture.text(desired.get(desired.size() - 1).value()))
                 .contains("\"from\":1000,", "\"speed\":\"max\"", "\"wanted\":\"stopped\"")
@@ -445,30 +437,11 @@ class ControlTopologyTest {
                 .doesNotContain("-0000")
                 .contains("domain-requests-repartition", "mission-requests-repartition", "replay-requests-repartition");
         assertThat(farm.stores())
-                .isEqualTo(Set.of(
-                        "domains",
-                        "farm-sequence",
-                        "domain-answers",
-                        "domain-positions",
-                        "missions",
-                        "mission-statuses",
-                        "devices",
-                        "mission-device-lists",
-                        "mission-rollouts",
-                        "templates",
-                        "template-versions",
-                        "mission-answers",
-                        "mission-positions",
-                        "device-statuses-positions",
-                        "device-healths-positions",
-                        "device-connections-positions",
-                        "replays",
-                        "replay-reports",
-                        "recordings",
-                        "fields",
-                        "replay-sequence",
-                        "replay-answers",
-                        "replay-positions",
-                        "replay-statuses-positions"));
+                .isEqualTo(Set.of("""
+                                domains farm-sequence domain-answers domain-positions missions mission-statuses
+                                devices mission-device-lists mission-rollouts templates template-versions
+                                mission-answers mission-positions device-statuses-positions device-healths-positions
+                                device-connections-positions replays replay-reports recordings fields replay-sequence
+                                replay-answers replay-positions replay-statuses-positions""".split("\\s+")));
     }
 }

@@ -148,11 +148,9 @@ class ReplayUpkeepIT {
     void deletesTheTopicsOfAReplayThatIsOverAndNoOthers() throws Exception {
         String own = "data.show.replay.0000000a";
         List<String> removed = List.of(own, own + ".collision", own + ".collision.late", own + ".clocks");
-        List<String> retained = List.of(
-                "data.b.replay.0000000b",
-                "data.b.replay.0000000b.collision",
-                "data.show.replay.0000000ab",
-                "data.a.realtime");
+        List<String> retained = List.of("""
+                        data.b.replay.0000000b data.b.replay.0000000b.collision data.show.replay.0000000ab
+                        data.a.realtime""".split("\\s+"));
         kafka.createTopics(Stream.concat(removed.stream(), retained.stream())
                 .map(name -> new NewTopic(name, 1, (short) 1))
                 .toList());
@@ -223,11 +221,9 @@ class ReplayUpkeepIT {
         await().until(() -> later.equals(cleanup.status().lastSuccess()));
 
         assertThat(names())
-                .contains(
-                        "data.farm.realtime.mowing",
-                        "data.farm.realtime.sowing",
-                        "data.farm.realtime.played",
-                        "data.farm.realtime.own");
+                .contains("""
+                                data.farm.realtime.mowing data.farm.realtime.sowing data.farm.realtime.played
+                                data.farm.realtime.own""".split("\\s+"));
     }
 
     @Test

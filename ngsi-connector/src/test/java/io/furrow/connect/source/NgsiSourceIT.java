@@ -50,13 +50,9 @@ class NgsiSourceIT {
     @Test
     void writesEachRecordedNotificationAsTheRecordsOfTheGoldenFile() throws Exception {
         listen("golden");
-        List<String> names = List.of(
-                "keyValues-01",
-                "simplifiedNormalized-02",
-                "simplifiedKeyValues-04",
-                "normalized-05",
-                "withdates-06",
-                "onlyChanged-07");
+        List<String> names = List.of("""
+                        keyValues-01 simplifiedNormalized-02 simplifiedKeyValues-04 normalized-05 withdates-06
+                        onlyChanged-07""".split("\\s+"));
         for (String name : names) {
             assertThat(send(RecordedRequest.of(name).to(source)).statusCode())
                     .as(name)

@@ -327,12 +327,9 @@ class MissionLifeTest {
         assertThat(farm.missions.get("m").template()).isEqualTo("thesis-demo@1");
         assertThat(farm.all(farm.devices).stream()
                         .map(each -> each.device().version().id()))
-                .containsExactlyInAnyOrder(
-                        "urn:ngsi-ld:Camera:m-1",
-                        "urn:ngsi-ld:Robot:m-1",
-                        "urn:ngsi-ld:Thermometer:m-1",
-                        "urn:ngsi-ld:Thermometer:m-2",
-                        "urn:ngsi-ld:Thermometer:m-3");
+                .containsExactlyInAnyOrder("""
+                                urn:ngsi-ld:Camera:m-1 urn:ngsi-ld:Robot:m-1 urn:ngsi-ld:Thermometer:m-1
+                                urn:ngsi-ld:Thermometer:m-2 urn:ngsi-ld:Thermometer:m-3""".split("\\s+"));
         assertThat(farm.settings("urn:ngsi-ld:Camera:m-1").path("path")).hasSize(4);
     }
 

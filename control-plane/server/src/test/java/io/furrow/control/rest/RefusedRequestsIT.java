@@ -75,15 +75,8 @@ class RefusedRequestsIT {
 
     @Test
     void rejectsAFilterOfAlarmsThatNoneCanPass() throws Exception {
-        for (String query : new String[] {
-            "state=opne",
-            "state=",
-            "state=open&state=open",
-            "state=null&state=null",
-            "limit=0",
-            "limit=1&limit=2",
-            "limit=x"
-        }) {
+        for (String query : """
+                state=opne state= state=open&state=open state=null&state=null limit=0 limit=1&limit=2 limit=x""".split("\\s+")) {
             assertThat(client.error(client.send("GET", "/api/alarms?" + query, null)))
                     .as(query)
                     .isEqualTo("400 wrong-member");

@@ -31,22 +31,9 @@ public final class Mutations {
         "\"+999999999-12-31T23:59:59Z\"",
         "\"2026-11-21T01:00:00/\""
     };
-    private static final String[] NAMES = {
-        "id",
-        "type",
-        "data",
-        "value",
-        "metadata",
-        "location",
-        "Time",
-        "TimeInstant",
-        "dateObserved",
-        "dateModified",
-        "Latitude",
-        "Longitude",
-        "gnss",
-        "coordinates"
-    };
+    private static final String[] NAMES = """
+            id type data value metadata location Time TimeInstant dateObserved dateModified Latitude Longitude gnss
+            coordinates""".split("\\s+");
 
     private final Random random;
 
