@@ -1,5 +1,6 @@
 package io.furrow.soak;
 
+import io.furrow.model.topic.Topics;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -25,26 +26,17 @@ public final class TopicLog implements AutoCloseable {
     private final List<Long> ingestTimes = new ArrayList<>();
 
     public TopicLog(String bootstrapServers, String topic) {
-        Properties kafka = new Properties();
-        kafka.setProperty("bootstrap.servers", bootstrapServers);
-        kafka.setProperty("isolation.level", "read_committed");
-        kafka.setProperty("auto.offset.reset", "earliest");
-        kafka.setProperty("enable.auto.commit", "false");
-        kafka.setProperty("allow.auto.create.topics", "false");
-        consumer = new KafkaConsumer<>(kafka, new StringDeserializer(), new ByteArrayDeserializer());
-        consumer.assign(consumer.partitionsFor(topic).stream()
-                .map(partition -> new TopicPartition(topic, partition.partition()))
-                .toList());
+        consumer = CommittedState.consumer(bootstrapServers);
+        CommittedState.assign(consumer, List.of(topic));
     }
 
     /** How many records the topics whose names end so hold, transaction markers included. */
     static long count(String bootstrapServers, List<String> endings) {
-        try (TopicLog any = new TopicLog(bootstrapServers, io.furrow.model.topic.Topics.RAW)) {
-            List<TopicPartition> partitions = any.consumer.listTopics().entrySet().stream()
-                    .filter(topic -> endings.stream().anyMatch(topic.getKey()::endsWith))
-                    .flatMap(topic -> topic.getValue().stream())
-                    .map(info -> new TopicPartition(info.topic(), info.partition()))
+        try (TopicLog any = new TopicLog(bootstrapServers, Topics.RAW)) {
+            List<String> topics = any.consumer.listTopics().keySet().stream()
+                    .filter(topic -> endings.stream().anyMatch(topic::endsWith))
                     .toList();
+            List<TopicPartition> partitions = CommittedState.partitions(any.consumer, topics);
             return any.consumer.endOffsets(partitions).values().stream()
                     .mapToLong(Long::longValue)
                     .sum();

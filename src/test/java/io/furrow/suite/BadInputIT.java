@@ -115,9 +115,7 @@ class BadInputIT {
             double reading = 20 + System.nanoTime() % 1000 / 1e6;
             running.ngsi().append(thermometer(id, 99 + reading / 1000, latitude, longitude));
             running.ngsi().append(thermometer(good, reading, "40.3134", "-3.483"));
-            assertThat(running.ngsi()
-                            .entities("id=Analytics:FieldTemperature:field-1")
-                            .at("/0/plainMean/value")
+            assertThat(running.ngsi().entity("Analytics:FieldTemperature:field-1").at("/plainMean/value")
                             .asDouble())
                     .isBetween(19.9, 20.2);
         });

@@ -56,20 +56,18 @@ class MissionsIT {
         }
         try (RunningSuite running = RunningSuite.start(stored)) {
             Suite suite = running.suite();
-            await().until(() -> state(suite).equals("running"));
+            running.awaitState("hoeing", "running");
             JsonNode thermometer = running.ngsi()
-                    .entities("id=urn:ngsi-ld:Thermometer:hoeing-1")
-                    .path(0);
+                    .entity("urn:ngsi-ld:Thermometer:hoeing-1");
             await()
                     .until(() -> running.ngsi()
-                                    .entities("id=urn:ngsi-ld:Thermometer:hoeing-1")
-                                    .at("/0/Time/value")
+                                    .entity("urn:ngsi-ld:Thermometer:hoeing-1").at("/Time/value")
                                     .asLong()
                             > thermometer.at("/Time/value").asLong());
 
-            send(suite, "POST", "/api/missions/hoeing/stop", "{}");
+            running.post("/api/missions/hoeing/stop", "{}");
 
-            await().until(() -> state(suite).equals("stopped"));
+            running.awaitState("hoeing", "stopped");
             await().until(() -> provisioned(suite) == 0);
         }
     }
@@ -81,17 +79,13 @@ class MissionsIT {
             Suite suite = running.suite();
             assertThat(publish(suite, Suite.MQTT_USER, Suite.MQTT_PASSWORD, "/key/any/attrs", "{}"))
                     .contains("bad user name or password");
-            await()
-                    .until(() -> send(suite, "GET", "/ready", "")
-                            .path("status")
-                            .asText()
-                            .equals("ready"));
-            send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
-            send(suite, "POST", "/api/missions/hoeing/start", """
+            running.awaitReady();
+            running.post("/api/domains", "{\"domain\":\"north\"}");
+            running.post("/api/missions/hoeing/start", """
                     {"domain": "north", "devices": [
                       {"type": "Thermometer", "count": 3, "period": "PT0.2S", "path": [[-3.48, 40.31]]}]}
                     """);
-            await().until(() -> state(suite).equals("running"));
+            running.awaitState("hoeing", "running");
 
             Instant over = Instant.now().plusSeconds(5);
             Path file = stored.resolve("farm-secret");
@@ -107,8 +101,8 @@ class MissionsIT {
                                         .asLong()
                                 > over.plusSeconds(3).toEpochMilli());
             }
-            assertThat(state(suite)).isEqualTo("running");
-            assertThat(send(suite, "GET", "/api/devices/urn:ngsi-ld:Thermometer:hoeing-1/credentials", "")
+            assertThat(running.mission("hoeing").at("/status/state").asText()).isEqualTo("running");
+            assertThat(running.get("/api/devices/urn:ngsi-ld:Thermometer:hoeing-1/credentials")
                             .path("user")
                             .asText())
                     .isEqualTo(rotated.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")
@@ -123,20 +117,16 @@ class MissionsIT {
                 RunningSuite.start(stored, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();
             String device = "urn:ngsi-ld:Thermometer:own";
-            await()
-                    .until(() -> send(suite, "GET", "/ready", "")
-                            .path("status")
-                            .asText()
-                            .equals("ready"));
-            send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
-            send(suite, "POST", "/api/missions/hoeing/start", """
+            running.awaitReady();
+            running.post("/api/domains", "{\"domain\":\"north\"}");
+            running.post("/api/missions/hoeing/start", """
                     {"domain": "north", "devices": [{"type": "Thermometer", "id": "%s", "simulated": false}]}
                     """.formatted(device));
             await()
-                    .until(() -> send(suite, "GET", "/api/devices/" + device, "")
+                    .until(() -> running.get("/api/devices/" + device)
                             .at("/connection/registered")
                             .asBoolean());
-            JsonNode login = send(suite, "GET", "/api/devices/" + device + "/credentials", "");
+            JsonNode login = running.get("/api/devices/" + device + "/credentials");
             String user = login.path("user").asText();
             String password = login.path("password").asText();
             String topic = "/" + login.path("apiKey").asText() + "/" + device + "/attrs";
@@ -149,7 +139,7 @@ class MissionsIT {
 
             await().untilAsserted(() -> {
                 JsonNode connection =
-                        send(suite, "GET", "/api/devices/" + device, "").path("connection");
+                        running.get("/api/devices/" + device).path("connection");
                 assertThat(connection.at("/refusedLogin/reason").asText()).isEqualTo("wrong-password");
                 assertThat(connection.at("/foreignTopic/topic").asText()).isEqualTo("/key/other/attrs");
                 assertThat(connection.at("/unreadablePayload/payload").asText()).isEqualTo("21.5 degrees");
@@ -174,12 +164,6 @@ class MissionsIT {
         }
     }
 
-    private static String state(Suite suite) throws Exception {
-        return send(suite, "GET", "/api/missions/hoeing", "")
-                .at("/status/state")
-                .asText();
-    }
-
     private static int provisioned(Suite suite) throws Exception {
         HttpRequest request = HttpRequest.newBuilder(suite.devices().iotAgent().resolve("/iot/devices?limit=1"))
                 .header("fiware-service", suite.fiwareService())
@@ -189,14 +173,5 @@ class MissionsIT {
                         .body())
                 .path("count")
                 .asInt();
-    }
-
-    private static JsonNode send(Suite suite, String method, String path, String body) throws Exception {
-        HttpRequest request = HttpRequest.newBuilder(URI.create(suite.control() + path))
-                .header("Content-Type", "application/json")
-                .method(method, HttpRequest.BodyPublishers.ofString(body))
-                .build();
-        return NgsiJson.read(
-                HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray()).body());
     }
 }

@@ -104,7 +104,7 @@ class RealClientsIT {
     }
 
     private static JsonNode entity() throws Exception {
-        return running.ngsi().entities("id=" + ENTITY).path(0);
+        return running.ngsi().entity(ENTITY);
     }
 
     private static void curl(String method, URI uri, String body) throws Exception {

@@ -26,7 +26,6 @@ import static org.awaitility.Awaitility.await;
 
 /** Devices that have nothing but their credentials and an MQTT client, beside simulated ones. */
 class RealDevicesIT {
-    private static final HttpClient HTTP = HttpClient.newHttpClient();
     private static final String PLACE = "{\"latitude\": 40.3134, \"longitude\": -3.4831}";
 
     private static final String PLACE_REPORT = "'{\"lat\": 40.3134, \"lon\": -3.4831}'";
@@ -61,9 +60,8 @@ class RealDevicesIT {
                         SuiteSettings.Watch.DEFAULT,
                         AllowedNames.NONE,
                         false));
-        await()
-                .until(() -> send("GET", "/ready", "").path("status").asText().equals("ready"));
-        send("POST", "/api/domains", "{\"domain\":\"home\"}");
+        running.awaitReady();
+        running.post("/api/domains", "{\"domain\":\"home\"}");
     }
 
     @Test
@@ -72,28 +70,26 @@ class RealDevicesIT {
                 {"type": "Thermometer", "count": 2, "period": "PT15M", "at": [%1$s, %1$s], "attributes": [
                   {"object_id": "t", "name": "Temperature", "unit": "CEL"}]}""".formatted(PLACE));
         await()
-                .until(() -> mission("first").at("/status/reason").asText().startsWith("2 of 2 devices are not up"));
+                .until(() -> running.mission("first").at("/status/reason").asText().startsWith("2 of 2 devices are not up"));
         await()
-                .until(() -> send("GET", "/api/alarms", "")
+                .until(() -> running.get("/api/alarms")
                         .findValuesAsText("text")
                         .contains("mission first: "
-                                + mission("first").at("/status/reason").asText()));
-        JsonNode logins = send("GET", "/api/missions/first/credentials", "");
+                                + running.mission("first").at("/status/reason").asText()));
+        JsonNode logins = running.get("/api/missions/first/credentials");
         assertThat(logins).hasSize(2);
 
         String example = logins.path(0).path("example").asText();
         Command.run("sh", "-c", example);
 
+        running.awaitState("first", "running");
         await()
-                .until(() -> mission("first").at("/status/state").asText().equals("running"));
-        await()
-                .until(() -> mission("first")
+                .until(() -> running.mission("first")
                         .at("/status/missing/0/reason")
                         .asText()
                         .startsWith("it has not connected to the MQTT broker since "));
         JsonNode entity = running.ngsi()
-                .entities("id=" + logins.path(0).path("device").asText())
-                .path(0);
+                .entity(logins.path(0).path("device").asText());
         assertThat(entity.at("/Temperature/value").asInt()).isEqualTo(21);
         assertThat(entity.at("/Temperature/metadata/unitCode/value").asText()).isEqualTo("CEL");
         assertThat(entity.at("/Latitude/value").asDouble()).isEqualTo(40.3134);
@@ -101,15 +97,13 @@ class RealDevicesIT {
         await().pollInterval(Duration.ofSeconds(1)).untilAsserted(() -> {
             Command.run("sh", "-c", example);
             assertThat(running.ngsi()
-                            .entities("id=Analytics:FieldTemperature:field-1")
-                            .at("/0/averageTemperature/value")
+                            .entity("Analytics:FieldTemperature:field-1").at("/averageTemperature/value")
                             .asInt())
                     .isEqualTo(21);
         });
-        send("POST", "/api/missions/first/stop", "{}");
-        await()
-                .until(() -> mission("first").at("/status/state").asText().equals("stopped"));
-        send("DELETE", "/api/missions/first", "");
+        running.post("/api/missions/first/stop", "{}");
+        running.awaitState("first", "stopped");
+        running.send("DELETE", "/api/missions/first", "");
         await()
                 .until(() ->
                         running.ngsi().entities("id=urn:ngsi-ld:Mission:first").isEmpty());
@@ -121,8 +115,8 @@ class RealDevicesIT {
         start("program", "{\"type\": \"Thermometer\", \"at\": %s}".formatted(PLACE));
         await()
                 .until(() ->
-                        send("GET", "/api/missions/program/credentials", "").size() == 1);
-        JsonNode login = send("GET", "/api/missions/program/credentials", "").path(0);
+                        running.get("/api/missions/program/credentials").size() == 1);
+        JsonNode login = running.get("/api/missions/program/credentials").path(0);
         Map<String, String> variables = new LinkedHashMap<>();
         Map.of(
                         "MQTT_HOST", "host",
@@ -139,18 +133,16 @@ class RealDevicesIT {
         String device = login.path("device").asText();
         String program = Path.of("..", "docs", "examples", "thermometer.py").toString();
         try (Command thermometer = Command.start(variables, "python3", program)) {
-            await()
-                    .until(() -> mission("program").at("/status/state").asText().equals("running"));
-            send("POST", "/api/devices/" + device + "/commands", "{\"command\":\"off\"}");
+            running.awaitState("program", "running");
+            running.post("/api/devices/" + device + "/commands", "{\"command\":\"off\"}");
             await().until(() -> thermometer.printed().contains("asked: {'off'"));
             await()
                     .until(() -> running.ngsi()
-                            .entities("id=" + device)
-                            .at("/0/off_status/value")
+                            .entity(device).at("/off_status/value")
                             .asText()
                             .equals("OK"));
         }
-        send("POST", "/api/missions/program/stop", "{}");
+        running.post("/api/missions/program/stop", "{}");
     }
 
     @Tag("full")
@@ -161,8 +153,8 @@ class RealDevicesIT {
                 {"name": "real", "type": "WeatherStation", "count": 39, "at": %s},
                 {"type": "Robot"}""".formatted(PLACE));
         await()
-                .until(() -> mission("mixed").at("/status/confirmed").asInt() == 40);
-        JsonNode logins = send("GET", "/api/missions/mixed/credentials", "");
+                .until(() -> running.mission("mixed").at("/status/confirmed").asInt() == 40);
+        JsonNode logins = running.get("/api/missions/mixed/credentials");
         assertThat(logins).hasSize(40);
         for (JsonNode login : logins) {
             String device = login.path("device").asText();
@@ -173,7 +165,7 @@ class RealDevicesIT {
         }
         await()
                 .untilAsserted(() ->
-                        assertThat(mission("mixed").path("status").toString()).contains("\"confirmed\":80"));
+                        assertThat(running.mission("mixed").path("status").toString()).contains("\"confirmed\":80"));
         JsonNode stations = running.ngsi().entities("type=WeatherStation&idPattern=.*mixed.*");
         assertThat(stations)
                 .hasSize(39)
@@ -181,33 +173,18 @@ class RealDevicesIT {
                         && each.path("Humidity").isMissingNode());
         await().until(() -> texts().anyMatch(text -> text.matches(".*Robot.* and .*Station.* apart")));
         assertThat(texts()).noneMatch(text -> text.matches(".*Station.* and .*Station.* apart"));
-        send("POST", "/api/missions/mixed/stop", "{}");
+        running.post("/api/missions/mixed/stop", "{}");
     }
 
     private static Stream<String> texts() throws Exception {
-        return send("GET", "/api/alarms", "").findValuesAsText("text").stream();
+        return running.get("/api/alarms").findValuesAsText("text").stream();
     }
 
     private static void start(String mission, String devices) throws Exception {
         String body = "{\"domain\":\"home\",\"devices\":[%s]}".formatted(devices);
-        assertThat(send("POST", "/api/missions/" + mission + "/start", body)
+        assertThat(running.post("/api/missions/" + mission + "/start", body)
                         .path("status")
                         .asText())
                 .isEqualTo("created");
-    }
-
-    private static JsonNode mission(String name) throws Exception {
-        return send("GET", "/api/missions/" + name, "");
-    }
-
-    private static JsonNode send(String method, String path, String body) throws Exception {
-        HttpRequest.BodyPublisher content =
-                method.equals("GET") ? HttpRequest.BodyPublishers.noBody() : HttpRequest.BodyPublishers.ofString(body);
-        HttpRequest request = HttpRequest.newBuilder(URI.create(running.suite().control() + path))
-                .header("Content-Type", "application/json")
-                .method(method, content)
-                .build();
-        return NgsiJson.read(
-                HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray()).body());
     }
 }

@@ -22,7 +22,7 @@ class RestartIT {
             awaitRouted(first, EVENTS);
         }
         try (RunningSuite second = RunningSuite.start(stored)) {
-            assertThat(second.ngsi().entities("id=probe").at("/0/n/value").asInt())
+            assertThat(second.ngsi().entity("probe").at("/n/value").asInt())
                     .as("the context broker has kept its entities")
                     .isEqualTo(EVENTS - 1);
             send(second, EVENTS);

@@ -4,6 +4,13 @@ import java.io.OutputStreamWriter;
 import java.io.PrintWriter;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import com.fasterxml.jackson.databind.JsonNode;
+import io.furrow.model.ngsi.NgsiJson;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
 
 import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.suite.RunDirectory;
@@ -37,6 +44,43 @@ public final class RunningSuite implements AutoCloseable {
 
     public Ngsi ngsi() {
         return new Ngsi(suite);
+    }
+
+    /** An answer of the control plane's REST API. */
+    public JsonNode get(String path) throws Exception {
+        return NgsiJson.read(request("GET", path, "").body());
+    }
+
+    JsonNode post(String path, String body) throws Exception {
+        return send("POST", path, body);
+    }
+
+    /** The answer to a request that must be accepted. */
+    JsonNode send(String method, String path, String body) throws Exception {
+        HttpResponse<byte[]> response = request(method, path, body);
+        JsonNode answer = NgsiJson.read(response.body());
+        assertThat(response.statusCode()).as("%s %s: %s", method, path, answer).isLessThan(300);
+        return answer;
+    }
+
+    public HttpResponse<byte[]> request(String method, String path, String body) throws Exception {
+        HttpRequest request = HttpRequest.newBuilder(suite.control().resolve(path))
+                .header("Content-Type", "application/json")
+                .method(method, HttpRequest.BodyPublishers.ofString(body))
+                .build();
+        return HttpClient.newHttpClient().send(request, HttpResponse.BodyHandlers.ofByteArray());
+    }
+
+    void awaitReady() {
+        await().until(() -> get("/ready").path("status").asText().equals("ready"));
+    }
+
+    JsonNode mission(String name) throws Exception {
+        return get("/api/missions/" + name);
+    }
+
+    void awaitState(String mission, String state) {
+        await("mission " + mission + " " + state).until(() -> mission(mission).at("/status/state").asText().equals(state));
     }
 
     TopicLog topic(String name) {

@@ -39,9 +39,7 @@ class WholePathIT {
     @Test
     void writesTheAverageOfAFieldIntoTheContextBrokerAndNamesTheDefectiveThermometer() {
         await().untilAsserted(() -> {
-            JsonNode average = running.ngsi()
-                    .entities("id=Analytics:FieldTemperature:field-1")
-                    .path(0);
+            JsonNode average = running.ngsi().entity("Analytics:FieldTemperature:field-1");
             assertThat(average.path("suspects").path("value")).hasSize(1);
             assertThat(average.at("/suspects/value/0").asText()).isEqualTo("urn:ngsi-ld:Thermometer:4");
             assertThat(average.at("/quality/value").asText()).isEqualTo("robust");
@@ -75,9 +73,7 @@ class WholePathIT {
         fields.write(List.of(new FieldVersion("imported", 0, existing.geometry(), properties)));
 
         await().untilAsserted(() -> {
-            JsonNode average = running.ngsi()
-                    .entities("id=Analytics:FieldTemperature:imported")
-                    .path(0);
+            JsonNode average = running.ngsi().entity("Analytics:FieldTemperature:imported");
             assertThat(average.at("/quality/value").asText()).isEqualTo("robust");
             assertThat(average.at("/Domain/value").asText()).isEqualTo("farm (north)");
             assertThat(running.ngsi().entities("type=Analytics:Presence"))

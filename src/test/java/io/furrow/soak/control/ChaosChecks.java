@@ -1,5 +1,6 @@
 package io.furrow.soak.control;
 
+import io.furrow.soak.CommittedState;
 import java.io.IOException;
 import java.net.URI;
 import java.util.ArrayList;

@@ -1,5 +1,6 @@
 package io.furrow.soak.control;
 
+import io.furrow.soak.CommittedState;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;

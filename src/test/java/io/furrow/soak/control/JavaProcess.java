@@ -1,5 +1,7 @@
 package io.furrow.soak.control;
 
+import java.util.HashMap;
+import java.util.Map;
 import java.io.File;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -14,6 +16,7 @@ public final class JavaProcess implements AutoCloseable {
 
     private final List<String> command = new ArrayList<>();
     private final Path output;
+    private final Map<String, String> environment = new HashMap<>();
     private Process process;
 
     /** @param words options of the JVM, class and arguments */
@@ -25,12 +28,19 @@ public final class JavaProcess implements AutoCloseable {
         command.addAll(arguments);
     }
 
+    /** Further variables of its environment. */
+    public JavaProcess with(Map<String, String> variables) {
+        environment.putAll(variables);
+        return this;
+    }
+
     public void start() throws IOException {
         Files.createDirectories(output.toAbsolutePath().getParent());
-        process = new ProcessBuilder(command)
+        ProcessBuilder builder = new ProcessBuilder(command)
                 .redirectErrorStream(true)
-                .redirectOutput(ProcessBuilder.Redirect.appendTo(new File(output.toString())))
-                .start();
+                .redirectOutput(ProcessBuilder.Redirect.appendTo(output.toFile()));
+        builder.environment().putAll(environment);
+        process = builder.start();
     }
 
     public boolean isAlive() {
@@ -48,6 +58,9 @@ public final class JavaProcess implements AutoCloseable {
 
     /** Asks it to stop, and kills it where it does not. @return whether it stopped by itself in time */
     public boolean stop() throws InterruptedException {
+        if (process == null) {
+            return true;
+        }
         process.destroy();
         boolean stopped = process.waitFor(STOP_SECONDS, TimeUnit.SECONDS);
         process.destroyForcibly().waitFor();

@@ -38,15 +38,7 @@ public final class KafkaProcess implements AutoCloseable {
     /** Returns when it listens. */
     public void start() throws IOException {
         process.start();
-        Until.isTrue("Kafka listens", START_TIMEOUT, this::isListening);
-    }
-
-    private boolean isListening() {
-        try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), port)) {
-            return socket.isConnected();
-        } catch (IOException e) {
-            return false;
-        }
+        Until.isTrue("Kafka listens", START_TIMEOUT, () -> Until.isListening(port));
     }
 
     void kill() throws InterruptedException {

@@ -88,15 +88,7 @@ public final class MosquittoProcess implements AutoCloseable {
                         folder.resolve("mosquitto.log").toFile()))
                 .start();
         Files.writeString(pidFile(), Long.toString(process.pid()));
-        Until.isTrue("Mosquitto listens", START_TIMEOUT, this::isListening);
-    }
-
-    private boolean isListening() {
-        try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), port)) {
-            return socket.isConnected();
-        } catch (IOException e) {
-            return false;
-        }
+        Until.isTrue("Mosquitto listens", START_TIMEOUT, () -> Until.isListening(port));
     }
 
     public void kill() throws IOException, InterruptedException {

@@ -1,5 +1,6 @@
 package io.furrow.soak.control;
 
+import io.furrow.soak.CommittedState;
 import java.time.Duration;
 import java.util.List;
 

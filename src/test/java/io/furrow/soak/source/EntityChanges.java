@@ -1,5 +1,7 @@
 package io.furrow.soak.source;
 
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.soak.control.Http;
 import java.net.URI;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -66,7 +68,7 @@ final class EntityChanges implements AutoCloseable {
                 JsonNodeFactory.instance.objectNode().put("id", change.id()).put("type", NumberedChange.TYPE);
         body.putObject("Number").put("type", "Integer").put("value", change.number());
         body.putObject("Filling").put("type", "String").put("value", FILLING);
-        int status = HttpJson.send("POST", entities, body);
+        int status = Http.send("POST", entities, NgsiJson.write(body)).join().status();
         if (status / 100 != 2) {
             throw new IllegalStateException("the context broker answered " + status + " to " + change);
         }

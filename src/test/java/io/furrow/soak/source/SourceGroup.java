@@ -1,5 +1,8 @@
 package io.furrow.soak.source;
 
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.Until;
 import java.io.IOException;
 import java.net.InetAddress;
 import java.net.ServerSocket;
@@ -117,12 +120,12 @@ final class SourceGroup implements AutoCloseable {
 
     private void change(String verb) {
         ObjectNode nothing = JsonNodeFactory.instance.objectNode();
-        Conditions.until(
+        Until.isTrue(
                 verb,
                 TIMEOUT,
-                () -> HttpJson.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), nothing) / 100 == 2);
+                () -> Http.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), NgsiJson.write(nothing)).join().status() / 100 == 2);
         String state = verb.equals("pause") ? "PAUSED" : "RUNNING";
-        Conditions.until(
+        Until.isTrue(
                 "all tasks " + state,
                 TIMEOUT,
                 () -> tasks(state).values().stream().mapToInt(Integer::intValue).sum() == TASKS);
@@ -134,7 +137,7 @@ final class SourceGroup implements AutoCloseable {
 
     /** Returns when all tasks run, and each of the workers has one. */
     void awaitTasks() {
-        Conditions.until("all tasks run on " + members, TIMEOUT, () -> {
+        Until.isTrue("all tasks run on " + members, TIMEOUT, () -> {
             var shown = shown().values();
             return tasks("RUNNING").values().stream()
                                     .mapToInt(Integer::intValue)
@@ -147,7 +150,7 @@ final class SourceGroup implements AutoCloseable {
 
     private Map<String, Integer> tasks(String state) {
         Map<String, Integer> tasks = new TreeMap<>();
-        JsonNode status = HttpJson.get(connectors("/" + SourceWorker.CONNECTOR + "/status"));
+        JsonNode status = Http.get(connectors("/" + SourceWorker.CONNECTOR + "/status")).body();
         for (JsonNode task : status.path("tasks")) {
             if (task.path("state").asText().equals(state)) {
                 tasks.merge(task.path("worker_id").asText(), 1, Integer::sum);
@@ -165,7 +168,7 @@ final class SourceGroup implements AutoCloseable {
 
     /** Journals that Connect knows offsets of. */
     int journalsInOffsets() {
-        return HttpJson.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets"))
+        return Http.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets")).body()
                 .path("offsets")
                 .size();
     }

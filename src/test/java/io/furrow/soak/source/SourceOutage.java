@@ -1,5 +1,6 @@
 package io.furrow.soak.source;
 
+import io.furrow.soak.control.Until;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.BitSet;
@@ -72,7 +73,7 @@ public final class SourceOutage {
 
     /** Until no more is pending than a second brings, under the same load. */
     private static long catchUp(SourceWorker worker, long since, int perSecond) throws Exception {
-        Conditions.until("what was kept is in Kafka", Duration.ofSeconds(300), () -> {
+        Until.isTrue("what was kept is in Kafka", Duration.ofSeconds(300), () -> {
             long pending = worker.health().path("pending").asLong(Long.MAX_VALUE);
             return pending < perSecond;
         });

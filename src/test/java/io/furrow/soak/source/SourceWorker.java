@@ -1,5 +1,7 @@
 package io.furrow.soak.source;
 
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.Until;
 import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Path;
@@ -80,12 +82,12 @@ final class SourceWorker implements AutoCloseable {
     }
 
     void awaitListening() {
-        Conditions.until("the source listens", TIMEOUT, () -> health().has("received"));
+        Until.isTrue("the source listens", TIMEOUT, () -> health().has("received"));
     }
 
     /** Returns when nothing that was taken waits for Kafka any more. */
     void awaitDrained() {
-        Conditions.until(
+        Until.isTrue(
                 "the journal is drained",
                 TIMEOUT,
                 () -> health().path("pending").asLong(-1) == 0);
@@ -93,7 +95,7 @@ final class SourceWorker implements AutoCloseable {
 
     /** What the source says of itself; empty while it does not answer. */
     JsonNode health() {
-        return HttpJson.get(URI.create("http://127.0.0.1:" + port + "/health"));
+        return Http.get(URI.create("http://127.0.0.1:" + port + "/health")).body();
     }
 
     int port() {

@@ -1,5 +1,7 @@
 package io.furrow.soak.source;
 
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.Until;
 import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Path;
@@ -57,10 +59,10 @@ final class WorkersFarm implements AutoCloseable {
         group.createSource(contextBroker.contextBroker(), tap.publicUrl());
         group.awaitTasks();
         URI subscriptions = URI.create(contextBroker.contextBroker() + "/v2/subscriptions");
-        Conditions.until(
+        Until.isTrue(
                 "each task has its subscription",
                 TIMEOUT,
-                () -> HttpJson.get(subscriptions).size() == SourceGroup.TASKS);
+                () -> Http.get(subscriptions).body().size() == SourceGroup.TASKS);
     }
 
     NotificationTap tap() {
@@ -96,7 +98,7 @@ final class WorkersFarm implements AutoCloseable {
     /** Nothing changes any more, and every notification has its answer or none. */
     void awaitAnswers() {
         changes.hold();
-        Conditions.until(
+        Until.isTrue(
                 "every notification is answered",
                 TIMEOUT,
                 () -> contextBroker.counters().notificationsQueued() == 0 && tap.isIdle());
@@ -105,13 +107,13 @@ final class WorkersFarm implements AutoCloseable {
     /** Nothing changes any more, and the workers have nothing left to do. */
     void quiet() {
         awaitAnswers();
-        Conditions.until("every journal is drained", TIMEOUT, () -> {
+        Until.isTrue("every journal is drained", TIMEOUT, () -> {
             var shown = group.shown().values();
             return shown.stream().mapToInt(Shown::tasks).sum() == SourceGroup.TASKS
                     && shown.stream().allMatch(one -> one.onDisk() == 0 && one.adopted() == 0 && one.orphaned() == 0);
         });
         List<NumberedChange> newest = changes.newest();
-        Conditions.within(REPAIR_TIMEOUT, () -> {
+        Until.within(REPAIR_TIMEOUT, () -> {
             topic.read();
             return topic.notNewest(newest).isEmpty();
         });

@@ -1,5 +1,6 @@
 package io.furrow.soak.source;
 
+import io.furrow.soak.control.Until;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -95,7 +96,7 @@ final class WorkersRun implements AutoCloseable {
         load("paused");
         long held = held(List.of());
         Member third = group.join(name, "disk-3");
-        Conditions.until("a worker shows what the task that moved away left", TIMEOUT, () -> {
+        Until.isTrue("a worker shows what the task that moved away left", TIMEOUT, () -> {
             long shown = group.shown().values().stream()
                     .mapToLong(Shown::leftRecords)
                     .sum();
@@ -162,7 +163,7 @@ final class WorkersRun implements AutoCloseable {
     /** Several looks are no single moment: they count once two in a row agree. Records of the repair are shown as well. */
     private void compareReported(String when, long held) {
         long[] before = {-1};
-        Conditions.until("the workers show the same twice", TIMEOUT, () -> {
+        Until.isTrue("the workers show the same twice", TIMEOUT, () -> {
             long shown =
                     group.shown().values().stream().mapToLong(Shown::onDisk).sum();
             boolean same = shown == before[0];
@@ -187,7 +188,7 @@ final class WorkersRun implements AutoCloseable {
 
     /** The disk is here again: the worker takes as many records from it as were shown, and all come to Kafka. */
     private void comeBack(Member worker, Away removed) {
-        Conditions.within(ADOPTION_TIMEOUT, () -> worker.gauges().read().recovered() >= removed.shown());
+        Until.within(ADOPTION_TIMEOUT, () -> worker.gauges().read().recovered() >= removed.shown());
         farm.quiet();
         long recovered = worker.gauges().read().recovered();
         long came = removed.missing().stream()

@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import org.assertj.core.api.Assertions;
 import java.util.List;
 import java.util.Set;
 import java.util.stream.Stream;
@@ -45,7 +46,7 @@ class AccessibilityIT {
                             .filter(rule -> SERIOUS.contains(rule.getImpact()))
                             .map(AccessibilityIT::arguments)
                             .toList();
-            org.assertj.core.api.Assertions.assertThat(findings).as(view).isEmpty();
+            Assertions.assertThat(findings).as(view).isEmpty();
         }
     }
 

@@ -1,5 +1,7 @@
 package io.furrow.suite.page;
 
+import java.util.regex.Pattern;
+import org.assertj.core.api.Assertions;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.List;
@@ -49,7 +51,7 @@ class AlarmsIT {
             acknowledged |= alarm.path("kind").asText().contains("suspect")
                     && alarm.path("state").asText().equals("acknowledged");
         }
-        org.assertj.core.api.Assertions.assertThat(acknowledged).isTrue();
+        Assertions.assertThat(acknowledged).isTrue();
     }
 
     @Tag("full")
@@ -69,8 +71,7 @@ class AlarmsIT {
     /** Its causes last as long as the farm runs, so this one is known to this window alone, and the answer is a stand-in's. */
     @Tag("full")
     @Test
-    void closesAnAlarm(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void closesAnAlarm(FarmPage farm) {
         farm.untilStore("store.alarmsLoaded");
         AtomicInteger requested = new AtomicInteger();
         farm.page().route("**/api/alarms/over-1/close", route -> {
@@ -80,14 +81,14 @@ class AlarmsIT {
         take(farm, "open");
         Locator row = rowOf(farm, "over-1");
         close(row);
-        farm.page().waitForCondition(() -> requested.get() == 1);
+        farm.until(() -> requested.get() == 1);
 
         take(farm, "closed");
         assertThat(row).hasCount(0);
     }
 
     private static void take(FarmPage farm, String state) {
-        farm.page().evaluate("""
+        farm.run("""
                         async (state) => {
                           const { store } = await import('/core/store.js');
                           store.applyAlarm({ key: 'over-1', value: { alarm: 'over-1', kind: 'silent-device', severity: 'minor', text: 'the pump is silent',
@@ -114,14 +115,13 @@ class AlarmsIT {
 
         assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);
         assertThat(farm.find(".alarm-count"))
-                .hasAttribute("aria-label", java.util.regex.Pattern.compile("[1-9]\\d* open alarms"));
+                .hasAttribute("aria-label", Pattern.compile("[1-9]\\d* open alarms"));
         forget(suite, robot);
     }
 
     @Tag("full")
     @Test
-    void findsAlarmsByWhatTheyReport(PageSuite suite) {
-        FarmPage farm = suite.open("");
+    void findsAlarmsByWhatTheyReport(FarmPage farm) {
         Locator open = farm.find("furrow-alarms > .alarm-list > li.alarm");
         farm.untilStore("[...store.alarms.values()].some((each) => each.state === 'open')");
         Locator search = farm.page().getByRole(AriaRole.SEARCHBOX);
@@ -137,7 +137,7 @@ class AlarmsIT {
     @Tag("full")
     @Test
     void notifiesOfANewAlarmWhileThePageIsHidden(PageSuite suite) throws Exception {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
+        FarmPage farm = suite.window();
         farm.page().context().grantPermissions(List.of("notifications"));
         farm.page().addInitScript("""
                 window.notified = [];
@@ -157,16 +157,14 @@ class AlarmsIT {
         int robot = meet(suite);
 
         assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);
-        org.assertj.core.api.Assertions.assertThat(farm.page().evaluate("notified.length"))
+        Assertions.assertThat(farm.run("notified.length"))
                 .isEqualTo(0);
 
         farm.hide();
-        farm.page().waitForCondition(() -> sockets.get() == 1, FarmPage.TIMEOUT);
+        farm.until(() -> sockets.get() == 1, FarmPage.TIMEOUT);
         int other = meet(suite);
-        farm.page()
-                .waitForCondition(
-                        () -> Boolean.TRUE.equals(farm.page()
-                                .evaluate(
+        farm.until(
+                        () -> Boolean.TRUE.equals(farm.run(
                                         "(robot) => notified.some((each) => each.startsWith(`Furrow: critical alarm: Robot ${robot}`))",
                                         other)),
                         FarmPage.TIMEOUT);

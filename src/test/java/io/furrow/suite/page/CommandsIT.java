@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import static io.furrow.suite.page.FarmPage.EXACTLY;
 import java.time.Instant;
 
 import com.microsoft.playwright.Locator;
@@ -43,7 +44,7 @@ class CommandsIT {
         farm.untilStore("store.devices.has('" + ROBOT + "')");
         outcome = farm.card(ROBOT).locator(".card-outcome");
         farm.card(ROBOT)
-                .getByText("Stop", new Locator.GetByTextOptions().setExact(true))
+                .getByText("Stop", EXACTLY)
                 .click();
         assertThat(outcome).containsText("no answer yet");
         farm.untilStore("store.entities.get('" + ROBOT + "').attributes.cmd.value === 'Stop'");

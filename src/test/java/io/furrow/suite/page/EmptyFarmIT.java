@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import static io.furrow.suite.page.FarmPage.having;
 import java.net.URI;
 
 import com.microsoft.playwright.Locator;
@@ -69,13 +70,13 @@ class EmptyFarmIT {
             farm.go(place);
             Locator skeleton = farm.find("furrow-" + place.toLowerCase(java.util.Locale.ROOT) + " .skeleton");
             assertThat(skeleton.first()).isVisible();
-            assertThat(farm.find(".view-place .empty:visible").filter(new Locator.FilterOptions().setHasText("yet")))
+            assertThat(farm.find(".view-place .empty:visible").filter(having("yet")))
                     .hasCount(0);
         }
     }
 
     private static FarmPage window(PageSuite suite) {
-        return suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
+        return suite.window();
     }
 
     private static void tab(FarmPage farm, String name) {

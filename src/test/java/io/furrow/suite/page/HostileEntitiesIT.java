@@ -1,5 +1,8 @@
 package io.furrow.suite.page;
 
+import static io.furrow.suite.page.FarmPage.ATTRIBUTES;
+import org.assertj.core.api.Assertions;
+import static io.furrow.suite.page.FarmPage.having;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 
@@ -25,18 +28,17 @@ class HostileEntitiesIT {
     void showsHtmlAsText(PageSuite suite) throws Exception {
         String id = "urn:ngsi-ld:Thermometer:<b>" + SCRIPT;
         ObjectNode entity = entity(id, "<i>Thermometer" + SCRIPT);
-        attribute(entity, "Temperature", NgsiJson.mapper().valueToTree(21.5));
-        attribute(entity, SCRIPT, NgsiJson.mapper().valueToTree(SCRIPT));
-        attribute(entity, "name", NgsiJson.mapper().valueToTree("Malice " + SCRIPT));
-        attribute(entity, "Domain", NgsiJson.mapper().valueToTree(SCRIPT));
-        attribute(entity, "status", NgsiJson.mapper().valueToTree(SCRIPT));
+        attribute(entity, "Temperature", 21.5);
+        attribute(entity, SCRIPT, SCRIPT);
+        attribute(entity, "name", "Malice " + SCRIPT);
+        attribute(entity, "Domain", SCRIPT);
+        attribute(entity, "status", SCRIPT);
         suite.produce("data.raw", id, NgsiJson.write(entity));
 
         FarmPage farm = suite.open("");
-        Locator card = farm.find("furrow-cards li.card").filter(new Locator.FilterOptions().setHasText("Malice"));
+        Locator card = farm.find("furrow-cards li.card").filter(having("Malice"));
         assertThat(card.locator("h3")).containsText("<img src=x onerror");
-        card.getByRole(AriaRole.BUTTON, new Locator.GetByRoleOptions().setName("All attributes of"))
-                .click();
+        card.getByRole(AriaRole.BUTTON, ATTRIBUTES).click();
         assertThat(card.locator(".attributes")).containsText("<script>window.ran = true</script>");
         farm.button("The map as a table").click();
         assertThat(farm.find(".map-table")).containsText("Malice <img");
@@ -52,14 +54,13 @@ class HostileEntitiesIT {
         String id = "urn:ngsi-ld:Thermometer:wide";
         ObjectNode entity = entity(id, "Thermometer");
         for (int number = 0; number < 10_000; number++) {
-            attribute(entity, "a" + number, NgsiJson.mapper().valueToTree(number));
+            attribute(entity, "a" + number, number);
         }
         suite.produce("data.raw", id, NgsiJson.write(entity));
 
         FarmPage farm = suite.open("");
         Locator card = farm.card(id);
-        card.getByRole(AriaRole.BUTTON, new Locator.GetByRoleOptions().setName("All attributes of"))
-                .click();
+        card.getByRole(AriaRole.BUTTON, ATTRIBUTES).click();
         assertThat(card).containsText("more attributes are not shown");
         alive(farm);
         suite.forget(id);
@@ -69,7 +70,7 @@ class HostileEntitiesIT {
     void reportsThatAValueIsTooLarge(PageSuite suite) throws Exception {
         String id = "urn:ngsi-ld:Thermometer:long";
         ObjectNode entity = entity(id, "Thermometer");
-        attribute(entity, "Note", NgsiJson.mapper().valueToTree("x".repeat(5_000_000)));
+        attribute(entity, "Note", "x".repeat(5_000_000));
         suite.produce("data.raw", id, NgsiJson.write(entity));
 
         FarmPage farm = suite.open("");
@@ -129,22 +130,22 @@ class HostileEntitiesIT {
         long now = System.currentTimeMillis();
         farm.untilStore("store.entities.get('urn:ngsi-ld:Robot:1')?.time > " + now);
         assertThat(farm.card("urn:ngsi-ld:Robot:1")).containsText("m/s");
-        org.assertj.core.api.Assertions.assertThat(farm.page().evaluate("window.ran"))
+        Assertions.assertThat(farm.run("window.ran"))
                 .isNull();
-        org.assertj.core.api.Assertions.assertThat(
+        Assertions.assertThat(
                         farm.find("img[src=x], [onerror]").count())
                 .isZero();
     }
 
     private static ObjectNode entity(String id, String type) {
         ObjectNode entity = JsonNodeFactory.instance.objectNode().put("id", id).put("type", type);
-        attribute(entity, "Time", NgsiJson.mapper().valueToTree(Instant.now().toEpochMilli()));
-        attribute(entity, "Latitude", NgsiJson.mapper().valueToTree(40.3124));
-        attribute(entity, "Longitude", NgsiJson.mapper().valueToTree(-3.4830));
+        attribute(entity, "Time", Instant.now().toEpochMilli());
+        attribute(entity, "Latitude", 40.3124);
+        attribute(entity, "Longitude", -3.4830);
         return entity;
     }
 
-    private static void attribute(ObjectNode entity, String name, JsonNode value) {
-        entity.putObject(name).put("type", value.isNumber() ? "Float" : "Text").set("value", value);
+    private static void attribute(ObjectNode entity, String name, Object value) {
+        entity.putObject(name).put("type", value instanceof Number ? "Float" : "Text").putPOJO("value", value);
     }
 }

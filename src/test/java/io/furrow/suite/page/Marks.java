@@ -65,7 +65,7 @@ final class Marks {
                 new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
             produce(producer, 0);
             assertThat(farm.card(ID)).containsText("0 °C");
-            farm.page().evaluate(WATCH, List.of(ID, PLACES));
+            farm.run(WATCH, List.of(ID, PLACES));
             for (int number = 1; number <= events; number++) {
                 farm.page().waitForTimeout(millisBetween);
                 sent.add(System.currentTimeMillis());
@@ -83,7 +83,7 @@ final class Marks {
     /** Of the canvas the places in turn, of the card the numbers. */
     private static List<Long> delays(FarmPage farm, String where, List<Long> sent) {
         List<Long> delays = new ArrayList<>();
-        List<?> seen = (List<?>) farm.page().evaluate("window.marks." + where);
+        List<?> seen = (List<?>) farm.run("window.marks." + where);
         for (int number = 1; number <= sent.size(); number++) {
             long since = sent.get(number - 1);
             long before = number < sent.size() ? sent.get(number) : Long.MAX_VALUE;

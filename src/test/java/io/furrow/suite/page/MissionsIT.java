@@ -1,5 +1,8 @@
 package io.furrow.suite.page;
 
+import org.assertj.core.api.Assertions;
+import static io.furrow.suite.page.FarmPage.EXACTLY;
+import static io.furrow.suite.page.FarmPage.having;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.regex.Pattern;
 
@@ -38,15 +41,15 @@ class MissionsIT {
         assertThat(dialog).containsText("are in the way");
         assertThat(dialog).containsText("runs in mission scouting");
         dialog.getByLabel("Template").selectOption("thesis-demo@1");
-        dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
+        dialog.getByText("Create", EXACTLY)
                 .click();
 
         Locator detail = farm.find("furrow-missions .mission-detail");
         assertThat(detail).containsText("again");
         assertThat(detail.locator(".pill").first()).hasText("running");
         assertThat(detail.locator(".device-table tbody tr").first()).isVisible();
-        detail.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
-        dialog.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+        detail.getByText("Stop", EXACTLY).click();
+        dialog.getByText("Stop", EXACTLY).click();
         assertThat(detail.locator(".pill").first()).hasText("stopped");
 
         assertThat(detail.locator("table").last()).containsText("mission start");
@@ -66,7 +69,7 @@ class MissionsIT {
         dialog.getByLabel("Domain").selectOption("farm");
         dialog.getByLabel("Template").selectOption(" own");
         dialog.getByLabel("How many").fill("2");
-        dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
+        dialog.getByText("Create", EXACTLY)
                 .click();
 
         Locator detail = farm.find("furrow-missions .mission-detail");
@@ -75,16 +78,16 @@ class MissionsIT {
         // Three of its periods are no silence, however long they are.
         String states = "import('/core/entity.js').then(({ stateOf }) => [2_700_000, 2_700_001].map((age) => "
                 + "stateOf({ word: '', period: null, time: 0 }, age, 'PT15M')).join())";
-        org.assertj.core.api.Assertions.assertThat(farm.page().evaluate(states)).isEqualTo("ok,stale");
-        detail.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
-        dialog.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+        Assertions.assertThat(farm.run(states)).isEqualTo("ok,stale");
+        detail.getByText("Stop", EXACTLY).click();
+        dialog.getByText("Stop", EXACTLY).click();
         assertThat(detail.locator(".pill").first()).hasText("stopped");
     }
 
     @Tag("full")
     @Test
     void showsAMissionThoughNoneRuns(PageSuite suite) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
+        FarmPage farm = suite.window();
         farm.page().route("**/api/missions", route -> {
             APIResponse answer = route.fetch();
             String stopped = answer.text().replace("\"running\":true", "\"running\":false");
@@ -114,15 +117,15 @@ class MissionsIT {
         Locator dialog = farm.find("dialog[open]");
         dialog.getByLabel("Name in topics").fill("orchard");
         dialog.getByLabel("Name for people").fill("The old orchard");
-        dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
+        dialog.getByText("Create", EXACTLY)
                 .click();
         assertThat(dialog).hasCount(0);
         Locator orchard =
-                farm.find("#missions-panel li.card").filter(new Locator.FilterOptions().setHasText("The old orchard"));
+                farm.find("#missions-panel li.card").filter(having("The old orchard"));
         assertThat(orchard).containsText("0 missions, 0 fields");
 
         orchard.getByLabel("Delete domain orchard").click();
-        dialog.getByText("Delete", new Locator.GetByTextOptions().setExact(true))
+        dialog.getByText("Delete", EXACTLY)
                 .click();
         assertThat(dialog).hasCount(0);
         assertThat(orchard).hasCount(0);
@@ -164,7 +167,7 @@ class MissionsIT {
         rows.getByLabel("Rename Far meadow").click();
         dialog.getByLabel("Name").fill("Behind the barn");
         action.click();
-        assertThat(rows.filter(new Locator.FilterOptions().setHasText("Behind the barn")))
+        assertThat(rows.filter(having("Behind the barn")))
                 .containsText("meadow");
 
         rows.getByLabel("End Behind the barn").click();
@@ -185,7 +188,7 @@ class MissionsIT {
     void importsAFileThatIsDropped(PageSuite suite) {
         FarmPage farm = suite.open("#/missions?tab=domains");
         assertThat(farm.find("#missions-panel")).containsText("River field");
-        farm.page().evaluate("""
+        farm.run("""
                 (content) => {
                   const dataTransfer = new DataTransfer();
                   dataTransfer.items.add(new File([content], 'meadow.geojson'));

@@ -79,24 +79,13 @@ final class PageSuite implements AutoCloseable {
         produce("data.latest", entity, null);
     }
 
-    /** An answer of the control plane's REST API. */
     JsonNode rest(String path) throws Exception {
-        var request = HttpRequest.newBuilder(running.suite().control().resolve(path)).build();
-        return NgsiJson.mapper()
-                .readTree(HttpClient.newHttpClient()
-                        .send(request, HttpResponse.BodyHandlers.ofByteArray())
-                        .body());
+        return running.get(path);
     }
 
     /** The status of an answer of the control plane's REST API. */
     int rest(String method, String path, String body) throws Exception {
-        HttpRequest request = HttpRequest.newBuilder(running.suite().control().resolve(path))
-                .header("Content-Type", "application/json")
-                .method(method, HttpRequest.BodyPublishers.ofString(body))
-                .build();
-        return HttpClient.newHttpClient()
-                .send(request, HttpResponse.BodyHandlers.discarding())
-                .statusCode();
+        return running.request(method, path, body).statusCode();
     }
 
     /** A new window with nothing remembered. */
@@ -113,6 +102,10 @@ final class PageSuite implements AutoCloseable {
     }
 
     /** With nothing in it yet. */
+    FarmPage window() {
+        return window(running.suite().dashboard(), WindowStyle.DESKTOP);
+    }
+
     FarmPage window(URI dashboard, WindowStyle style) {
         FarmPage page = new FarmPage(
                 dashboard,

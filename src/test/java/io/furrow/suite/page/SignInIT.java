@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import com.microsoft.playwright.assertions.LocatorAssertions;
 import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.net.URLDecoder;
@@ -94,8 +95,8 @@ class SignInIT {
         farm.button("Sign in").click();
     }
 
-    private static com.microsoft.playwright.assertions.LocatorAssertions.HasTextOptions aMinute() {
-        return new com.microsoft.playwright.assertions.LocatorAssertions.HasTextOptions().setTimeout(60_000);
+    private static LocatorAssertions.HasTextOptions aMinute() {
+        return new LocatorAssertions.HasTextOptions().setTimeout(60_000);
     }
 
     @Test
@@ -115,8 +116,8 @@ class SignInIT {
             assertThat(farm.find("furrow-missions h1")).isVisible();
 
             signedIn = false;
-            farm.page().evaluate("import('/core/api.js').then(({ api }) => api.get('/api/missions')).catch(() => {})");
-            farm.page().waitForCondition(() -> signedIn); // which lets what stands for the proxy answer
+            farm.run("import('/core/api.js').then(({ api }) => api.get('/api/missions')).catch(() => {})");
+            farm.until(() -> signedIn); // which lets what stands for the proxy answer
             assertThat(farm.find("furrow-missions h1")).isVisible();
             assertThat(farm.page()).hasURL(MISSIONS);
 

@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import static io.furrow.suite.page.FarmPage.having;
 import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
@@ -29,7 +30,7 @@ class TopicsIT {
     @Tag("full")
     @Test
     void listsCollisionsAndTheCanaryBeforeThereAreAny(PageSuite suite) {
-        FarmPage farm = suite.window(suite.running().suite().dashboard(), WindowStyle.DESKTOP);
+        FarmPage farm = suite.window();
         farm.page()
                 .route(
                         "**/api/topics",
@@ -50,10 +51,10 @@ class TopicsIT {
         check(farm, "data.canary.realtime.dummy");
         Locator records = farm.find("furrow-topics table tbody tr");
 
-        assertThat(records.filter(new Locator.FilterOptions().setHasText("Robot:canary-1"))
+        assertThat(records.filter(having("Robot:canary-1"))
                         .first())
                 .isVisible();
-        assertThat(records.filter(new Locator.FilterOptions().setHasText("Thermometer:4"))
+        assertThat(records.filter(having("Thermometer:4"))
                         .first())
                 .isVisible();
     }

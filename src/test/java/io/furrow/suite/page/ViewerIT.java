@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import org.assertj.core.api.Assertions;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -94,17 +95,17 @@ class ViewerIT {
 
     /** No button of what only others may do, not even one that cannot be pressed. */
     private static void offersOnly(FarmPage farm, String place) {
-        Object offered = farm.page().evaluate("""
+        Object offered = farm.run("""
                 (forbidden) => [...document.querySelectorAll('button, a.button, input[type=checkbox]')]
                   .filter((each) => each.checkVisibility({ visibilityProperty: true }))
                   .map((each) => each.getAttribute('aria-label') ?? (each.textContent || each.id))
                   .filter((each) => new RegExp(forbidden).test(each))""", COMMANDS);
-        org.assertj.core.api.Assertions.assertThat((List<?>) offered).as(place).isEmpty();
+        Assertions.assertThat((List<?>) offered).as(place).isEmpty();
     }
 
     /** Who goes round the buttons is told the same. */
     private static void beRefused(FarmPage farm) {
-        Object refusal = farm.page().evaluate("""
+        Object refusal = farm.run("""
                         async ([token, robot]) => {
                           const answer = await fetch(`/api/devices/${robot}/commands`, {
                             method: 'POST', headers: { Authorization: `Bearer ${token}`, 'Content-Type': 'application/json' },
@@ -112,7 +113,7 @@ class ViewerIT {
                           });
                           return `${answer.status} ${await answer.text()}`;
                         }""", List.of(TOKEN, ROBOT));
-        org.assertj.core.api.Assertions.assertThat(refusal)
+        Assertions.assertThat(refusal)
                 .asString()
                 .startsWith("403 ")
                 .contains("operator");
