@@ -32,8 +32,6 @@ import static org.awaitility.Awaitility.await;
 /** What goes wrong in the field, each with its outcome; after each of them a good event still comes through. */
 @Tag("full")
 class BadInputIT {
-    private static final long MILLIS_2023 = 1_700_000_000_000L;
-
     @AutoClose
     private static RunningSuite running;
 
@@ -50,30 +48,6 @@ class BadInputIT {
         assertThat(running.ngsi().append(entity(id, "\"n\":{\"type\":\"Number\",\"value\":1}")))
                 .isEqualTo(204);
         awaitRouted(id, record -> assertThat(record.value()).isNotEmpty());
-    }
-
-    @ParameterizedTest
-    @CsvSource({
-        "no JSON, 400, not-json",
-        "no entity, 400, not-an-entity",
-        "ten megabytes, 413, too-large",
-        "deeply nested, 400, too-deep"
-    })
-    void setsAsideANotificationThatCannotBeRead(String kind, int status, String reason) throws Exception {
-        assertThat(running.ngsi().notify(unreadable(kind))).isEqualTo(status);
-
-        awaitDeadLetter(reason, "ngsi-source");
-    }
-
-    @Test
-    void setsAsideARecordOfAnotherSchema() throws Exception {
-        try (KafkaProducer<String, String> producer = new KafkaProducer<>(
-                running.suite().kafka().clientProperties(), new StringSerializer(), new StringSerializer())) {
-            producer.send(new ProducerRecord<>("data.raw", "other", "{\"schema\":{\"type\":\"int32\"},\"payload\":7}"))
-                    .get();
-        }
-
-        awaitDeadLetter("not-an-entity", "ingest");
     }
 
     @Test
@@ -122,44 +96,6 @@ class BadInputIT {
     }
 
     @Test
-    void takesTheTimeOfReceiptForATimeInTheFuture() throws Exception {
-        long before = System.currentTimeMillis();
-        send("future", "\"Time\":{\"type\":\"Integer\",\"value\":" + (before + 7_200_000) + "}");
-
-        awaitRouted("future", record -> assertThat(record.timestamp()).isBetween(before, System.currentTimeMillis()));
-    }
-
-    @Test
-    void takesTheTimeOfTheContextBrokerForAMissingOrUnreadableTime() throws Exception {
-        long before = System.currentTimeMillis();
-        send("timeless", "\"n\":{\"type\":\"Number\",\"value\":1}");
-        send("noon", "\"Time\":{\"type\":\"Integer\",\"value\":\"noon\"}");
-
-        for (String id : List.of("timeless", "noon")) {
-            awaitRouted(id, record -> assertThat(record.timestamp()).isBetween(before, System.currentTimeMillis()));
-        }
-    }
-
-    @Test
-    void readsATimeThatCameAsText() throws Exception {
-        send("texted", "\"Time\":{\"type\":\"String\",\"value\":\"" + MILLIS_2023 + "\"}");
-
-        awaitRouted("texted", record -> assertThat(record.timestamp()).isEqualTo(MILLIS_2023));
-    }
-
-    @Test
-    void routesADomainWithADotToATopicOfItsOwn() throws Exception {
-        running.ngsi()
-                .append(
-                        "{\"id\":\"dotted\",\"type\":\"Probe\",\"Domain\":{\"type\":\"String\",\"value\":\"bad.input\"}}");
-
-        awaitRouted(
-                "data._x-bad-2Einput.realtime",
-                "dotted",
-                record -> assertThat(record.value()).isNotEmpty());
-    }
-
-    @Test
     void losesNothingOfOthersNorOfADeviceThatNeverStops() throws Exception {
         LoadPlan flood = new LoadPlan(1, Duration.ofMillis(2), 1000, Duration.ofSeconds(4), "bad", "flood");
         LoadFleet.provision(running.suite().devices(), flood);
@@ -186,17 +122,6 @@ class BadInputIT {
         return payloads;
     }
 
-    private static byte[] unreadable(String kind) {
-        String body = switch (kind) {
-            case "no JSON" -> "temperature=21";
-            case "no entity" -> "{\"subscriptionId\":\"s\",\"data\":\"none\"}";
-            case "ten megabytes" -> "{\"id\":\"big\",\"x\":\"" + "y".repeat(10_000_000) + "\"}";
-            case "deeply nested" -> "[".repeat(100_000) + "]".repeat(100_000);
-            default -> throw new IllegalArgumentException(kind);
-        };
-        return body.getBytes(UTF_8);
-    }
-
     private static void send(String id, String attribute) throws Exception {
         assertThat(running.ngsi().append(entity(id, attribute))).isEqualTo(204);
     }
@@ -219,25 +144,9 @@ class BadInputIT {
                         + "\"Longitude\":{\"type\":\"Float\",\"value\":\"%s\"}".formatted(longitude));
     }
 
-    private static void awaitDeadLetter(String reason, String stage) {
-        try (TopicLog dead = running.topic("data.raw.dead")) {
-            await()
-                    .untilAsserted(() -> assertThat(dead.records())
-                            .map(TopicLog::headers)
-                            .anySatisfy(headers -> assertThat(headers)
-                                    .containsEntry(DeadLetter.REASON, reason)
-                                    .containsEntry(DeadLetter.STAGE, stage)));
-        }
-    }
-
     private static void awaitRouted(String id, ThrowingConsumer<ConsumerRecord<byte[], byte[]>> expected) {
-        awaitRouted("data.bad.realtime", id, expected);
-    }
-
-    private static void awaitRouted(
-            String topic, String id, ThrowingConsumer<ConsumerRecord<byte[], byte[]>> expected) {
         await().untilAsserted(() -> {
-            try (TopicLog log = running.topic(topic)) {
+            try (TopicLog log = running.topic("data.bad.realtime")) {
                 assertThat(log.of(id)).isNotEmpty().first().satisfies(expected);
             }
         });
