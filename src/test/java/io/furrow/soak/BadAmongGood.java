@@ -1,7 +1,6 @@
 package io.furrow.soak;
 
 import java.io.IOException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -38,6 +37,8 @@ import io.furrow.ingest.normalize.NormalizeJob;
 import io.furrow.ingest.normalize.NormalizeOptions;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * Bad records of every kind among good ones, through {@code normalize} and {@code ingest} on a Kafka and a Flink of their own:
@@ -101,14 +102,10 @@ public final class BadAmongGood implements AutoCloseable {
     private void submit(JobOptions options, Path checkpoints) {
         JobCommandLine.of(options)
                 .parseArgs(
-                        "--bootstrap-servers",
-                        kafka.bootstrapServers(),
-                        "--checkpoint-interval",
-                        "5s",
-                        "--checkpoint-dir",
-                        checkpoints.toUri().toString(),
-                        "--parallelism",
-                        "1");
+                        "--bootstrap-servers", kafka.bootstrapServers(),
+                        "--checkpoint-interval", "5s",
+                        "--checkpoint-dir", checkpoints.toUri().toString(),
+                        "--parallelism", "1");
         StreamExecutionEnvironment env = options instanceof IngestOptions ingest
                 ? IngestJob.assemble(ingest)
                 : NormalizeJob.assemble((NormalizeOptions) options);
@@ -249,8 +246,7 @@ public final class BadAmongGood implements AutoCloseable {
                         && deadLetter.topic().equals(Topics.dead(kind.get().topic()));
         // Of a notification of several entities each bad one is a letter of its own.
         boolean whole = Arrays.equals(deadLetter.value(), kind.get().value())
-                || new String(kind.get().value(), UTF_8)
-                        .contains(new String(deadLetter.value(), UTF_8));
+                || new String(kind.get().value(), UTF_8).contains(new String(deadLetter.value(), UTF_8));
         return asItShould && whole
                 ? Optional.empty()
                 : Optional.of(kind.get().kind() + " became " + header(deadLetter, DeadLetter.REASON) + " on "

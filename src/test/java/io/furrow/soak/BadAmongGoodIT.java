@@ -15,7 +15,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 @Tag("soak")
 class BadAmongGoodIT {
     @Test
-    void setsAsideEveryBadRecordWithItsReasonPassesEveryGoodOneAndTakesTheBadOnesBack(@TempDir Path directory) throws Exception {
+    void setsAsideEveryBadRecordWithItsReasonPassesEveryGoodOneAndTakesTheBadOnesBack(@TempDir Path directory)
+            throws Exception {
         assertThat(BadRecord.all()).hasSizeGreaterThanOrEqualTo(20);
         try (BadAmongGood run = BadAmongGood.start(directory)) {
             run.write(10_000, 240);

@@ -1,6 +1,5 @@
 package io.furrow.soak;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -25,6 +24,8 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * Makes {@code data.raw} and {@value #NATIVE}, and writes the reports of the {@link SoakFarm} to both, numbered from 1, at a steady
@@ -84,8 +85,7 @@ public final class NumberedEvents {
     }
 
     private static ProducerRecord<String, byte[]> notification(Entity entity, long time) {
-        String body =
-                "{\"subscriptionId\":\"soak\",\"data\":[" + new String(entity.toBytes(), UTF_8) + "]}";
+        String body = "{\"subscriptionId\":\"soak\",\"data\":[" + new String(entity.toBytes(), UTF_8) + "]}";
         var record = new ProducerRecord<>(NATIVE, null, time, entity.id(), body.getBytes(UTF_8));
         record.headers().add(HeaderNames.SERVICE, SCOPE.service().getBytes(UTF_8));
         return record;
@@ -95,8 +95,7 @@ public final class NumberedEvents {
         Instant now = Instant.ofEpochMilli(time);
         var event = EntityEvent.of(entity, SCOPE, now, EventTimeRule.within(Duration.ZERO), Origin.NOTIFICATION);
         var record = new ProducerRecord<>(Topics.RAW, null, time, entity.id(), entity.toBytes());
-        event.headers("/soak")
-                .forEach((name, text) -> record.headers().add(name, text.getBytes(UTF_8)));
+        event.headers("/soak").forEach((name, text) -> record.headers().add(name, text.getBytes(UTF_8)));
         return record;
     }
 }

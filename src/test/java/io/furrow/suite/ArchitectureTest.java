@@ -206,9 +206,7 @@ class ArchitectureTest {
 
     @Test
     void seesEveryModule() {
-        assertThat(CLASSES)
-                .extracting(JavaClass::getPackageName)
-                .contains("""
+        assertThat(CLASSES).extracting(JavaClass::getPackageName).contains("""
                                 io.furrow.model.ngsi io.furrow.http io.furrow.embedded io.furrow.flink.job
                                 io.furrow.mission io.furrow.connect.source io.furrow.ingest.route
                                 io.furrow.analytics.collision io.furrow.replay.playback io.furrow.fields

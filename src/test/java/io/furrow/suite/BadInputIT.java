@@ -1,7 +1,5 @@
 package io.furrow.suite;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -11,21 +9,21 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.assertj.core.api.ThrowingConsumer;
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.simulators.load.LoadFleet;
 import io.furrow.simulators.load.LoadPlan;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -61,12 +59,10 @@ class BadInputIT {
             }
         }
 
-        await()
-                .untilAsserted(
+        await().untilAsserted(
                         () -> assertThat(running.ngsi().entities("id=accepted")).hasSize(1));
         try (TopicLog dead = running.topic("ngsi-sink.dead")) {
-            await()
-                    .untilAsserted(() -> assertThat(dead.of("(refused)")).hasSize(1));
+            await().untilAsserted(() -> assertThat(dead.of("(refused)")).hasSize(1));
         }
     }
 
@@ -89,7 +85,9 @@ class BadInputIT {
             double reading = 20 + System.nanoTime() % 1000 / 1e6;
             running.ngsi().append(thermometer(id, 99 + reading / 1000, latitude, longitude));
             running.ngsi().append(thermometer(good, reading, "40.3134", "-3.483"));
-            assertThat(running.ngsi().entity("Analytics:FieldTemperature:field-1").at("/plainMean/value")
+            assertThat(running.ngsi()
+                            .entity("Analytics:FieldTemperature:field-1")
+                            .at("/plainMean/value")
                             .asDouble())
                     .isBetween(19.9, 20.2);
         });

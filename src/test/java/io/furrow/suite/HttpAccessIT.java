@@ -1,6 +1,5 @@
 package io.furrow.suite;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.net.URI;
 import java.util.ArrayList;
@@ -9,7 +8,7 @@ import java.util.Set;
 import java.util.TreeSet;
 import java.util.stream.Collectors;
 
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;

@@ -2,7 +2,6 @@ package io.furrow.suite;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
@@ -11,6 +10,8 @@ import java.util.TreeSet;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** The TCP ports that this JVM itself listens on, as the operating system lists them. */
 final class ListeningPorts {

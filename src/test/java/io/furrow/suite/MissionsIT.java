@@ -38,7 +38,8 @@ class MissionsIT {
     private static final HttpClient HTTP = HttpClient.newHttpClient();
 
     @Test
-    void startsAMissionOfAHundredDevicesGoesOnAfterARestartAndStopsIt(TestReporter reporter, @TempDir Path stored) throws Exception {
+    void startsAMissionOfAHundredDevicesGoesOnAfterARestartAndStopsIt(TestReporter reporter, @TempDir Path stored)
+            throws Exception {
         try (RunningSuite running = RunningSuite.start(stored)) {
             Suite suite = running.suite();
             suite.kafka()
@@ -57,13 +58,12 @@ class MissionsIT {
         try (RunningSuite running = RunningSuite.start(stored)) {
             Suite suite = running.suite();
             running.awaitState("hoeing", "running");
-            JsonNode thermometer = running.ngsi()
-                    .entity("urn:ngsi-ld:Thermometer:hoeing-1");
-            await()
-                    .until(() -> running.ngsi()
-                                    .entity("urn:ngsi-ld:Thermometer:hoeing-1").at("/Time/value")
-                                    .asLong()
-                            > thermometer.at("/Time/value").asLong());
+            JsonNode thermometer = running.ngsi().entity("urn:ngsi-ld:Thermometer:hoeing-1");
+            await().until(() -> running.ngsi()
+                            .entity("urn:ngsi-ld:Thermometer:hoeing-1")
+                            .at("/Time/value")
+                            .asLong()
+                    > thermometer.at("/Time/value").asLong());
 
             running.post("/api/missions/hoeing/stop", "{}");
 
@@ -94,11 +94,8 @@ class MissionsIT {
 
             for (int number = 1; number <= 3; number++) {
                 String entity = "id=urn:ngsi-ld:Thermometer:hoeing-" + number;
-                await()
-                        .until(() -> running.ngsi()
-                                        .entities(entity)
-                                        .at("/0/Time/value")
-                                        .asLong()
+                await().until(() ->
+                        running.ngsi().entities(entity).at("/0/Time/value").asLong()
                                 > over.plusSeconds(3).toEpochMilli());
             }
             assertThat(running.mission("hoeing").at("/status/state").asText()).isEqualTo("running");
@@ -122,10 +119,9 @@ class MissionsIT {
             running.post("/api/missions/hoeing/start", """
                     {"domain": "north", "devices": [{"type": "Thermometer", "id": "%s", "simulated": false}]}
                     """.formatted(device));
-            await()
-                    .until(() -> running.get("/api/devices/" + device)
-                            .at("/connection/registered")
-                            .asBoolean());
+            await().until(() -> running.get("/api/devices/" + device)
+                    .at("/connection/registered")
+                    .asBoolean());
             JsonNode login = running.get("/api/devices/" + device + "/credentials");
             String user = login.path("user").asText();
             String password = login.path("password").asText();
@@ -138,8 +134,7 @@ class MissionsIT {
                     .isEmpty();
 
             await().untilAsserted(() -> {
-                JsonNode connection =
-                        running.get("/api/devices/" + device).path("connection");
+                JsonNode connection = running.get("/api/devices/" + device).path("connection");
                 assertThat(connection.at("/refusedLogin/reason").asText()).isEqualTo("wrong-password");
                 assertThat(connection.at("/foreignTopic/topic").asText()).isEqualTo("/key/other/attrs");
                 assertThat(connection.at("/unreadablePayload/payload").asText()).isEqualTo("21.5 degrees");

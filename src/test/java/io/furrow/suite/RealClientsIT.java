@@ -1,13 +1,11 @@
 package io.furrow.suite;
 
-import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -47,12 +45,10 @@ class RealClientsIT {
     void takesAMeasureOfMosquittoPubToTheDomainsTopic() throws Exception {
         report();
         try (TopicLog topic = running.topic("data.farm.realtime")) {
-            await()
-                    .untilAsserted(() -> assertThat(topic.of(ENTITY))
-                            .extracting(record -> Entity.parse(record.value())
-                                    .number("Temperature")
-                                    .orElse(0.0))
-                            .contains(21.5));
+            await().untilAsserted(() -> assertThat(topic.of(ENTITY))
+                    .extracting(record ->
+                            Entity.parse(record.value()).number("Temperature").orElse(0.0))
+                    .contains(21.5));
         }
     }
 
@@ -98,9 +94,8 @@ class RealClientsIT {
                 "-m",
                 "{\"temp\": 21.5, \"lat\": 40.3134, \"lon\": -3.483}"));
 
-        await()
-                .untilAsserted(() ->
-                        assertThat(entity().at("/Temperature/value").asDouble()).isEqualTo(21.5));
+        await().untilAsserted(() ->
+                assertThat(entity().at("/Temperature/value").asDouble()).isEqualTo(21.5));
     }
 
     private static JsonNode entity() throws Exception {

@@ -1,10 +1,5 @@
 package io.furrow.suite;
 
-import org.junit.jupiter.api.AutoClose;
-import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.LinkedHashMap;
@@ -12,14 +7,13 @@ import java.util.Map;
 import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.http.AllowedNames;
 import io.furrow.launcher.suite.SuiteSettings;
-import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -69,13 +63,12 @@ class RealDevicesIT {
         start("first", """
                 {"type": "Thermometer", "count": 2, "period": "PT15M", "at": [%1$s, %1$s], "attributes": [
                   {"object_id": "t", "name": "Temperature", "unit": "CEL"}]}""".formatted(PLACE));
-        await()
-                .until(() -> running.mission("first").at("/status/reason").asText().startsWith("2 of 2 devices are not up"));
-        await()
-                .until(() -> running.get("/api/alarms")
-                        .findValuesAsText("text")
-                        .contains("mission first: "
-                                + running.mission("first").at("/status/reason").asText()));
+        await().until(() ->
+                running.mission("first").at("/status/reason").asText().startsWith("2 of 2 devices are not up"));
+        await().until(() -> running.get("/api/alarms")
+                .findValuesAsText("text")
+                .contains("mission first: "
+                        + running.mission("first").at("/status/reason").asText()));
         JsonNode logins = running.get("/api/missions/first/credentials");
         assertThat(logins).hasSize(2);
 
@@ -83,13 +76,11 @@ class RealDevicesIT {
         Command.run("sh", "-c", example);
 
         running.awaitState("first", "running");
-        await()
-                .until(() -> running.mission("first")
-                        .at("/status/missing/0/reason")
-                        .asText()
-                        .startsWith("it has not connected to the MQTT broker since "));
-        JsonNode entity = running.ngsi()
-                .entity(logins.path(0).path("device").asText());
+        await().until(() -> running.mission("first")
+                .at("/status/missing/0/reason")
+                .asText()
+                .startsWith("it has not connected to the MQTT broker since "));
+        JsonNode entity = running.ngsi().entity(logins.path(0).path("device").asText());
         assertThat(entity.at("/Temperature/value").asInt()).isEqualTo(21);
         assertThat(entity.at("/Temperature/metadata/unitCode/value").asText()).isEqualTo("CEL");
         assertThat(entity.at("/Latitude/value").asDouble()).isEqualTo(40.3134);
@@ -97,25 +88,23 @@ class RealDevicesIT {
         await().pollInterval(Duration.ofSeconds(1)).untilAsserted(() -> {
             Command.run("sh", "-c", example);
             assertThat(running.ngsi()
-                            .entity("Analytics:FieldTemperature:field-1").at("/averageTemperature/value")
+                            .entity("Analytics:FieldTemperature:field-1")
+                            .at("/averageTemperature/value")
                             .asInt())
                     .isEqualTo(21);
         });
         running.post("/api/missions/first/stop", "{}");
         running.awaitState("first", "stopped");
         running.send("DELETE", "/api/missions/first", "");
-        await()
-                .until(() ->
-                        running.ngsi().entities("id=urn:ngsi-ld:Mission:first").isEmpty());
+        await().until(() ->
+                running.ngsi().entities("id=urn:ngsi-ld:Mission:first").isEmpty());
     }
 
     @Tag("full")
     @Test
     void runsTheProgramOfTheDocumentationAndAnswersItsCommands() throws Exception {
         start("program", "{\"type\": \"Thermometer\", \"at\": %s}".formatted(PLACE));
-        await()
-                .until(() ->
-                        running.get("/api/missions/program/credentials").size() == 1);
+        await().until(() -> running.get("/api/missions/program/credentials").size() == 1);
         JsonNode login = running.get("/api/missions/program/credentials").path(0);
         Map<String, String> variables = new LinkedHashMap<>();
         Map.of(
@@ -136,11 +125,11 @@ class RealDevicesIT {
             running.awaitState("program", "running");
             running.post("/api/devices/" + device + "/commands", "{\"command\":\"off\"}");
             await().until(() -> thermometer.printed().contains("asked: {'off'"));
-            await()
-                    .until(() -> running.ngsi()
-                            .entity(device).at("/off_status/value")
-                            .asText()
-                            .equals("OK"));
+            await().until(() -> running.ngsi()
+                    .entity(device)
+                    .at("/off_status/value")
+                    .asText()
+                    .equals("OK"));
         }
         running.post("/api/missions/program/stop", "{}");
     }
@@ -152,8 +141,7 @@ class RealDevicesIT {
                 {"type": "Thermometer", "count": 40, "simulated": true, "period": "PT1S", "area": "field-1"},
                 {"name": "real", "type": "WeatherStation", "count": 39, "at": %s},
                 {"type": "Robot"}""".formatted(PLACE));
-        await()
-                .until(() -> running.mission("mixed").at("/status/confirmed").asInt() == 40);
+        await().until(() -> running.mission("mixed").at("/status/confirmed").asInt() == 40);
         JsonNode logins = running.get("/api/missions/mixed/credentials");
         assertThat(logins).hasSize(40);
         for (JsonNode login : logins) {
@@ -163,9 +151,8 @@ class RealDevicesIT {
             Command.run(
                     "sh", "-c", device.contains("Robot") ? example.replaceFirst("'\\{.*}'", PLACE_REPORT) : example);
         }
-        await()
-                .untilAsserted(() ->
-                        assertThat(running.mission("mixed").path("status").toString()).contains("\"confirmed\":80"));
+        await().untilAsserted(() ->
+                assertThat(running.mission("mixed").path("status").toString()).contains("\"confirmed\":80"));
         JsonNode stations = running.ngsi().entities("type=WeatherStation&idPattern=.*mixed.*");
         assertThat(stations)
                 .hasSize(39)

@@ -2,12 +2,6 @@ package io.furrow.suite;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpResponse;
-import static java.nio.charset.StandardCharsets.UTF_8;
-import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -28,6 +22,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -41,8 +36,7 @@ class ReplayIT {
         try (RunningSuite running = RunningSuite.start(null);
                 TopicLog live = running.topic(Topics.realtime("north", "hoeing"))) {
             runMission(running, live);
-            await()
-                    .until(() -> stored(running, "hoeing") == live.records().size());
+            await().until(() -> stored(running, "hoeing") == live.records().size());
             awaitListed(running, "hoeing");
 
             JsonNode replay = running.post("/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}");
@@ -70,10 +64,9 @@ class ReplayIT {
 
         running.post(path + "/seek", "{\"to\":" + last + "}");
         try (TopicLog played = running.topic(topic)) {
-            await()
-                    .until(() -> played.records().stream()
-                            .anyMatch(record -> kind(record, "end")
-                                    && "1".equals(TopicLog.headers(record).get(HeaderNames.REPLAY_EPOCH))));
+            await().until(() -> played.records().stream()
+                    .anyMatch(record -> kind(record, "end")
+                            && "1".equals(TopicLog.headers(record).get(HeaderNames.REPLAY_EPOCH))));
         }
         running.send("DELETE", path, "");
         await("forgotten when it is stopped")
@@ -94,7 +87,8 @@ class ReplayIT {
 
     /** How many events of a mission are kept. */
     static long stored(RunningSuite running, String mission) throws Exception {
-        Optional<Recording> recording = new MongoRecordings(running.suite().mongo(), MongoAccess.DATABASE).open(mission);
+        Optional<Recording> recording =
+                new MongoRecordings(running.suite().mongo(), MongoAccess.DATABASE).open(mission);
         if (recording.isEmpty()) {
             return 0;
         }

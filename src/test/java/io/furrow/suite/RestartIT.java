@@ -1,7 +1,6 @@
 package io.furrow.suite;
 
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.List;
 
 import org.junit.jupiter.api.Test;
@@ -46,8 +45,7 @@ class RestartIT {
 
     private static List<String> awaitRouted(RunningSuite running, int min) {
         try (TopicLog topic = running.topic("data.kept.realtime")) {
-            await()
-                    .untilAsserted(() -> assertThat(topic.records()).hasSizeGreaterThanOrEqualTo(min));
+            await().untilAsserted(() -> assertThat(topic.records()).hasSizeGreaterThanOrEqualTo(min));
             return topic.records().stream()
                     .map(record -> TopicLog.headers(record).get(HeaderNames.CE_ID))
                     .toList();

@@ -2,20 +2,22 @@ package io.furrow.suite;
 
 import java.io.OutputStreamWriter;
 import java.io.PrintWriter;
-import static java.nio.charset.StandardCharsets.UTF_8;
-import java.nio.file.Path;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
+import java.nio.file.Path;
+
 import com.fasterxml.jackson.databind.JsonNode;
-import io.furrow.model.ngsi.NgsiJson;
-import static org.assertj.core.api.Assertions.assertThat;
-import static org.awaitility.Awaitility.await;
 
 import io.furrow.launcher.process.Progress;
 import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;
+import io.furrow.model.ngsi.NgsiJson;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
 
 /** A suite on free ports for the time of a test, with what a test asks of it. */
 public final class RunningSuite implements AutoCloseable {
@@ -80,7 +82,8 @@ public final class RunningSuite implements AutoCloseable {
     }
 
     void awaitState(String mission, String state) {
-        await("mission " + mission + " " + state).until(() -> mission(mission).at("/status/state").asText().equals(state));
+        await("mission " + mission + " " + state)
+                .until(() -> mission(mission).at("/status/state").asText().equals(state));
     }
 
     TopicLog topic(String name) {

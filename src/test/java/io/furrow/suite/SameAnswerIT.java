@@ -1,10 +1,5 @@
 package io.furrow.suite;
 
-import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpResponse;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -24,6 +19,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -63,8 +59,8 @@ class SameAnswerIT {
             running.awaitState("weeding", "stopped");
 
             await().atMost(TIMEOUT)
-                    .until(() ->
-                            ReplayIT.stored(running, "weeding") == live.records().size());
+                    .until(() -> ReplayIT.stored(running, "weeding")
+                            == live.records().size());
             ReplayIT.awaitListed(running, "weeding");
 
             List<String> topics = List.of(replay(running, "1"), replay(running, "10"), replay(running, "\"max\""));

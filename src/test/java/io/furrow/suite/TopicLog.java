@@ -1,6 +1,5 @@
 package io.furrow.suite;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -14,6 +13,8 @@ import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
 import io.furrow.launcher.suite.Suite;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Reads a topic from its beginning, again and again: each call returns all that is there by then. */
 final class TopicLog implements AutoCloseable {
@@ -52,8 +53,7 @@ final class TopicLog implements AutoCloseable {
 
     static Map<String, String> headers(ConsumerRecord<byte[], byte[]> record) {
         Map<String, String> headers = new HashMap<>();
-        record.headers()
-                .forEach(header -> headers.put(header.key(), new String(header.value(), UTF_8)));
+        record.headers().forEach(header -> headers.put(header.key(), new String(header.value(), UTF_8)));
         return headers;
     }
 

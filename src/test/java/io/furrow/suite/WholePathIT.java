@@ -1,15 +1,12 @@
 package io.furrow.suite;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.ByteArrayOutputStream;
-import static java.nio.charset.StandardCharsets.UTF_8;
-import java.time.Duration;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
@@ -20,6 +17,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.Entity;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -127,8 +125,7 @@ class WholePathIT {
     void storesEveryEventOfAMissionInMongo() {
         try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
                 StoredMissions missions = StoredMissions.open(running.suite().mongo())) {
-            await()
-                    .untilAsserted(() -> assertThat(weeding.records()).hasSizeGreaterThan(10));
+            await().untilAsserted(() -> assertThat(weeding.records()).hasSizeGreaterThan(10));
             await().untilAsserted(() -> {
                 ByteArrayOutputStream lines = new ByteArrayOutputStream();
                 missions.export("weeding", lines, ignored -> {});
@@ -143,12 +140,10 @@ class WholePathIT {
 
     @Test
     void doesNotTakeItsOwnResultsForNews() {
-        await()
-                .untilAsserted(() -> assertThat(running.ngsi().entities("typePattern=Analytics:.*"))
-                        .isNotEmpty());
+        await().untilAsserted(() ->
+                assertThat(running.ngsi().entities("typePattern=Analytics:.*")).isNotEmpty());
         try (TopicLog raw = running.topic("data.raw")) {
-            await()
-                    .untilAsserted(() -> assertThat(raw.records()).hasSizeGreaterThan(50));
+            await().untilAsserted(() -> assertThat(raw.records()).hasSizeGreaterThan(50));
             assertThat(raw.records())
                     .extracting(record -> Entity.parse(record.value()).type())
                     .doesNotContain("Analytics:FieldTemperature", "Analytics:Collision")

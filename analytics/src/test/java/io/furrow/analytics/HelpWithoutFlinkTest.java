@@ -2,7 +2,6 @@ package io.furrow.analytics;
 
 import java.io.File;
 import java.net.URISyntaxException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -17,6 +16,7 @@ import picocli.CommandLine;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** In a process of its own, whose class path has neither Flink nor Kafka nor JTS. */

@@ -1,6 +1,5 @@
 package io.furrow.analytics;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -18,6 +17,7 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A replay of a mission in four epochs, and what a job writes of each beside what it writes of that alone. */
@@ -93,14 +93,10 @@ public final class Replayed {
     public static TopicRecord record(TopicRecord live, int epoch, long offset, String kind) {
         var stamped = new TopicRecord(TOPIC, 0, 7, live.timestamp() + offset, live.key(), live.value(), live.headers());
         return stamped.with(Map.of(
-                HeaderNames.REPLAY_EPOCH,
-                Integer.toString(epoch),
-                HeaderNames.REPLAY_OFFSET,
-                Long.toString(offset),
-                HeaderNames.REPLAY_KIND,
-                kind,
-                HeaderNames.ORIGIN,
-                "replay"));
+                HeaderNames.REPLAY_EPOCH, Integer.toString(epoch),
+                HeaderNames.REPLAY_OFFSET, Long.toString(offset),
+                HeaderNames.REPLAY_KIND, kind,
+                HeaderNames.ORIGIN, "replay"));
     }
 
     /** Those of the job's own source, with a watermark after each record. Records of other topics only begin event time. */

@@ -1,6 +1,5 @@
 package io.furrow.dashboard;
 
-import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
@@ -24,7 +23,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.apache.kafka.common.utils.Utils;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.extension.BeforeAllCallback;
 import org.junit.jupiter.api.extension.ExtendWith;
@@ -57,6 +56,7 @@ abstract class DashboardFixture {
     static KafkaProducer<String, byte[]> producer;
 
     final HttpClient http = HttpClient.newHttpClient();
+
     @AutoClose
     Dashboard dashboard;
 

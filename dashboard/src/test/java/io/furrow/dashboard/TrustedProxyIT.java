@@ -1,6 +1,5 @@
 package io.furrow.dashboard;
 
-import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
@@ -17,7 +16,7 @@ import java.util.Properties;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.junit.jupiter.api.AfterAll;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -60,6 +59,7 @@ class TrustedProxyIT {
     private static RestApi open;
 
     private final HttpClient http = HttpClient.newHttpClient();
+
     @AutoClose
     private Dashboard dashboard;
 

@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -9,6 +8,8 @@ import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Devices as they stand on {@code service.devices}, in the order of the topic. */
 record FixedDevices(ArrayList<byte[]> values) implements TopicSnapshot {

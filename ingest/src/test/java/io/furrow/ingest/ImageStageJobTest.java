@@ -2,7 +2,6 @@ package io.furrow.ingest;
 
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -37,6 +36,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -61,9 +61,7 @@ class ImageStageJobTest {
                 .extracting(TopicRecord::topic)
                 .containsExactlyInAnyOrder("data.farm.realtime", "data.farm.realtime.m", "data.images");
         String manifest = value(written, "data.images");
-        String url = NgsiJson.read(manifest.getBytes(UTF_8))
-                .path("url")
-                .textValue();
+        String url = NgsiJson.read(manifest.getBytes(UTF_8)).path("url").textValue();
         assertThat(Path.of(java.net.URI.create(url))).hasBinaryContent(image);
         for (String topic : List.of("data.farm.realtime", "data.farm.realtime.m")) {
             Entity entity = Entity.parse(value(written, topic).getBytes(UTF_8));
@@ -171,8 +169,8 @@ class ImageStageJobTest {
                 .uid("timestamps")
                 .keyBy(record -> new String(record.key(), UTF_8)); // as a topic's partitions do
 
-        DataStream<TopicRecord> noDevices = env.fromData(List.of(new TopicRecord(
-                        Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of())))
+        DataStream<TopicRecord> noDevices = env.fromData(List.of(
+                        new TopicRecord(Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of())))
                 .setParallelism(1)
                 .uid("devices")
                 .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())

@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -24,6 +23,7 @@ import static io.furrow.ingest.ReportedRecords.options;
 import static io.furrow.ingest.ReportedRecords.record;
 import static io.furrow.ingest.ReportedRecords.run;
 import static io.furrow.ingest.ReportedRecords.thermometer;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

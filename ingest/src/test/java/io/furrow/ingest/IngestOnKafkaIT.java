@@ -1,7 +1,5 @@
 package io.furrow.ingest;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.HashSet;
 import java.util.List;
@@ -12,7 +10,7 @@ import org.apache.flink.api.common.JobID;
 import org.apache.kafka.clients.admin.Config;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.config.ConfigResource;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -24,6 +22,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 @Timeout(180)
@@ -88,13 +87,7 @@ class IngestOnKafkaIT {
         suite.makeTopic("own.devices", 2);
         for (int sequence = 1; sequence <= 500; sequence++) {
             var version = new DeviceVersion("robot", "", "/", "d" + sequence, "", sequence, null, sequence, null);
-            suite.write(
-                    "own.devices",
-                    null,
-                    sequence,
-                    version.key(),
-                    new String(version.toBytes(), UTF_8),
-                    Map.of());
+            suite.write("own.devices", null, sequence, version.key(), new String(version.toBytes(), UTF_8), Map.of());
         }
         suite.write("in-devices", null, TIME, "robot", "{\"id\":\"robot\",\"type\":\"ROBOT\"}", Map.of());
 
@@ -126,10 +119,7 @@ class IngestOnKafkaIT {
 
     /** What was written of the entity, the newest last. */
     private static List<String> latest(String id, int atLeast) {
-        return suite
-                .awaitRecords(
-                        "data.latest", record -> new String(record.key(), UTF_8).equals(id), atLeast)
-                .stream()
+        return suite.awaitRecords("data.latest", record -> new String(record.key(), UTF_8).equals(id), atLeast).stream()
                 .map(record -> new String(record.value(), UTF_8))
                 .toList();
     }

@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -32,6 +31,8 @@ import io.furrow.flink.restart.Restarts;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 @Timeout(value = 10, unit = TimeUnit.HOURS)
 @Tag("full")
@@ -138,8 +139,7 @@ class IngestRestartTest {
                     .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())
                     .uid("no-hindrance")
                     .setParallelism(1);
-            DataStream<TopicRecord> asInPartitions =
-                    records.keyBy(record -> new String(record.key(), UTF_8));
+            DataStream<TopicRecord> asInPartitions = records.keyBy(record -> new String(record.key(), UTF_8));
             CollectedOutput out = new CollectedOutput();
             IngestJob.define(
                     new IngestInputs(

@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
@@ -15,6 +14,8 @@ import io.furrow.flink.kafka.TopicNames;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** The job {@code ingest} over records that a test has, at parallelism 2, to their end. */
 final class IngestRun {
@@ -31,8 +32,8 @@ final class IngestRun {
                         .withTimestampAssigner((record, ignored) -> record.timestamp()))
                 .uid("timestamps")
                 .keyBy(record -> new String(record.key(), UTF_8)); // as a topic's partitions do
-        DataStream<TopicRecord> deviceRecords = env.fromData(List.of(new TopicRecord(
-                        Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of())))
+        DataStream<TopicRecord> deviceRecords = env.fromData(List.of(
+                        new TopicRecord(Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of())))
                 .setParallelism(1)
                 .uid("devices")
                 .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())

@@ -2,7 +2,6 @@ package io.furrow.ingest;
 
 import java.io.IOException;
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Comparator;
@@ -14,6 +13,8 @@ import org.apache.flink.api.common.JobID;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Stores a savepoint of what the job is now, for every later build to restore; and says what comes before and after it. */
 final class StoredSavepoint {

@@ -1,8 +1,6 @@
 package io.furrow.ingest;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -11,7 +9,7 @@ import java.util.stream.Stream;
 
 import org.apache.flink.api.common.JobID;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -22,6 +20,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Savepoints of released states of the job, as {@link StoredSavepoint} writes them, each restored by what the job is now. */
@@ -66,8 +65,8 @@ class StoredSavepointIT {
 
     private static List<String> told(List<ConsumerRecord<byte[], byte[]>> records) {
         List<String> told = new ArrayList<>();
-        records.forEach(record -> told.add(KafkaSuite.headers(record).get(HeaderNames.CE_ID) + " "
-                + new String(record.key(), UTF_8)));
+        records.forEach(record ->
+                told.add(KafkaSuite.headers(record).get(HeaderNames.CE_ID) + " " + new String(record.key(), UTF_8)));
         return told;
     }
 }

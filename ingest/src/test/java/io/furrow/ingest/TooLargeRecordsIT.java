@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import org.junit.jupiter.api.AutoClose;
 import java.nio.file.Path;
 import java.util.HexFormat;
 import java.util.List;
@@ -9,7 +8,7 @@ import java.util.Random;
 
 import org.apache.flink.api.common.JobID;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Timeout;

@@ -13,7 +13,6 @@ import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.Comparator;
 import java.util.HashMap;
 import java.util.List;
@@ -139,9 +138,7 @@ public final class ConnectRig implements AutoCloseable {
                 send(HttpRequest.newBuilder(worker.uri().resolve("/connectors/" + name + "/stop"))
                         .PUT(BodyPublishers.noBody()));
         assertThat(stopped.statusCode()).as(stopped.body()).isEqualTo(204);
-        await()
-                .until(() ->
-                        get("/connectors/" + name + "/status").path("tasks").isEmpty());
+        await().until(() -> get("/connectors/" + name + "/status").path("tasks").isEmpty());
     }
 
     /** The opposite of {@link #stop}; returns when the first task runs. */

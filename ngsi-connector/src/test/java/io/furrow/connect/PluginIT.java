@@ -1,6 +1,5 @@
 package io.furrow.connect;
 
-import org.junit.jupiter.api.AutoClose;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Set;
@@ -9,7 +8,7 @@ import java.util.stream.StreamSupport;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;

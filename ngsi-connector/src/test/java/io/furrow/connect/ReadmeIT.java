@@ -3,7 +3,6 @@ package io.furrow.connect;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.regex.MatchResult;
@@ -55,9 +54,8 @@ class ReadmeIT {
                         .singleElement()
                         .satisfies(record -> assertThat(record.key()).isEqualTo("urn:ngsi-ld:Thermometer:1"));
             }
-            await()
-                    .untilAsserted(() -> assertThat(run("curl http://127.0.0.1:" + port + "/health"))
-                            .contains("\"produced\":1"));
+            await().untilAsserted(() ->
+                    assertThat(run("curl http://127.0.0.1:" + port + "/health")).contains("\"produced\":1"));
         }
     }
 

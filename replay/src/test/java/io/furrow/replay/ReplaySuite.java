@@ -1,7 +1,6 @@
 package io.furrow.replay;
 
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -46,6 +45,8 @@ import io.furrow.model.control.ReplayPlan;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Kafka, Flink and MongoDB's stand-in for the time of a test, and the job {@code replay} on them. */
 final class ReplaySuite implements AutoCloseable {
@@ -116,8 +117,7 @@ final class ReplaySuite implements AutoCloseable {
     }
 
     void want(DesiredReplay desired) throws Exception {
-        producer.send(new ProducerRecord<>(
-                        Topics.REPLAYS, desired.replay().getBytes(UTF_8), desired.toBytes()))
+        producer.send(new ProducerRecord<>(Topics.REPLAYS, desired.replay().getBytes(UTF_8), desired.toBytes()))
                 .get();
     }
 

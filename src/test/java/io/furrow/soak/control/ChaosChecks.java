@@ -1,6 +1,5 @@
 package io.furrow.soak.control;
 
-import io.furrow.soak.CommittedState;
 import java.io.IOException;
 import java.net.URI;
 import java.util.ArrayList;
@@ -20,6 +19,7 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.CommittedState;
 
 /** What differs between what was asked for and what there is. */
 final class ChaosChecks {

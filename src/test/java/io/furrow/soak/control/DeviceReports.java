@@ -1,6 +1,5 @@
 package io.furrow.soak.control;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
@@ -10,6 +9,8 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Reports of the devices of all missions that run, on {@code data.raw}, but of missions that are silent. */
 final class DeviceReports {

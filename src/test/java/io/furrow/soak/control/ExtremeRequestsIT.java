@@ -1,7 +1,5 @@
 package io.furrow.soak.control;
 
-import io.furrow.soak.CommittedState;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -29,7 +27,9 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.Limits;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.CommittedState;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 

@@ -1,13 +1,12 @@
 package io.furrow.soak.control;
 
-import java.util.HashMap;
-import java.util.Map;
-import java.io.File;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.TimeUnit;
 
 /** A JVM with this one's class path that can be killed and started again; its output is appended to one file. */

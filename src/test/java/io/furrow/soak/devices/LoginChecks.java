@@ -2,7 +2,6 @@ package io.furrow.soak.devices;
 
 import java.io.IOException;
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashSet;
@@ -16,6 +15,8 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.soak.control.Http;
 import io.furrow.soak.control.Until;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Whether the programs are connected with the logins that they have, obey commands, and lose a login when it is rotated. */
 final class LoginChecks {

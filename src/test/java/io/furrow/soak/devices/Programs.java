@@ -3,7 +3,6 @@ package io.furrow.soak.devices;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.UncheckedIOException;
-import static java.nio.charset.StandardCharsets.US_ASCII;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
@@ -12,6 +11,8 @@ import java.util.Comparator;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+
+import static java.nio.charset.StandardCharsets.US_ASCII;
 
 /** The programs of devices: processes of Python, each with up to 20 devices of a mission, which have a connection each. */
 final class Programs implements AutoCloseable {

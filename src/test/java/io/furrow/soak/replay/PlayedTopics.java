@@ -1,22 +1,18 @@
 package io.furrow.soak.replay;
 
-import io.furrow.soak.CommittedState;
-import static java.nio.charset.StandardCharsets.UTF_8;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Map;
 import java.util.Random;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
-import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.soak.CommittedState;
 import io.furrow.soak.replay.PlayedEpochs.Entry;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Reads the topics of all steered replays and says what is wrong with them. */
 public final class PlayedTopics {

@@ -1,6 +1,5 @@
 package io.furrow.soak.replay;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -29,6 +28,8 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Stores missions, lets them be replayed, steers the replays at random until it is enough, and stops them. */
 public final class ReplaySteering {

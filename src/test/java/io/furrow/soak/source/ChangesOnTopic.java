@@ -2,7 +2,6 @@ package io.furrow.soak.source;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
@@ -12,6 +11,8 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.Header;
 
 import io.furrow.model.event.HeaderNames;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Which changes are on {@code data.raw}, committed; grows with each reading. */
 final class ChangesOnTopic implements AutoCloseable {

@@ -1,19 +1,16 @@
 package io.furrow.soak.source;
 
-import io.furrow.soak.CommittedState;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 import java.util.function.Consumer;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
 
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.CommittedState;
 
 /** The committed records of {@code data.raw}, from the beginning on. */
 final class CommittedRecords implements AutoCloseable {

@@ -1,6 +1,5 @@
 package io.furrow.soak.source;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.BitSet;
 import java.util.HashMap;
 import java.util.Map;
@@ -8,6 +7,8 @@ import java.util.Map;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 
 import io.furrow.model.event.HeaderNames;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** What of the numbered notifications is on {@code data.raw}, committed; grows with each reading. */
 final class DeliveredNotifications implements AutoCloseable {

@@ -1,7 +1,5 @@
 package io.furrow.soak.source;
 
-import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.soak.control.Http;
 import java.net.URI;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -11,6 +9,9 @@ import java.util.concurrent.locks.LockSupport;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.soak.control.Http;
 
 /** Changes entities at a context broker, one after another at a rate, each entity from one thread. */
 final class EntityChanges implements AutoCloseable {

@@ -1,8 +1,5 @@
 package io.furrow.soak.source;
 
-import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.soak.control.Http;
-import io.furrow.soak.control.Until;
 import java.io.IOException;
 import java.net.InetAddress;
 import java.net.ServerSocket;
@@ -19,6 +16,10 @@ import java.util.stream.IntStream;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.Until;
 
 /** The workers of one Connect group, each with its disk and its address, and the source with three tasks that runs on them. */
 final class SourceGroup implements AutoCloseable {
@@ -123,7 +124,11 @@ final class SourceGroup implements AutoCloseable {
         Until.isTrue(
                 verb,
                 TIMEOUT,
-                () -> Http.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), NgsiJson.write(nothing)).join().status() / 100 == 2);
+                () -> Http.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), NgsiJson.write(nothing))
+                                        .join()
+                                        .status()
+                                / 100
+                        == 2);
         String state = verb.equals("pause") ? "PAUSED" : "RUNNING";
         Until.isTrue(
                 "all tasks " + state,
@@ -150,7 +155,8 @@ final class SourceGroup implements AutoCloseable {
 
     private Map<String, Integer> tasks(String state) {
         Map<String, Integer> tasks = new TreeMap<>();
-        JsonNode status = Http.get(connectors("/" + SourceWorker.CONNECTOR + "/status")).body();
+        JsonNode status =
+                Http.get(connectors("/" + SourceWorker.CONNECTOR + "/status")).body();
         for (JsonNode task : status.path("tasks")) {
             if (task.path("state").asText().equals(state)) {
                 tasks.merge(task.path("worker_id").asText(), 1, Integer::sum);
@@ -168,7 +174,8 @@ final class SourceGroup implements AutoCloseable {
 
     /** Journals that Connect knows offsets of. */
     int journalsInOffsets() {
-        return Http.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets")).body()
+        return Http.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets"))
+                .body()
                 .path("offsets")
                 .size();
     }

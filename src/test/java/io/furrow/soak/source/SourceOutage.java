@@ -1,6 +1,5 @@
 package io.furrow.soak.source;
 
-import io.furrow.soak.control.Until;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.BitSet;
@@ -8,6 +7,7 @@ import java.util.concurrent.locks.LockSupport;
 
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
+import io.furrow.soak.control.Until;
 
 /** Stops Kafka under load for a while; the source goes on taking notifications and catches up afterwards. */
 public final class SourceOutage {

@@ -1,7 +1,5 @@
 package io.furrow.soak.source;
 
-import io.furrow.soak.control.Http;
-import io.furrow.soak.control.Until;
 import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Path;
@@ -15,6 +13,8 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.embedded.FreePort;
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.Until;
 
 /** A Connect worker that runs the NGSI source with one task; it can be killed and started again. */
 final class SourceWorker implements AutoCloseable {

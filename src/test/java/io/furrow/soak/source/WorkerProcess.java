@@ -1,9 +1,5 @@
 package io.furrow.soak.source;
 
-import io.furrow.soak.control.JavaProcess;
-import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.soak.control.Http;
-import io.furrow.soak.control.Until;
 import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Files;
@@ -12,11 +8,14 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
-import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.embedded.FreePort;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.JavaProcess;
+import io.furrow.soak.control.Until;
 
 /** A distributed Connect worker in a process of its own; it can be killed, stopped in order and started again. */
 final class WorkerProcess implements AutoCloseable {
@@ -43,9 +42,11 @@ final class WorkerProcess implements AutoCloseable {
                 "-Dcom.sun.management.jmxremote.rmi.port=" + jmxPort,
                 "-Dcom.sun.management.jmxremote.authenticate=false",
                 "-Dcom.sun.management.jmxremote.ssl=false");
-        List<String> arguments = new ArrayList<>(List.of(bootstrapServers, System.getProperty("furrow.plugins"), Integer.toString(restPort)));
+        List<String> arguments = new ArrayList<>(
+                List.of(bootstrapServers, System.getProperty("furrow.plugins"), Integer.toString(restPort)));
         arguments.addAll(settings);
-        process = new JavaProcess(folder.resolve("worker.out"), options, WorkerMain.class.getName(), arguments).with(environment);
+        process = new JavaProcess(folder.resolve("worker.out"), options, WorkerMain.class.getName(), arguments)
+                .with(environment);
         Runtime.getRuntime().addShutdownHook(new Thread(process::close));
     }
 
@@ -72,7 +73,11 @@ final class WorkerProcess implements AutoCloseable {
         Until.isTrue(
                 "the worker takes the connector",
                 TIMEOUT,
-                () -> Http.send("PUT", connectors("/" + name + "/config"), NgsiJson.write(config)).join().status() / 100 == 2);
+                () -> Http.send("PUT", connectors("/" + name + "/config"), NgsiJson.write(config))
+                                        .join()
+                                        .status()
+                                / 100
+                        == 2);
     }
 
     /** Resident memory in MiB, from Linux' proc; 0 elsewhere. */

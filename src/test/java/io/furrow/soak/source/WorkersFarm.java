@@ -1,7 +1,5 @@
 package io.furrow.soak.source;
 
-import io.furrow.soak.control.Http;
-import io.furrow.soak.control.Until;
 import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Path;
@@ -15,6 +13,8 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
 import io.furrow.model.topic.Topics;
+import io.furrow.soak.control.Http;
+import io.furrow.soak.control.Until;
 import io.furrow.soak.source.NotificationTap.Try;
 import io.furrow.soak.source.SourceGroup.Member;
 import io.furrow.soak.source.WorkerGauges.Shown;

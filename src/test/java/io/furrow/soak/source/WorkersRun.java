@@ -1,11 +1,11 @@
 package io.furrow.soak.source;
 
-import io.furrow.soak.control.Until;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 
+import io.furrow.soak.control.Until;
 import io.furrow.soak.source.NotificationTap.Try;
 import io.furrow.soak.source.SourceGroup.Member;
 import io.furrow.soak.source.SourceWorkers.Outcome;

@@ -1,19 +1,17 @@
 package io.furrow.soak.year;
 
-import io.furrow.soak.CommittedState;
 import java.time.Duration;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.soak.CommittedState;
 import io.furrow.soak.year.Tap.Report;
 
 /** How often each report of a device is on a topic. */

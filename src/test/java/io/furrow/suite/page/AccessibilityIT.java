@@ -1,12 +1,12 @@
 package io.furrow.suite.page;
 
-import org.assertj.core.api.Assertions;
 import java.util.List;
 import java.util.Set;
 import java.util.stream.Stream;
 
 import com.deque.html.axecore.playwright.AxeBuilder;
 import com.deque.html.axecore.results.Rule;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;

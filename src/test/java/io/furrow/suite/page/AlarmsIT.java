@@ -1,21 +1,21 @@
 package io.furrow.suite.page;
 
-import java.util.regex.Pattern;
-import org.assertj.core.api.Assertions;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.List;
 import java.util.concurrent.atomic.AtomicInteger;
+import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Route;
 import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** From an alarm to who takes care of it. */
 @PageTest
@@ -114,8 +114,7 @@ class AlarmsIT {
         int robot = meet(suite);
 
         assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);
-        assertThat(farm.find(".alarm-count"))
-                .hasAttribute("aria-label", Pattern.compile("[1-9]\\d* open alarms"));
+        assertThat(farm.find(".alarm-count")).hasAttribute("aria-label", Pattern.compile("[1-9]\\d* open alarms"));
         forget(suite, robot);
     }
 
@@ -157,17 +156,16 @@ class AlarmsIT {
         int robot = meet(suite);
 
         assertThat(farm.find(ANNOUNCED)).containsText(ANNOUNCEMENT + robot, TIMEOUT);
-        Assertions.assertThat(farm.run("notified.length"))
-                .isEqualTo(0);
+        Assertions.assertThat(farm.run("notified.length")).isEqualTo(0);
 
         farm.hide();
         farm.until(() -> sockets.get() == 1, FarmPage.TIMEOUT);
         int other = meet(suite);
         farm.until(
-                        () -> Boolean.TRUE.equals(farm.run(
-                                        "(robot) => notified.some((each) => each.startsWith(`Furrow: critical alarm: Robot ${robot}`))",
-                                        other)),
-                        FarmPage.TIMEOUT);
+                () -> Boolean.TRUE.equals(farm.run(
+                        "(robot) => notified.some((each) => each.startsWith(`Furrow: critical alarm: Robot ${robot}`))",
+                        other)),
+                FarmPage.TIMEOUT);
         forget(suite, robot);
         forget(suite, other);
     }

@@ -1,16 +1,16 @@
 package io.furrow.suite.page;
 
-import org.assertj.core.api.Assertions;
-import static io.furrow.suite.page.FarmPage.having;
 import java.util.List;
 import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.options.BoundingBox;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.having;
 
 /** What analytics found, and the way from it to its moment. */
 @PageTest
@@ -27,9 +27,7 @@ class AnalysesIT {
                         .filter(having("Thermometer 4"))
                         .first())
                 .containsText("robust");
-        assertThat(rows.filter(having("Mill field"))
-                        .first())
-                .containsText("unverified");
+        assertThat(rows.filter(having("Mill field")).first()).containsText("unverified");
     }
 
     @Test

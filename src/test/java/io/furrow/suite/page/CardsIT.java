@@ -1,9 +1,5 @@
 package io.furrow.suite.page;
 
-import static io.furrow.suite.page.FarmPage.ATTRIBUTES;
-import org.assertj.core.api.Assertions;
-import static io.furrow.suite.page.FarmPage.EXACTLY;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.regex.Pattern;
 
@@ -12,10 +8,14 @@ import com.microsoft.playwright.Route;
 import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
 import com.microsoft.playwright.options.BoundingBox;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.ATTRIBUTES;
+import static io.furrow.suite.page.FarmPage.EXACTLY;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** What a card says of its device, and what it does to it. */
 @PageTest

@@ -58,9 +58,9 @@ class DeviceCheckIT {
     private static List<String> check(FarmPage farm, String groups) {
         List<Map<String, Object>> checked = (List<Map<String, Object>>)
                 farm.run(
-                                "async () => { const { checkPlan } = await import('/views/missions/check.js'); return checkPlan("
-                                        + groups + ", 'farm', " + KNOWN
-                                        + ").map((each) => ({ said: `${each.name} ${each.worst} [${each.findings.map((finding) => finding.text).join(', ')}]` })); }");
+                        "async () => { const { checkPlan } = await import('/views/missions/check.js'); return checkPlan("
+                                + groups + ", 'farm', " + KNOWN
+                                + ").map((each) => ({ said: `${each.name} ${each.worst} [${each.findings.map((finding) => finding.text).join(', ')}]` })); }");
         return checked.stream().map(each -> (String) each.get("said")).toList();
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.suite.page;
 
-import static io.furrow.suite.page.FarmPage.having;
 import java.net.URI;
 
 import com.microsoft.playwright.Locator;
@@ -11,6 +10,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.having;
 
 /** What the page says where there is nothing yet, and before it knows what there is. */
 @PageTest

@@ -1,10 +1,10 @@
 package io.furrow.suite.page;
 
-import java.util.function.BooleanSupplier;
 import java.net.URI;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.function.BooleanSupplier;
 import java.util.regex.Pattern;
 
 import com.google.gson.JsonObject;

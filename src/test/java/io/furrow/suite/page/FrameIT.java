@@ -22,12 +22,11 @@ class FrameIT {
     void reportsWhatThePolicyForbidsAndWhatNobodyCaught(PageSuite suite) {
         FarmPage farm = suite.open("").expectingError(".");
         farm.run(
-                        "() => { setTimeout(() => { throw new Error('thrown by a test'); });"
-                                + " const script = document.createElement('script'); script.textContent = 'window.ran = true'; document.body.append(script); }");
+                "() => { setTimeout(() => { throw new Error('thrown by a test'); });"
+                        + " const script = document.createElement('script'); script.textContent = 'window.ran = true'; document.body.append(script); }");
 
         farm.until(() -> farm.allErrors().stream().anyMatch(error -> error.contains("thrown by a test"))
-                        && farm.allErrors().stream().anyMatch(error -> error.contains("policy forbids script-src")));
-        Assertions.assertThat(farm.run("window.ran"))
-                .isNull();
+                && farm.allErrors().stream().anyMatch(error -> error.contains("policy forbids script-src")));
+        Assertions.assertThat(farm.run("window.ran")).isNull();
     }
 }

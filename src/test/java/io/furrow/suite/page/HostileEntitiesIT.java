@@ -1,22 +1,21 @@
 package io.furrow.suite.page;
 
-import static io.furrow.suite.page.FarmPage.ATTRIBUTES;
-import org.assertj.core.api.Assertions;
-import static io.furrow.suite.page.FarmPage.having;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.options.AriaRole;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.ngsi.NgsiJson;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.ATTRIBUTES;
+import static io.furrow.suite.page.FarmPage.having;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** What anybody could write to Kafka: shown as text or cut, never run, and the page lives on. */
 @PageTest
@@ -104,14 +103,9 @@ class HostileEntitiesIT {
     @Test
     void livesOnAfterWhatIsNoEntity(PageSuite suite) throws Exception {
         for (String value : new String[] {
-            "no JSON",
-            "[]",
-            "5",
-            "\"text\"",
-            "{}",
-            "{\"id\": 5}",
-            "{\"id\": {\"a\": 1}, \"type\": []}",
-            "{\"id\": \"__proto__\", \"type\": \"constructor\"}"
+            "no JSON", "[]", "5",
+            "\"text\"", "{}", "{\"id\": 5}",
+            "{\"id\": {\"a\": 1}, \"type\": []}", "{\"id\": \"__proto__\", \"type\": \"constructor\"}"
         }) {
             suite.produce("data.raw", "odd", value.getBytes(UTF_8));
         }
@@ -130,11 +124,8 @@ class HostileEntitiesIT {
         long now = System.currentTimeMillis();
         farm.untilStore("store.entities.get('urn:ngsi-ld:Robot:1')?.time > " + now);
         assertThat(farm.card("urn:ngsi-ld:Robot:1")).containsText("m/s");
-        Assertions.assertThat(farm.run("window.ran"))
-                .isNull();
-        Assertions.assertThat(
-                        farm.find("img[src=x], [onerror]").count())
-                .isZero();
+        Assertions.assertThat(farm.run("window.ran")).isNull();
+        Assertions.assertThat(farm.find("img[src=x], [onerror]").count()).isZero();
     }
 
     private static ObjectNode entity(String id, String type) {
@@ -146,6 +137,8 @@ class HostileEntitiesIT {
     }
 
     private static void attribute(ObjectNode entity, String name, Object value) {
-        entity.putObject(name).put("type", value instanceof Number ? "Float" : "Text").putPOJO("value", value);
+        entity.putObject(name)
+                .put("type", value instanceof Number ? "Float" : "Text")
+                .putPOJO("value", value);
     }
 }

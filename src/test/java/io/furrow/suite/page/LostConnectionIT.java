@@ -1,6 +1,5 @@
 package io.furrow.suite.page;
 
-import org.assertj.core.api.Assertions;
 import java.net.URI;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -13,6 +12,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.microsoft.playwright.Route;
 import com.microsoft.playwright.WebSocketRoute;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -53,8 +53,7 @@ class LostConnectionIT {
     @Test
     void countsWhatItMissed(PageSuite suite) {
         FarmPage other = suite.open("");
-        FarmPage farm = suite.window()
-                .expectingError("ERR_FAILED|Failed to load resource");
+        FarmPage farm = suite.window().expectingError("ERR_FAILED|Failed to load resource");
         farm.page().addInitScript("""
                 window.sockets = [];
                 window.WebSocket = class extends WebSocket {
@@ -122,8 +121,8 @@ class LostConnectionIT {
         for (String part : parts) {
             assertThat(farm.find(".analysis." + part + " .empty")).isVisible();
         }
-        farm.until(
-                        () -> farm.is("document.querySelector('furrow-analyses').findings.streams.every((each) => each.state === 'open')"));
+        farm.until(() -> farm.is(
+                "document.querySelector('furrow-analyses').findings.streams.every((each) => each.state === 'open')"));
 
         long now = System.currentTimeMillis();
         found.put("data.temperature", result("Analytics:FieldTemperature", """
@@ -210,7 +209,9 @@ class LostConnectionIT {
 
     private static String result(String type, String attributes, Object... times) throws Exception {
         ObjectNode value = JsonNodeFactory.instance.objectNode().put("type", type);
-        NgsiJson.mapper().readTree(attributes.formatted(times)).properties()
+        NgsiJson.mapper()
+                .readTree(attributes.formatted(times))
+                .properties()
                 .forEach(each -> value.putObject(each.getKey()).set("value", each.getValue()));
         return record("event", "any", System.currentTimeMillis(), value.toString());
     }

@@ -1,17 +1,18 @@
 package io.furrow.suite.page;
 
-import com.microsoft.playwright.options.BoundingBox;
 import java.util.regex.Pattern;
-import org.assertj.core.api.Assertions;
-import static io.furrow.suite.page.FarmPage.having;
+
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Page;
 import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
+import com.microsoft.playwright.options.BoundingBox;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.having;
 
 /** From the map to a device and back. */
 @PageTest
@@ -38,12 +39,8 @@ class MapIT {
         String lasting = "[...store.encounters.values()].some((each) => ['started', 'ongoing'].includes(each.phase))";
 
         farm.untilStore("store.encounters.size > 0");
-        farm.until(
-                        () -> Boolean.TRUE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) > 200,
-                        FarmPage.TIMEOUT);
-        farm.until(
-                        () -> Boolean.FALSE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) == 0,
-                        FarmPage.TIMEOUT);
+        farm.until(() -> Boolean.TRUE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) > 200, FarmPage.TIMEOUT);
+        farm.until(() -> Boolean.FALSE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) == 0, FarmPage.TIMEOUT);
     }
 
     @Test
@@ -64,8 +61,7 @@ class MapIT {
         farm.card(THERMOMETER).getByRole(AriaRole.BUTTON).first().click();
 
         farm.untilStore("store.selection === '" + THERMOMETER + "'");
-        BoundingBox map =
-                farm.find("furrow-map .map-target").boundingBox();
+        BoundingBox map = farm.find("furrow-map .map-target").boundingBox();
         farm.until(() -> {
             double[] spot = farm.spot(THERMOMETER);
             return Math.hypot(spot[0] - map.x - map.width / 2, spot[1] - map.y - map.height / 2) < 5;
@@ -85,12 +81,12 @@ class MapIT {
         robot.getByRole(AriaRole.BUTTON).click();
         assertThat(farm.card(ROBOT)).hasClass(Pattern.compile("selected"));
 
-        Locator upper = farm.find(".map-table table[aria-label=Fields] tbody tr")
-                .filter(having("Upper field"));
+        Locator upper =
+                farm.find(".map-table table[aria-label=Fields] tbody tr").filter(having("Upper field"));
         assertThat(upper).containsText("°C");
         assertThat(upper).containsText("Thermometer 4");
-        Locator close = farm.find(".map-table table[aria-label=Encounters] tbody tr")
-                .filter(having("Robot 1 – Robot 2"));
+        Locator close =
+                farm.find(".map-table table[aria-label=Encounters] tbody tr").filter(having("Robot 1 – Robot 2"));
         assertThat(close).containsText("too close", new LocatorAssertions.ContainsTextOptions().setTimeout(60_000));
     }
 
@@ -100,9 +96,10 @@ class MapIT {
         farm.untilStore("store.primed && store.entities.size >= 17");
         report(farm, 200, 40.312998, -3.483058);
         farm.run("document.querySelector('furrow-map').fit(0)");
-        farm.until(() -> (int) farm.number(
-                                                        "Math.max(0, ...document.querySelector('furrow-map').devices.clusters.map((each) => each.count))")
-                        == 200); // more while the map is still on its way there
+        farm.until(() -> (int)
+                        farm.number(
+                                "Math.max(0, ...document.querySelector('furrow-map').devices.clusters.map((each) => each.count))")
+                == 200); // more while the map is still on its way there
         double[] spot = farm.spot("urn:ngsi-ld:Tractor:7");
         farm.page().mouse().click(spot[0], spot[1]);
 
@@ -119,14 +116,13 @@ class MapIT {
     void opensOnTheFarmThoughOneDeviceIsFarAway(FarmPage farm) {
         farm.untilStore("store.primed && store.entities.size >= 17");
         farm.run(
-                        "async () => { const { store } = await import('/core/store.js'); store.fields.clear(); store.notify('fields'); }");
+                "async () => { const { store } = await import('/core/store.js'); store.fields.clear(); store.notify('fields'); }");
         report(farm, 1, -33.9, 18.4);
         farm.run("document.querySelector('furrow-map').fit(0)");
 
         farm.until(() -> zoom(farm) > 14);
         double[] robot = farm.spot(ROBOT);
-        BoundingBox map =
-                farm.find("furrow-map .map-target").boundingBox();
+        BoundingBox map = farm.find("furrow-map .map-target").boundingBox();
         Assertions.assertThat(robot[0]).isBetween(map.x, map.x + map.width);
         Assertions.assertThat(robot[1]).isBetween(map.y, map.y + map.height);
     }
@@ -136,7 +132,7 @@ class MapIT {
     void drawsNothingBehindAnotherView(FarmPage farm) {
         farm.untilStore("store.primed && store.entities.size >= 17");
         farm.run(
-                        "() => { window.drawn = 0; document.querySelector('furrow-map').map.on('postrender', () => window.drawn++); }");
+                "() => { window.drawn = 0; document.querySelector('furrow-map').map.on('postrender', () => window.drawn++); }");
         farm.until(() -> drawn(farm) > 5);
 
         farm.go("Platform");
@@ -215,8 +211,7 @@ class MapIT {
         farm.untilStore("store.entities.get('urn:ngsi-ld:Tractor:0').state === 'attention'");
         assertThat(farm.card("urn:ngsi-ld:Tractor:0")).containsText("suspect");
         farm.button("The map as a table").click();
-        assertThat(farm.find(".map-table table[aria-label=Fields] tbody tr")
-                        .filter(having("Later field")))
+        assertThat(farm.find(".map-table table[aria-label=Fields] tbody tr").filter(having("Later field")))
                 .containsText("12.5 °C");
     }
 
@@ -291,9 +286,10 @@ class MapIT {
                               value: { id, type: 'Robot', Latitude: { value: latitude }, Longitude: { value: longitude } } });
                           });
                         }""");
-        farm.until(() -> (int) farm.number(
-                                                        "document.querySelector('furrow-map').devices.spots.filter(({ entity }) => entity.id.includes(':on-')).length")
-                        >= 3);
+        farm.until(() -> (int)
+                        farm.number(
+                                "document.querySelector('furrow-map').devices.spots.filter(({ entity }) => entity.id.includes(':on-')).length")
+                >= 3);
         farm.until(() -> labels(farm, "isFree") >= 3 && labels(farm, "!isFree") == 0);
     }
 

@@ -59,7 +59,7 @@ class MapTilesIT {
             assertThat(farm.find(".map-attribution a")).hasCount(0);
 
             farm.run(
-                            "() => { const map = document.querySelector('furrow-map'); map.moved = true; map.view.setZoom(2); }");
+                    "() => { const map = document.querySelector('furrow-map'); map.moved = true; map.view.setZoom(2); }");
             farm.until(() -> share(farm, NOWHERE) > 0.05 && share(farm, FARM) < 0.5, FarmPage.TIMEOUT);
             farm.close();
         }
@@ -116,9 +116,9 @@ class MapTilesIT {
 
     private static Object evaluate(FarmPage farm, String expression, Object given) {
         return farm.run(
-                        "async (given) => { const { PmtilesFile, tileId } = await import('/map/pmtiles.js'); return "
-                                + expression + "; }",
-                        given);
+                "async (given) => { const { PmtilesFile, tileId } = await import('/map/pmtiles.js'); return "
+                        + expression + "; }",
+                given);
     }
 
     /** Bytes; 0 where there is none. */

@@ -1,6 +1,5 @@
 package io.furrow.suite.page;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
@@ -11,6 +10,7 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * How long an event takes from Kafka's client to the pixel: a device jumps between two places, one event after the other, and the page looks in every frame
@@ -109,8 +109,7 @@ final class Marks {
         String entity = """
                 {"id": "%s", "type": "Thermometer", "Time": {"type": "Integer", "value": %d}, "Temperature": {"type": "Float", "value": %d},
                  "Latitude": {"type": "Float", "value": %s}, "Longitude": {"type": "Float", "value": %s}}""".formatted(ID, System.currentTimeMillis(), number, place.get(1), place.get(0));
-        producer.send(new ProducerRecord<>(
-                        "data.raw", ID.getBytes(UTF_8), entity.getBytes(UTF_8)))
+        producer.send(new ProducerRecord<>("data.raw", ID.getBytes(UTF_8), entity.getBytes(UTF_8)))
                 .get();
     }
 }

@@ -1,9 +1,5 @@
 package io.furrow.suite.page;
 
-import org.assertj.core.api.Assertions;
-import static io.furrow.suite.page.FarmPage.EXACTLY;
-import static io.furrow.suite.page.FarmPage.having;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -14,12 +10,16 @@ import com.microsoft.playwright.options.FilePayload;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.topic.Topics;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.EXACTLY;
+import static io.furrow.suite.page.FarmPage.having;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** The life of a mission, and who commanded it. */
 @PageTest
@@ -41,8 +41,7 @@ class MissionsIT {
         assertThat(dialog).containsText("are in the way");
         assertThat(dialog).containsText("runs in mission scouting");
         dialog.getByLabel("Template").selectOption("thesis-demo@1");
-        dialog.getByText("Create", EXACTLY)
-                .click();
+        dialog.getByText("Create", EXACTLY).click();
 
         Locator detail = farm.find("furrow-missions .mission-detail");
         assertThat(detail).containsText("again");
@@ -69,8 +68,7 @@ class MissionsIT {
         dialog.getByLabel("Domain").selectOption("farm");
         dialog.getByLabel("Template").selectOption(" own");
         dialog.getByLabel("How many").fill("2");
-        dialog.getByText("Create", EXACTLY)
-                .click();
+        dialog.getByText("Create", EXACTLY).click();
 
         Locator detail = farm.find("furrow-missions .mission-detail");
         assertThat(detail.locator(".pill").first()).hasText("starting");
@@ -117,16 +115,13 @@ class MissionsIT {
         Locator dialog = farm.find("dialog[open]");
         dialog.getByLabel("Name in topics").fill("orchard");
         dialog.getByLabel("Name for people").fill("The old orchard");
-        dialog.getByText("Create", EXACTLY)
-                .click();
+        dialog.getByText("Create", EXACTLY).click();
         assertThat(dialog).hasCount(0);
-        Locator orchard =
-                farm.find("#missions-panel li.card").filter(having("The old orchard"));
+        Locator orchard = farm.find("#missions-panel li.card").filter(having("The old orchard"));
         assertThat(orchard).containsText("0 missions, 0 fields");
 
         orchard.getByLabel("Delete domain orchard").click();
-        dialog.getByText("Delete", EXACTLY)
-                .click();
+        dialog.getByText("Delete", EXACTLY).click();
         assertThat(dialog).hasCount(0);
         assertThat(orchard).hasCount(0);
     }
@@ -167,8 +162,7 @@ class MissionsIT {
         rows.getByLabel("Rename Far meadow").click();
         dialog.getByLabel("Name").fill("Behind the barn");
         action.click();
-        assertThat(rows.filter(having("Behind the barn")))
-                .containsText("meadow");
+        assertThat(rows.filter(having("Behind the barn"))).containsText("meadow");
 
         rows.getByLabel("End Behind the barn").click();
         assertThat(dialog).containsText("a replay of an earlier time has the field as it was");

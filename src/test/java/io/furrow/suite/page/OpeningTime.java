@@ -29,8 +29,8 @@ public final class OpeningTime {
             long began = System.nanoTime();
             farm.open("");
             farm.until(
-                            () -> Boolean.TRUE.equals(farm.run(IS_THERE, devices)),
-                            new Page.WaitForConditionOptions().setTimeout(20_000));
+                    () -> Boolean.TRUE.equals(farm.run(IS_THERE, devices)),
+                    new Page.WaitForConditionOptions().setTimeout(20_000));
             return (System.nanoTime() - began) / 1_000_000;
         }
     }

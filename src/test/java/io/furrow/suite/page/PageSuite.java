@@ -2,10 +2,6 @@ package io.furrow.suite.page;
 
 import java.io.IOException;
 import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpResponse;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
@@ -22,8 +18,9 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import io.furrow.dashboard.Dashboard;
 import io.furrow.dashboard.DashboardSettings;
 import io.furrow.launcher.command.DemoFarm;
-import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.suite.RunningSuite;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** A suite with the demonstration farm, its dashboard and a browser, for all tests of the page. */
 final class PageSuite implements AutoCloseable {
@@ -67,8 +64,7 @@ final class PageSuite implements AutoCloseable {
         properties.setProperty("max.request.size", "10000000");
         try (KafkaProducer<byte[], byte[]> producer =
                 new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
-            producer.send(new ProducerRecord<>(
-                            topic, null, time.toEpochMilli(), key.getBytes(UTF_8), value))
+            producer.send(new ProducerRecord<>(topic, null, time.toEpochMilli(), key.getBytes(UTF_8), value))
                     .get();
         }
     }

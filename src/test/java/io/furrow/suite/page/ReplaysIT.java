@@ -1,7 +1,5 @@
 package io.furrow.suite.page;
 
-import org.assertj.core.api.Assertions;
-import static io.furrow.suite.page.FarmPage.EXACTLY;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.regex.Pattern;
@@ -10,10 +8,12 @@ import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Route;
 import com.microsoft.playwright.options.AriaRole;
 import com.microsoft.playwright.options.BoundingBox;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.EXACTLY;
 
 /** From a recorded mission to its moments. */
 @PageTest
@@ -32,8 +32,7 @@ class ReplaysIT {
         assertThat(farm.find(".mode")).containsText("Replay of weeding");
         assertThat(farm.find("furrow-app")).hasClass(Pattern.compile("replaying"));
         assertThat(farm.card(ROBOT)).containsText("recorded, not sent");
-        assertThat(farm.card(ROBOT).getByText("Stop", EXACTLY))
-                .isDisabled();
+        assertThat(farm.card(ROBOT).getByText("Stop", EXACTLY)).isDisabled();
 
         farm.untilStore("store.mode.state === 'running' && store.mode.position > store.mode.from");
         farm.find("body").press(" ");
@@ -139,15 +138,12 @@ class ReplaysIT {
         assertThat(farm.find(".plan")).containsText("Length: 20 min");
         farm.button("Start replay").click();
         farm.until(() -> plans.size() == 2);
-        Assertions.assertThat(plans)
-                .noneMatch(plan -> plan.contains("\"from\"") || plan.contains("\"to\""));
+        Assertions.assertThat(plans).noneMatch(plan -> plan.contains("\"from\"") || plan.contains("\"to\""));
 
         farm.find("#plan-to").fill("2026-10-25T02:05");
         farm.button("Start replay").click();
         farm.until(() -> plans.size() == 3);
-        Assertions.assertThat(plans.get(2))
-                .contains("\"to\":1792890300000")
-                .doesNotContain("\"from\"");
+        Assertions.assertThat(plans.get(2)).contains("\"to\":1792890300000").doesNotContain("\"from\"");
     }
 
     /** Its status goes some time after it. */
@@ -194,7 +190,7 @@ class ReplaysIT {
     /** Of the times that the timeline shows, which grow while the mission goes on. */
     private static double middle(FarmPage farm) {
         Object time = farm.run(
-                        "() => { const { from, to } = document.querySelector('furrow-timeline').scale; return (from + to) / 2; }");
+                "() => { const { from, to } = document.querySelector('furrow-timeline').scale; return (from + to) / 2; }");
         return ((Number) time).doubleValue();
     }
 

@@ -1,10 +1,7 @@
 package io.furrow.suite.page;
 
-import com.microsoft.playwright.assertions.LocatorAssertions;
-import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.net.URLDecoder;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Clock;
@@ -15,8 +12,9 @@ import java.util.Properties;
 import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Route;
+import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -34,6 +32,7 @@ import io.furrow.dashboard.auth.UserRole;
 import io.furrow.dashboard.page.PageSettings;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.awaitility.Awaitility.await;
 
 /** Sessions that end in the middle of work, with tokens and behind a proxy that signs users in. */
@@ -47,6 +46,7 @@ class SignInIT {
 
     private Path tokens;
     private Properties client;
+
     @AutoClose
     private RestApi api;
 

@@ -41,12 +41,10 @@ class TimelineIT {
         FarmPage farm = suite.open("");
         farm.until(() -> farm.number(WRONG) == 0, AT_ONCE);
         assertThat(
-                        farm.number("() => [...document.querySelector('furrow-timeline').live.counts.values()].filter((count) => count > 0).length"))
+                        farm.number(
+                                "() => [...document.querySelector('furrow-timeline').live.counts.values()].filter((count) => count > 0).length"))
                 .isGreaterThan(6);
-        farm.until(
-                        () -> farm.number("document.querySelector('furrow-timeline').encounters.length")
-                                > 0,
-                        AT_ONCE);
+        farm.until(() -> farm.number("document.querySelector('furrow-timeline').encounters.length") > 0, AT_ONCE);
     }
 
     @Test

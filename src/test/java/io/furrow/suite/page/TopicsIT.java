@@ -1,6 +1,5 @@
 package io.furrow.suite.page;
 
-import static io.furrow.suite.page.FarmPage.having;
 import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
@@ -10,6 +9,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static io.furrow.suite.page.FarmPage.having;
 
 /** From domains and missions to records. */
 @PageTest
@@ -51,12 +51,8 @@ class TopicsIT {
         check(farm, "data.canary.realtime.dummy");
         Locator records = farm.find("furrow-topics table tbody tr");
 
-        assertThat(records.filter(having("Robot:canary-1"))
-                        .first())
-                .isVisible();
-        assertThat(records.filter(having("Thermometer:4"))
-                        .first())
-                .isVisible();
+        assertThat(records.filter(having("Robot:canary-1")).first()).isVisible();
+        assertThat(records.filter(having("Thermometer:4")).first()).isVisible();
     }
 
     @Tag("full")

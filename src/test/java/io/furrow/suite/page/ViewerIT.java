@@ -1,6 +1,5 @@
 package io.furrow.suite.page;
 
-import org.assertj.core.api.Assertions;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -11,6 +10,7 @@ import java.util.Properties;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Page;
 import com.microsoft.playwright.options.AriaRole;
+import org.assertj.core.api.Assertions;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -36,7 +36,8 @@ class ViewerIT {
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
 
     @Test
-    void waitsForTheControlPlaneSignsInSeesTheFarmAndIsOfferedNoCommand(PageSuite suite, @TempDir Path folder) throws Exception {
+    void waitsForTheControlPlaneSignsInSeesTheFarmAndIsOfferedNoCommand(PageSuite suite, @TempDir Path folder)
+            throws Exception {
         Properties client = suite.running().suite().kafka().clientProperties();
         int port = FreePort.orFree(0);
         RestSettings settings = RestSettings.on(port)
@@ -113,9 +114,6 @@ class ViewerIT {
                           });
                           return `${answer.status} ${await answer.text()}`;
                         }""", List.of(TOKEN, ROBOT));
-        Assertions.assertThat(refusal)
-                .asString()
-                .startsWith("403 ")
-                .contains("operator");
+        Assertions.assertThat(refusal).asString().startsWith("403 ").contains("operator");
     }
 }

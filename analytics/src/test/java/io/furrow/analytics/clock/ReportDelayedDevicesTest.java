@@ -1,14 +1,12 @@
 package io.furrow.analytics.clock;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.Map;
 import java.util.function.LongUnaryOperator;
 
 import org.apache.flink.streaming.api.operators.ProcessOperator;
 import org.apache.flink.streaming.util.OneInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -16,6 +14,7 @@ import io.furrow.flink.record.ReceiptTime;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
@@ -47,12 +46,8 @@ class ReportDelayedDevicesTest {
         }
         assertThat(harness.extractOutputValues())
                 .extracting(
-                        ClockReport::kind,
-                        ClockReport::id,
-                        ClockReport::mission,
-                        ClockReport::millis,
-                        ClockReport::positions,
-                        ClockReport::time)
+                        ClockReport::kind, ClockReport::id, ClockReport::mission,
+                        ClockReport::millis, ClockReport::positions, ClockReport::time)
                 .containsExactly(
                         tuple(ClockReport.Kind.DELAYED, "slow", "m", 2 * HOUR, 31, START + 30 * SECOND),
                         tuple(ClockReport.Kind.DELAYED, "slow", "m", 2 * HOUR, 91, START + 90 * SECOND));
@@ -110,8 +105,8 @@ class ReportDelayedDevicesTest {
     }
 
     private TopicRecord record(String device, long time) {
-        byte[] entity = ("{\"id\":\"" + device + "\",\"type\":\"Thermometer\",\"Mission\":{\"value\":\"m\"}}")
-                .getBytes(UTF_8);
+        byte[] entity =
+                ("{\"id\":\"" + device + "\",\"type\":\"Thermometer\",\"Mission\":{\"value\":\"m\"}}").getBytes(UTF_8);
         return TopicRecord.of("data.raw", time, device, entity, Map.of(HeaderNames.TS_SOURCE, Long.toString(now)));
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Comparator;
@@ -34,6 +33,7 @@ import static io.furrow.analytics.collision.ReportedRun.robot;
 import static io.furrow.analytics.collision.ReportedRun.run;
 import static io.furrow.analytics.collision.ReportedRun.runAfterDevices;
 import static io.furrow.analytics.collision.ReportedRun.text;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.tuple;
@@ -247,23 +247,11 @@ class CollisionJobTest {
                         .sorted(Comparator.comparing(StreamNode::getTransformationUID))
                         .map(StreamNode::getTransformationUID))
                 .containsExactly(
-                        "Sink Committer: write-topics",
-                        "assign-carriers",
-                        "describe-clocks",
-                        "describe-delayed-devices",
-                        "describe-encounters",
-                        "describe-late-positions",
-                        "describe-overflows",
-                        "ensure-topics",
-                        "match-pairs",
-                        "read-devices",
-                        "read-events",
-                        "read-positions",
-                        "recognize-devices",
-                        "report-delayed-devices",
-                        "track-devices",
-                        "track-encounters",
-                        "watch-clocks",
-                        "write-topics");
+                        "Sink Committer: write-topics", "assign-carriers", "describe-clocks",
+                        "describe-delayed-devices", "describe-encounters", "describe-late-positions",
+                        "describe-overflows", "ensure-topics", "match-pairs",
+                        "read-devices", "read-events", "read-positions",
+                        "recognize-devices", "report-delayed-devices", "track-devices",
+                        "track-encounters", "watch-clocks", "write-topics");
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -28,6 +27,8 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 @Timeout(value = 10, unit = TimeUnit.HOURS)
 @Tag("full")
@@ -94,8 +95,8 @@ class CollisionRestartTest {
         @Override
         public DataStream<TopicRecord> define(
                 StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) {
-            TopicRecord nobody = new TopicRecord(
-                    Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of());
+            TopicRecord nobody =
+                    new TopicRecord(Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of());
             DataStream<TopicRecord> devices = env.fromData(List.of(nobody), TypeInformation.of(TopicRecord.class))
                     .uid("read-devices")
                     .setParallelism(1);

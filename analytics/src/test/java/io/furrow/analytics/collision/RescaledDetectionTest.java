@@ -71,7 +71,8 @@ class RescaledDetectionTest {
     private static List<PositionFix> arrivals;
 
     @Test
-    void tellsTheSameAsAnUndisturbedRun(@InjectMiniCluster MiniCluster cluster, @TempDir Path savepoints) throws Exception {
+    void tellsTheSameAsAnUndisturbedRun(@InjectMiniCluster MiniCluster cluster, @TempDir Path savepoints)
+            throws Exception {
         long seed = System.nanoTime();
         LOG.info("rescaled run from seed {}", seed);
         CollisionRules rules = Worlds.rules(5, 10, false).with(new DebounceRules(1.5, DWELL));
@@ -120,8 +121,7 @@ class RescaledDetectionTest {
     /** The task manager goes with all that its tasks hold, and another comes in its place. */
     private static void kill(MiniCluster cluster, int taskManager, JobClient job) throws Exception {
         cluster.terminateTaskManager(taskManager).get(60, TimeUnit.SECONDS);
-        Awaitility.await()
-                .until(() -> job.getJobStatus().get().isGloballyTerminalState());
+        Awaitility.await().until(() -> job.getJobStatus().get().isGloballyTerminalState());
         assertThat(job.getJobStatus().get()).isEqualTo(JobStatus.FAILED);
         cluster.startTaskManager();
     }
@@ -132,8 +132,7 @@ class RescaledDetectionTest {
         long due = expected.stream()
                 .filter(encounter -> encounter.time() + DWELL.toMillis() <= watermark) // a start is told so much later
                 .count();
-        Awaitility.await()
-                .until(() -> distinct(WRITTEN).size() >= due);
+        Awaitility.await().until(() -> distinct(WRITTEN).size() >= due);
     }
 
     /** After so many positions. */

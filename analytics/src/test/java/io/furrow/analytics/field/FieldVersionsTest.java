@@ -1,12 +1,11 @@
 package io.furrow.analytics.field;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
-
 import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.position.Position;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class FieldVersionsTest {

@@ -1,13 +1,11 @@
 package io.furrow.analytics.field;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 
 import org.apache.flink.streaming.api.operators.ProcessOperator;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.OneInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -17,6 +15,7 @@ import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ParseFieldsTest {
@@ -26,6 +25,7 @@ class ParseFieldsTest {
     private static final String SPRING = "2026-03-01T00:00:00.000Z";
 
     private final FieldRecords topic = new FieldRecords();
+
     @AutoClose
     private OneInputStreamOperatorTestHarness<TopicRecord, TopicRecord> operator;
 

@@ -1,6 +1,5 @@
 package io.furrow.analytics.presence;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Predicate;
@@ -31,6 +30,7 @@ import static io.furrow.analytics.presence.PresenceRun.options;
 import static io.furrow.analytics.presence.PresenceRun.record;
 import static io.furrow.analytics.presence.PresenceRun.report;
 import static io.furrow.analytics.presence.PresenceRun.run;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.tuple;

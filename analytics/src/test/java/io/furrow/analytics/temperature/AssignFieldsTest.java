@@ -1,13 +1,12 @@
 package io.furrow.analytics.temperature;
 
-import org.junit.jupiter.api.AutoClose;
 import java.util.List;
 
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
 import org.apache.flink.streaming.api.operators.co.CoBroadcastWithNonKeyedOperator;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.TwoInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.field.FieldRecords;
@@ -19,6 +18,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class AssignFieldsTest {
     private final FieldRecords fields = new FieldRecords();
+
     @AutoClose
     private TwoInputStreamOperatorTestHarness<Reading, TopicRecord, FieldReading> operator;
 

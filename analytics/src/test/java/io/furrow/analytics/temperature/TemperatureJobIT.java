@@ -1,6 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -35,6 +34,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -140,16 +140,11 @@ class TemperatureJobIT {
         TemperatureOptions options = new TemperatureOptions();
         JobCommandLine.of(options)
                 .parseArgs(
-                        "--bootstrap-servers",
-                        kafka.bootstrapServers(),
-                        "--idle-timeout",
-                        "2s",
-                        "--parallelism",
-                        "1",
-                        "--window",
-                        "1s",
-                        "--out-of-orderness",
-                        "0s");
+                        "--bootstrap-servers", kafka.bootstrapServers(),
+                        "--idle-timeout", "2s",
+                        "--parallelism", "1",
+                        "--window", "1s",
+                        "--out-of-orderness", "0s");
         return options;
     }
 
@@ -158,8 +153,7 @@ class TemperatureJobIT {
                 new KafkaProducer<>(kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer())) {
             for (TopicRecord record : records) {
                 var out = new ProducerRecord<>(record.topic(), null, record.timestamp(), record.key(), record.value());
-                record.headers()
-                        .forEach((name, text) -> out.headers().add(name, text.getBytes(UTF_8)));
+                record.headers().forEach((name, text) -> out.headers().add(name, text.getBytes(UTF_8)));
                 producer.send(out);
             }
             producer.flush();

@@ -1,6 +1,5 @@
 package io.furrow.bench.http;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.EOFException;
 import java.io.IOException;
 import java.net.InetAddress;
@@ -8,17 +7,18 @@ import java.net.InetSocketAddress;
 import java.nio.ByteBuffer;
 import java.nio.channels.ServerSocketChannel;
 import java.nio.channels.SocketChannel;
-import static java.nio.charset.StandardCharsets.US_ASCII;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class AnswerReaderTest {
     private final AnswerReader reader = new AnswerReader();
+
     @AutoClose
     private SocketChannel server;
 

@@ -2,7 +2,6 @@ package io.furrow.bench.http;
 
 import java.net.InetSocketAddress;
 import java.nio.ByteBuffer;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -13,6 +12,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.ngsi.Notification;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -58,8 +58,7 @@ class NotificationRequestTest {
     @ParameterizedTest
     @ValueSource(strings = {"", "{}", "\"sequence\":{\"type\":\"Number\",\"value\":12"})
     void findsNoNumberWhereThereIsNone(String record) {
-        assertThat(NotificationRequest.numberIn(record.getBytes(UTF_8)))
-                .isEqualTo(-1);
+        assertThat(NotificationRequest.numberIn(record.getBytes(UTF_8))).isEqualTo(-1);
     }
 
     @Test

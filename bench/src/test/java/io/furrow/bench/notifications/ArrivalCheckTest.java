@@ -1,6 +1,5 @@
 package io.furrow.bench.notifications;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.BitSet;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -8,6 +7,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.bench.http.NotificationRequest;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ArrivalCheckTest {

@@ -7,13 +7,13 @@ import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
 import java.net.http.HttpResponse.BodyHandlers;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.BitSet;
 
 import org.junit.jupiter.api.Test;
 
 import io.furrow.bench.http.NotificationRequest;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class StubBrokerTest {

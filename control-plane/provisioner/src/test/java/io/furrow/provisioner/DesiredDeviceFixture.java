@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -10,6 +9,8 @@ import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.event.FiwareScope;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Wanted devices for tests. */
 public final class DesiredDeviceFixture {

@@ -1,7 +1,5 @@
 package io.furrow.provisioner;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
@@ -11,8 +9,8 @@ import org.eclipse.paho.client.mqttv3.MqttClient;
 import org.eclipse.paho.client.mqttv3.MqttConnectOptions;
 import org.eclipse.paho.client.mqttv3.MqttException;
 import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
@@ -25,6 +23,7 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.provisioner.account.MqttAccount;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -76,8 +75,7 @@ class EmbeddedBrokerTest {
                         MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing")),
                 Set.of());
         agent = connect(new FarmSecret.Login("agent", "plough"));
-        agent.subscribe(
-                "#", 1, (topic, message) -> heard.put(topic, new String(message.getPayload(), UTF_8)));
+        agent.subscribe("#", 1, (topic, message) -> heard.put(topic, new String(message.getPayload(), UTF_8)));
     }
 
     @AfterEach
@@ -144,9 +142,7 @@ class EmbeddedBrokerTest {
         Map<String, String> commands = new ConcurrentHashMap<>();
         assertThatThrownBy(() -> device.subscribe("#", 1)).isInstanceOf(MqttException.class);
         device.subscribe(
-                KEY + "/d/cmd",
-                1,
-                (topic, message) -> commands.put(topic, new String(message.getPayload(), UTF_8)));
+                KEY + "/d/cmd", 1, (topic, message) -> commands.put(topic, new String(message.getPayload(), UTF_8)));
         agent.publish(KEY + "/e/cmd", "on".getBytes(UTF_8), 1, false);
         agent.publish(KEY + "/d/cmd", "off".getBytes(UTF_8), 1, false);
 

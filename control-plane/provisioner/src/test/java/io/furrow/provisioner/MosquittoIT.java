@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import org.junit.jupiter.api.AutoClose;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -8,7 +7,7 @@ import java.util.List;
 import java.util.Set;
 
 import org.eclipse.paho.client.mqttv3.MqttException;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -42,6 +41,7 @@ class MosquittoIT {
     private ProvisionedMosquitto broker;
 
     private MosquittoFiles files;
+
     @AutoClose
     private MqttPeer agent;
 

@@ -89,9 +89,7 @@ final class ProvisionedMosquitto implements AutoCloseable {
 
     /** Connects as soon as the login is known: Mosquitto reads its files a moment after it is told to. */
     MqttPeer comesIn(FarmSecret.Login login) {
-        return await()
-                .ignoreExceptions()
-                .until(() -> connect(login, login.user()), MqttPeer::isConnected);
+        return await().ignoreExceptions().until(() -> connect(login, login.user()), MqttPeer::isConnected);
     }
 
     @Override

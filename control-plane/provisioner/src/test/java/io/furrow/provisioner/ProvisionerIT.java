@@ -97,12 +97,10 @@ class ProvisionerIT {
         try (Provisioner provisioner = provisioner()) {
             put(before);
             put(disliked);
-            await()
-                    .until(() -> statuses().containsKey(disliked.version().key()));
+            await().until(() -> statuses().containsKey(disliked.version().key()));
             agent.unavailable = true;
             put(after);
-            await()
-                    .until(() -> statuses().containsKey(after.version().key()));
+            await().until(() -> statuses().containsKey(after.version().key()));
 
             assertThat(statuses()).doesNotContainKey(before.version().key());
             assertThat(statuses().get(disliked.version().key()).reason()).contains("not provisioned", "422");
@@ -189,11 +187,10 @@ class ProvisionerIT {
     /** It notes with its offset that the devices of this Kafka are those of the agent. */
     private void awaitThatRemovalIsAllowed() {
         try (Admin admin = Admin.create(client())) {
-            await()
-                    .until(() -> !admin.listConsumerGroupOffsets(ProvisioningWorker.GROUP)
-                            .partitionsToOffsetAndMetadata()
-                            .get()
-                            .isEmpty());
+            await().until(() -> !admin.listConsumerGroupOffsets(ProvisioningWorker.GROUP)
+                    .partitionsToOffsetAndMetadata()
+                    .get()
+                    .isEmpty());
         }
     }
 

@@ -1,8 +1,6 @@
 package io.furrow.provisioner;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.HashSet;
@@ -14,7 +12,7 @@ import java.util.concurrent.atomic.AtomicLong;
 import java.util.function.Predicate;
 import java.util.stream.Collectors;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 
 import io.furrow.kafka.secret.SecretSource;
@@ -24,6 +22,8 @@ import io.furrow.provisioner.ProvisioningReconciler.Outcome;
 import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.provisioner.account.MqttAccount;
 import io.furrow.provisioner.account.MqttAccounts;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** A provisioner in a test's hands: what is requested, and what the agent and the MQTT brokers are told. */
 abstract class ProvisioningFixture {

@@ -1,7 +1,5 @@
 package io.furrow.control;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -15,7 +13,7 @@ import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.apache.kafka.streams.StreamsConfig;
 import org.apache.kafka.streams.TopologyTestDriver;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.mission.MissionSettings;
@@ -24,6 +22,7 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class AuditTopicTest {
@@ -31,7 +30,6 @@ class AuditTopicTest {
 
     @AutoClose
     private final TopologyTestDriver driver = new TopologyTestDriver(
-
             ControlTopology.of(
                     Duration.ofHours(1),
                     new MissionSettings(Duration.ofMinutes(1), FiwareScope.DEFAULT, false),

@@ -1,7 +1,5 @@
 package io.furrow.control;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -10,7 +8,7 @@ import java.util.Set;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.streams.test.TestRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.mission.MissionSettings;
@@ -26,6 +24,7 @@ import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ControlTopologyTest {
@@ -80,10 +79,8 @@ class ControlTopologyTest {
     void endsTheFieldsOfADomainThatIsDeletedAndReportsSo() throws Exception {
         farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
         FieldVersion field = new FieldVersion(
-                "f",
-                0,
-                (ObjectNode) NgsiJson.read("{\"type\":\"Polygon\"}".getBytes(UTF_8)),
-                (ObjectNode) NgsiJson.read("{\"Domain\":\"north\"}".getBytes(UTF_8)));
+                "f", 0, (ObjectNode) NgsiJson.read("{\"type\":\"Polygon\"}".getBytes(UTF_8)), (ObjectNode)
+                        NgsiJson.read("{\"Domain\":\"north\"}".getBytes(UTF_8)));
         farm.pipe(Topics.FIELDS, field.key(), field.toBytes());
         farm.pipe(Topics.FIELDS, "g", new byte[] {'?'});
         farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
@@ -256,17 +253,13 @@ class ControlTopologyTest {
                 .contains("\"seek\":{\"to\":5000,\"sequence\":5},\"step\":{\"total\":2,\"sequence\":4}")
                 .endsWith("\"sequence\":7}");
 
-        farm.pipe(
-                Topics.REPLAYS_STATUS, replay, "{\"sequence\":6,\"state\":\"ended\"}".getBytes(UTF_8));
+        farm.pipe(Topics.REPLAYS_STATUS, replay, "{\"sequence\":6,\"state\":\"ended\"}".getBytes(UTF_8));
         farm.pipe(
                 Topics.REPLAYS_STATUS,
                 replay,
                 "{\"sequence\":7,\"state\":\"stopped\",\"settled\":false}".getBytes(UTF_8));
         assertThat(farm.read(Topics.REPLAYS)).as("older, or not settled").isEmpty();
-        farm.pipe(
-                Topics.REPLAYS_STATUS,
-                replay,
-                "{\"sequence\":7,\"state\":\"stopped\"}".getBytes(UTF_8));
+        farm.pipe(Topics.REPLAYS_STATUS, replay, "{\"sequence\":7,\"state\":\"stopped\"}".getBytes(UTF_8));
         assertThat(farm.only(Topics.REPLAYS).value()).isNull();
         farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'stop','replay':'" + replay + "'}");
         assertThat(ManagerFixture.error(farm.only(Topics.REPLAY_MANAGER))).isEqualTo("unknown-replay");
@@ -436,8 +429,7 @@ class ControlTopologyTest {
                         .toString())
                 .doesNotContain("-0000")
                 .contains("domain-requests-repartition", "mission-requests-repartition", "replay-requests-repartition");
-        assertThat(farm.stores())
-                .isEqualTo(Set.of("""
+        assertThat(farm.stores()).isEqualTo(Set.of("""
                                 domains farm-sequence domain-answers domain-positions missions mission-statuses
                                 devices mission-device-lists mission-rollouts templates template-versions
                                 mission-answers mission-positions device-statuses-positions device-healths-positions

@@ -1,11 +1,10 @@
 package io.furrow.control;
 
-import org.junit.jupiter.api.AutoClose;
 import java.time.Duration;
 import java.util.List;
 
 import org.apache.kafka.streams.test.TestRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.topic.Topics;

@@ -1,7 +1,5 @@
 package io.furrow.control;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashSet;
@@ -9,7 +7,7 @@ import java.util.List;
 import java.util.Set;
 
 import org.apache.kafka.streams.test.TestRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -22,6 +20,7 @@ import io.furrow.model.control.RecordedMission;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Replays of several missions that follow one clock. Missions a and b are stored, from 10 s to 60 s and from 20 s to 90 s. */

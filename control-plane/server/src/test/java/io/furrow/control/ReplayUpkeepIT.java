@@ -1,6 +1,5 @@
 package io.furrow.control;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -55,6 +54,7 @@ import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.Requests;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -77,10 +77,8 @@ class ReplayUpkeepIT {
                 directory.resolve("kafka"),
                 0,
                 Map.of(
-                        "authorizer.class.name",
-                        "org.apache.kafka.metadata.authorizer.StandardAuthorizer",
-                        "allow.everyone.if.no.acl.found",
-                        "true")));
+                        "authorizer.class.name", "org.apache.kafka.metadata.authorizer.StandardAuthorizer",
+                        "allow.everyone.if.no.acl.found", "true")));
         client = new Properties();
         client.setProperty("bootstrap.servers", kafka.bootstrapServers());
         client.setProperty("state.dir", directory.resolve("state").toString());
@@ -220,8 +218,7 @@ class ReplayUpkeepIT {
         Instant later = clock.updateAndGet(instant -> instant.plusMillis(1));
         await().until(() -> later.equals(cleanup.status().lastSuccess()));
 
-        assertThat(names())
-                .contains("""
+        assertThat(names()).contains("""
                                 data.farm.realtime.mowing data.farm.realtime.sowing data.farm.realtime.played
                                 data.farm.realtime.own""".split("\\s+"));
     }

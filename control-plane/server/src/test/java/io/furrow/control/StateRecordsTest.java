@@ -1,12 +1,11 @@
 package io.furrow.control;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
-
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.ngsi.StateJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** The records on topics and in stores are written as they were read, member by member, whole and without what may be missing. */

@@ -1,14 +1,12 @@
 package io.furrow.control;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.streams.test.TestRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.control.Limits;
@@ -18,6 +16,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class WatchTopologyTest {
@@ -438,8 +437,7 @@ class WatchTopologyTest {
                                 temperatures-repartition clocks-repartition faults-repartition
                                 context-domains-repartition context-missions-repartition
                                 context-mission-statuses-repartition""".split("\\s+"));
-        assertThat(farm.stores())
-                .isEqualTo(Set.of("""
+        assertThat(farm.stores()).isEqualTo(Set.of("""
                                 alarms current-alarms alarm-mutes alarm-sequence alarm-groups alarm-counted
                                 alarm-answers alarm-positions collisions-positions temperatures-positions suspect-runs
                                 clocks-positions faults-positions wanted-devices device-connections device-health

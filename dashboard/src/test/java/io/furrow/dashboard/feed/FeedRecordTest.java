@@ -1,10 +1,9 @@
 package io.furrow.dashboard.feed;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
-
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class FeedRecordTest {
@@ -19,8 +18,7 @@ class FeedRecordTest {
 
     private static String key(String json) {
         byte[] value = json.replace('\'', '"').getBytes(UTF_8);
-        ConsumerRecord<byte[], byte[]> record =
-                new ConsumerRecord<>("t", 0, 0, "c".getBytes(UTF_8), value);
+        ConsumerRecord<byte[], byte[]> record = new ConsumerRecord<>("t", 0, 0, "c".getBytes(UTF_8), value);
         return new FeedRecord(record, FeedRecord.NO_SEQUENCE, 1_000).key();
     }
 }

@@ -1,7 +1,6 @@
 package io.furrow.ingest.image;
 
 import java.io.IOException;
-import static java.nio.charset.StandardCharsets.US_ASCII;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.FileTime;
@@ -19,6 +18,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.mission.image.ImageName;
 import io.furrow.model.event.FiwareScope;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

@@ -1,7 +1,5 @@
 package io.furrow.ingest.latest;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -9,7 +7,7 @@ import java.util.Map;
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -20,6 +18,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MergeLatestTest {
@@ -232,12 +231,9 @@ class MergeLatestTest {
 
     private void event(long time, long received, byte[] value) throws Exception {
         Map<String, String> headers = Map.of(
-                HeaderNames.CE_ID,
-                "e" + time,
-                HeaderNames.TS_DEVICE,
-                Long.toString(time),
-                HeaderNames.TS_SOURCE,
-                Long.toString(received));
+                HeaderNames.CE_ID, "e" + time,
+                HeaderNames.TS_DEVICE, Long.toString(time),
+                HeaderNames.TS_SOURCE, Long.toString(received));
         TopicRecord record = TopicRecord.of("data.raw", time, "robot", value, headers);
         operator.processElement(new ReportedEvent("e" + time, "farm|/|robot", "robot", "Robot", "", "", record), time);
     }

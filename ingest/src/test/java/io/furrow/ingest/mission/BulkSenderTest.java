@@ -1,6 +1,5 @@
 package io.furrow.ingest.mission;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Clock;
@@ -17,7 +16,7 @@ import com.mongodb.client.MongoClient;
 import com.mongodb.client.model.IndexOptions;
 import com.mongodb.client.model.Indexes;
 import org.bson.Document;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -43,6 +42,7 @@ class BulkSenderTest {
     private EmbeddedMongo mongo;
 
     private MongoAccess access;
+
     @AutoClose
     private MongoClient client;
 

@@ -1,12 +1,11 @@
 package io.furrow.ingest.mission;
 
-import org.junit.jupiter.api.AutoClose;
 import java.util.List;
 import java.util.stream.Stream;
 
 import org.apache.flink.streaming.api.operators.ProcessOperator;
 import org.apache.flink.streaming.util.OneInputStreamOperatorTestHarness;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;

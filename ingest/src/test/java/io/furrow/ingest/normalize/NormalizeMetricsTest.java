@@ -1,6 +1,5 @@
 package io.furrow.ingest.normalize;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.HashMap;
 import java.util.List;
@@ -24,6 +23,7 @@ import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.CollectedOutput;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class NormalizeMetricsTest {

@@ -1,6 +1,5 @@
 package io.furrow.ingest.normalize;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -26,6 +25,8 @@ import io.furrow.flink.restart.JobCase;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.ingest.CollectedOutput;
 import io.furrow.model.event.HeaderNames;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 @Timeout(value = 10, unit = TimeUnit.HOURS)
 class NormalizeRestartTest {

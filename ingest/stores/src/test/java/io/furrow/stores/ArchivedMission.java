@@ -3,7 +3,6 @@ package io.furrow.stores;
 import java.io.ByteArrayInputStream;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 
 import org.apache.flink.core.fs.Path;
 
@@ -12,6 +11,7 @@ import io.furrow.mission.archive.MissionArchive;
 import io.furrow.mission.archive.MissionFiles;
 import io.furrow.mission.archive.StoredMissions;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A mission of two days, archived and brought back. */

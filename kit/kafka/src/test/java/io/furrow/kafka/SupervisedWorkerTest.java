@@ -63,8 +63,7 @@ class SupervisedWorkerTest {
                     throw new NoClassDefFoundError("a/b");
                 },
                 () -> "nothing waits");
-        await().dontCatchUncaughtExceptions()
-                .until(() -> worker.status().state() == ComponentStatus.State.DEAD);
+        await().dontCatchUncaughtExceptions().until(() -> worker.status().state() == ComponentStatus.State.DEAD);
         assertThat(begun.getCount()).isZero();
         assertThat(worker.status().detail()).contains("no class def found: a/b", "start the process again");
     }

@@ -1,6 +1,5 @@
 package io.furrow.mission;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Collection;
@@ -12,6 +11,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.mission.file.FileRecordings;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

@@ -58,12 +58,9 @@ class BrokerOptionsTest {
     void takesTheTokenFromAFileInstead(@TempDir Path directory) throws Exception {
         Path file = Files.writeString(directory.resolve("token"), "Bearer x\n");
         Map<String, String> given = Map.of(
-                BrokerOptions.URL,
-                "http://orion:1026",
-                BrokerOptions.AUTH_TOKEN_FILE,
-                file.toString(),
-                BrokerOptions.AUTH_HEADER,
-                "Authorization");
+                BrokerOptions.URL, "http://orion:1026",
+                BrokerOptions.AUTH_TOKEN_FILE, file.toString(),
+                BrokerOptions.AUTH_HEADER, "Authorization");
         Map<String, String> sent = new HashMap<>();
 
         options(Optional.empty(), given).settings().token().addTo(sent::put);

@@ -1,7 +1,6 @@
 package io.furrow.connect.journal;
 
 import java.nio.file.Path;
-import java.util.List;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;

@@ -1,7 +1,6 @@
 package io.furrow.connect.journal;
 
 import java.io.IOException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -16,6 +15,7 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -277,9 +277,7 @@ class JournalTest {
     }
 
     static List<byte[]> payloads(String... texts) {
-        return Stream.of(texts)
-                .map(text -> text.getBytes(UTF_8))
-                .toList();
+        return Stream.of(texts).map(text -> text.getBytes(UTF_8)).toList();
     }
 
     static List<String> read(JournalReader reader) throws InterruptedException {

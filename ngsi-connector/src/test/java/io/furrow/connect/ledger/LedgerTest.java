@@ -1,7 +1,6 @@
 package io.furrow.connect.ledger;
 
 import java.lang.management.ManagementFactory;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import javax.management.AttributeNotFoundException;
 import javax.management.InstanceNotFoundException;
 import javax.management.MBeanServer;
@@ -10,6 +9,7 @@ import javax.management.ObjectName;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

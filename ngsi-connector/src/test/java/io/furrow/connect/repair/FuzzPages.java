@@ -2,7 +2,6 @@ package io.furrow.connect.repair;
 
 import java.io.IOException;
 import java.net.URLEncoder;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -26,6 +25,8 @@ import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * What a fuzzer throws at the reading of a repair: the answers of a {@link Script} to what it asks of a context broker. Whatever
@@ -120,8 +121,7 @@ public final class FuzzPages {
         for (String id : output.deleted) {
             require(
                     broker.exchanges().stream()
-                            .filter(exchange -> exchange.path()
-                                    .contains("id=" + URLEncoder.encode(id, UTF_8) + "&"))
+                            .filter(exchange -> exchange.path().contains("id=" + URLEncoder.encode(id, UTF_8) + "&"))
                             .anyMatch(exchange -> shown(exchange)
                                     .filter(list -> !list.findValuesAsText("id").stream()
                                             .map(FuzzPages::printable)

@@ -5,7 +5,6 @@ import java.io.OutputStream;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
@@ -32,6 +31,8 @@ import io.furrow.connect.subscription.Subject;
 import io.furrow.connect.subscription.Target;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** A process of its own that repairs from a context broker with large entities, and is sent many ids, on a small heap. */
 final class PressedRepair {

@@ -1,7 +1,6 @@
 package io.furrow.connect.repair;
 
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -35,6 +34,7 @@ import io.furrow.fiware.FiwareSettings;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 

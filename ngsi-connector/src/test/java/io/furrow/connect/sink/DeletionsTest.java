@@ -109,14 +109,10 @@ class DeletionsTest {
         task = new NgsiSinkTask();
         task.initialize(context);
         task.start(new HashMap<>(Map.of(
-                "context.broker.url",
-                broker.url().toString(),
-                "api",
-                api,
-                "parallel.requests",
-                "1",
-                "delete.on.null",
-                "true")));
+                "context.broker.url", broker.url().toString(),
+                "api", api,
+                "parallel.requests", "1",
+                "delete.on.null", "true")));
     }
 
     private static List<SinkRecord> entities() {

@@ -1,6 +1,5 @@
 package io.furrow.connect.sink;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.Date;
 import java.util.Map;
@@ -23,6 +22,7 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

@@ -23,14 +23,10 @@ class IsolationTest {
     private final FakeContextBroker broker = new FakeContextBroker();
     private final FakeSinkContext context = new FakeSinkContext(true);
     private final Map<String, String> options = new HashMap<>(Map.of(
-            "context.broker.url",
-            broker.url().toString(),
-            "delete.on.null",
-            "true",
-            "retry.isolate.after",
-            "3",
-            "retry.refuse.after",
-            "6"));
+            "context.broker.url", broker.url().toString(),
+            "delete.on.null", "true",
+            "retry.isolate.after", "3",
+            "retry.refuse.after", "6"));
     private NgsiSinkTask task;
 
     @AfterEach

@@ -1,7 +1,5 @@
 package io.furrow.connect.sink;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
@@ -13,8 +11,7 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
-import org.junit.jupiter.api.AfterAll;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -25,6 +22,7 @@ import io.furrow.connect.sink.FakeContextBroker.Reply;
 import io.furrow.connect.sink.FakeContextBroker.Update;
 import io.furrow.model.ngsi.Entity;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -106,16 +104,11 @@ class NgsiSinkIT {
         rig.create(
                 "ngsi-sink",
                 Map.of(
-                        "topics",
-                        topic,
-                        "context.broker.url",
-                        broker.url().toString(),
-                        "errors.deadletterqueue.topic.name",
-                        topic + ".dead",
-                        "retry.backoff.ms",
-                        "100",
-                        "consumer.override.metadata.max.age.ms",
-                        "500"));
+                        "topics", topic,
+                        "context.broker.url", broker.url().toString(),
+                        "errors.deadletterqueue.topic.name", topic + ".dead",
+                        "retry.backoff.ms", "100",
+                        "consumer.override.metadata.max.age.ms", "500"));
     }
 
     private static void produce(String topic, int count) {

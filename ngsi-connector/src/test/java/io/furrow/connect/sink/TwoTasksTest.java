@@ -48,14 +48,10 @@ class TwoTasksTest {
         NgsiSinkTask task = new NgsiSinkTask();
         task.initialize(new FakeSinkContext(true));
         task.start(new HashMap<>(Map.of(
-                "context.broker.url",
-                broker.url().toString(),
-                "delete.on.null",
-                "true",
-                "known.max.age.ms",
-                "0",
-                "task.index",
-                Integer.toString(index))));
+                "context.broker.url", broker.url().toString(),
+                "delete.on.null", "true",
+                "known.max.age.ms", "0",
+                "task.index", Integer.toString(index))));
         return task;
     }
 

@@ -3,7 +3,6 @@ package io.furrow.connect.source;
 import java.io.IOException;
 import java.net.InetAddress;
 import java.net.Socket;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Map;
 
 import org.apache.kafka.common.config.ConfigException;
@@ -11,6 +10,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -107,8 +107,7 @@ class AccessTest {
     private static String ask(NotificationRig rig, String head, String body) throws IOException {
         try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), rig.port())) {
             socket.setSoTimeout((int) NotificationRig.TIMEOUT.toMillis());
-            socket.getOutputStream()
-                    .write((head + "Connection: close\r\n\r\n" + body).getBytes(UTF_8));
+            socket.getOutputStream().write((head + "Connection: close\r\n\r\n" + body).getBytes(UTF_8));
             socket.getOutputStream().flush();
             return new String(socket.getInputStream().readAllBytes(), UTF_8);
         }

@@ -5,7 +5,6 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Arrays;
 import java.util.zip.GZIPOutputStream;
 
@@ -16,6 +15,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 import io.furrow.connect.record.KafkaRecord;
 import io.furrow.model.event.DeadLetter;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class EncodedBodiesTest {

@@ -1,6 +1,5 @@
 package io.furrow.connect.source;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.Arrays;
 import java.util.List;
@@ -16,6 +15,8 @@ import io.furrow.connect.source.notification.Translation;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * What a fuzzer throws at the reading of bodies: the first byte picks the form that the sender names, the others are the

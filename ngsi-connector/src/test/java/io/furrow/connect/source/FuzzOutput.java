@@ -1,6 +1,5 @@
 package io.furrow.connect.source;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
@@ -16,6 +15,8 @@ import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Makes the records of a repair as the source does, and says of which entities they are. Not safe for threads. */
 public final class FuzzOutput implements RepairOutput {

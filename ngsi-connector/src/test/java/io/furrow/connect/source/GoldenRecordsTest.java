@@ -1,7 +1,6 @@
 package io.furrow.connect.source;
 
 import java.io.IOException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Instant;
@@ -23,6 +22,7 @@ import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.notification.ReceivedNotification;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**

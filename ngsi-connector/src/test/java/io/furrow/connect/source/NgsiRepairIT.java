@@ -1,9 +1,6 @@
 package io.furrow.connect.source;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
@@ -12,8 +9,7 @@ import java.util.Random;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.junit.jupiter.api.AfterAll;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -28,6 +24,7 @@ import io.furrow.fiware.FiwareSettings.Connections;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -89,9 +86,8 @@ class NgsiRepairIT {
             await().until(() -> subscription().path("status").asText().equals("active"));
 
             broker.put("/", "e77", "Probe", -1);
-            await()
-                    .until(() -> reader.atLeast(1).stream()
-                            .anyMatch(record -> record.key().equals("e77") && value(record) == -1));
+            await().until(() ->
+                    reader.atLeast(1).stream().anyMatch(record -> record.key().equals("e77") && value(record) == -1));
         }
     }
 
@@ -106,11 +102,10 @@ class NgsiRepairIT {
         int port = FreePort.orFree(0);
         source("kept", port);
 
-        await()
-                .until(() -> subscription()
-                        .at("/notification/httpCustom/url")
-                        .asText()
-                        .equals("http://127.0.0.1:" + port + "/v2/notify"));
+        await().until(() -> subscription()
+                .at("/notification/httpCustom/url")
+                .asText()
+                .equals("http://127.0.0.1:" + port + "/v2/notify"));
         assertThat(subscription().path("id").asText()).isEqualTo(id);
         broker.send("DELETE", "/v2/subscriptions/" + id, "/#", "");
         broker.put("/", "unnoticed", "Probe", 1);

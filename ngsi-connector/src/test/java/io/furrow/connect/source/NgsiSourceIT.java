@@ -1,12 +1,10 @@
 package io.furrow.connect.source;
 
-import org.junit.jupiter.api.AutoClose;
 import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -19,7 +17,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.Header;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -29,6 +27,7 @@ import io.furrow.connect.TopicReader;
 import io.furrow.embedded.FreePort;
 import io.furrow.model.event.DeadLetter;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class NgsiSourceIT {
@@ -163,18 +162,12 @@ class NgsiSourceIT {
         rig.create(
                 "ngsi-source",
                 Map.of(
-                        "topic",
-                        topic,
-                        "listen.port",
-                        Integer.toString(port),
-                        "producer.override.max.request.size",
-                        "16777216",
-                        "admin.override.bootstrap.servers",
-                        rig.bootstrapServers()));
+                        "topic", topic,
+                        "listen.port", Integer.toString(port),
+                        "producer.override.max.request.size", "16777216",
+                        "admin.override.bootstrap.servers", rig.bootstrapServers()));
         source = URI.create("http://127.0.0.1:" + port);
-        org.awaitility.Awaitility.await()
-                .ignoreExceptions()
-                .until(() -> health().contains("\"requests\":0"));
+        org.awaitility.Awaitility.await().ignoreExceptions().until(() -> health().contains("\"requests\":0"));
     }
 
     private String health() throws Exception {

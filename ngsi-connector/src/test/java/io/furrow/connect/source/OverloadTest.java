@@ -6,7 +6,6 @@ import java.net.Socket;
 import java.net.SocketException;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
-import static java.nio.charset.StandardCharsets.US_ASCII;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -18,6 +17,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.source.journal.RecordLog;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -192,14 +192,8 @@ class OverloadTest {
     @Test
     void turnsAwayABodyThatFindsNoMemoryInTime() {
         try (NotificationRig rig = new NotificationRig(
-                "max.body.bytes",
-                "100000",
-                "overload.memory.bytes",
-                "100000",
-                "overload.hold.ms",
-                "300",
-                "overload.answer",
-                "503")) {
+                "max.body.bytes", "100000", "overload.memory.bytes", "100000",
+                "overload.hold.ms", "300", "overload.answer", "503")) {
             rig.recordLog.answer = Optional.of(new CompletableFuture<>());
             byte[] all = new byte[100_000];
 

@@ -83,8 +83,6 @@ public record SourceOnConnect(int port, HttpClient client) {
 
     /** Patient also with a listener that is being made. */
     public static ConditionFactory await() {
-        return Awaitility.await()
-                .pollInterval(Duration.ofMillis(50))
-                .ignoreExceptions();
+        return Awaitility.await().pollInterval(Duration.ofMillis(50)).ignoreExceptions();
     }
 }

@@ -1,6 +1,5 @@
 package io.furrow.connect.source;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -13,7 +12,7 @@ import java.util.OptionalLong;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.common.config.types.Password;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -158,14 +157,10 @@ class SubscriptionManagerTest {
 
     private NgsiSourceConfig config(Map<String, String> options) {
         Map<String, String> all = new HashMap<>(Map.of(
-                "name",
-                "farm",
-                "journal.dir",
-                directory.toString(),
-                "topic",
-                "raw",
-                "context.broker.url",
-                broker.uri().toString()));
+                "name", "farm",
+                "journal.dir", directory.toString(),
+                "topic", "raw",
+                "context.broker.url", broker.uri().toString()));
         all.putAll(options);
         return new NgsiSourceConfig(all);
     }

@@ -64,12 +64,9 @@ class TlsTest {
         String pem = Files.readString(directory.resolve("server-ec.pem"));
         int certificate = pem.indexOf("-----BEGIN CERTIFICATE-----");
         try (NotificationRig rig = new NotificationRig(
-                "ssl.keystore.type",
-                "PEM",
-                "ssl.keystore.key",
-                pem.substring(0, certificate),
-                "ssl.keystore.certificate.chain",
-                pem.substring(certificate))) {
+                "ssl.keystore.type", "PEM",
+                "ssl.keystore.key", pem.substring(0, certificate),
+                "ssl.keystore.certificate.chain", pem.substring(certificate))) {
             assertThat(post(rig, keys.client("server-ec", null)).statusCode()).isEqualTo(200);
         }
     }
@@ -206,12 +203,9 @@ class TlsTest {
 
     private static String[] withKeys(String file) {
         return new String[] {
-            "ssl.keystore.type",
-            "PKCS12",
-            "ssl.keystore.location",
-            keys.file(file),
-            "ssl.keystore.password",
-            TlsKeys.PASSWORD
+            "ssl.keystore.type", "PKCS12",
+            "ssl.keystore.location", keys.file(file),
+            "ssl.keystore.password", TlsKeys.PASSWORD
         };
     }
 

@@ -1,10 +1,9 @@
 package io.furrow.replay.source;
 
-import org.junit.jupiter.api.AutoClose;
 import java.util.List;
 import java.util.concurrent.CopyOnWriteArrayList;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.mission.Cursor;
@@ -25,9 +24,9 @@ class PageReaderTest {
 
     private final MemoryRecordings missions = new MemoryRecordings().with("m", TIME, TIME + 10, TIME + 20, TIME + 30);
     private final List<ReadResult> answers = new CopyOnWriteArrayList<>();
+
     @AutoClose
     private final PageReader pages = new PageReader(
-
             DesiredReplay.started("m", Topics.replay("m", "0a1b2c3d"), ReplayPlan.PLAIN, 1, 0, 1),
             () -> {},
             new RunningReplay.Reading(

@@ -1,7 +1,6 @@
 package io.furrow.replay.source;
 
 import java.io.IOException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
@@ -23,6 +22,7 @@ import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.source.DesiredReplays.ReplayUpdate;
 import io.furrow.replay.source.DesiredReplays.ReportedStatus;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ReplayEnumeratorTest {

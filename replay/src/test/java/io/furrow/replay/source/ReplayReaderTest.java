@@ -1,7 +1,5 @@
 package io.furrow.replay.source;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
@@ -12,7 +10,7 @@ import java.util.stream.LongStream;
 import org.apache.flink.api.connector.source.ReaderOutput;
 import org.apache.flink.core.io.InputStatus;
 import org.apache.flink.runtime.execution.SuppressRestartsException;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.record.TopicRecord;
@@ -28,6 +26,7 @@ import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.recording.RecordingSources;
 import io.furrow.replay.topic.TopicEnd;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -41,6 +40,7 @@ class ReplayReaderTest {
     private final List<Long> times = new ArrayList<>();
     private final OnePartition topics = new OnePartition();
     private final AtomicLong ahead = new AtomicLong();
+
     @AutoClose
     private ReplayReader reader = newReader(ReplayClock.SYSTEM);
 
@@ -125,8 +125,7 @@ class ReplayReaderTest {
         missions.with("m", TIME, TIME + 50);
         start(desired("stuck", 1, State.RUNNING, 1));
         start(desired("unknown", 1, State.RUNNING, 1));
-        reader.addSplits(List.of(
-                new ReplaySplit("bad.0a1b2c3d", "no JSON".getBytes(UTF_8), PlaybackState.fresh())));
+        reader.addSplits(List.of(new ReplaySplit("bad.0a1b2c3d", "no JSON".getBytes(UTF_8), PlaybackState.fresh())));
         start(desired("m", 1, State.RUNNING, 1));
 
         playUntil(() -> !played("m", "end").isEmpty()

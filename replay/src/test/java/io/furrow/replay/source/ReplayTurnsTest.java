@@ -1,6 +1,5 @@
 package io.furrow.replay.source;
 
-import org.junit.jupiter.api.AutoClose;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
@@ -9,7 +8,7 @@ import java.util.stream.LongStream;
 
 import org.apache.flink.api.connector.source.ReaderOutput;
 import org.apache.flink.core.io.InputStatus;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.record.TopicRecord;
@@ -34,14 +33,15 @@ class ReplayTurnsTest {
     private final MemoryRecordings missions = new MemoryRecordings();
     private final FakeContext context = new FakeContext();
     private final List<TopicRecord> records = new ArrayList<>();
+
     @AutoClose
     private final ReplayReader reader = new ReplayReader(
-
             context,
             RecordingSources.of(missions),
             new PageLimits(EVENTS, 1_000_000),
             new OnePartition(),
             new ReplayClock(nanos::get));
+
     private long microsPerRecord;
     private final ReaderOutput<TopicRecord> output = new FakeContext.Output(record -> {
         records.add(record);

@@ -1,6 +1,5 @@
 package io.furrow.fiware;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.net.URISyntaxException;
 import java.nio.file.Files;
@@ -15,7 +14,7 @@ import java.util.Map;
 import java.util.TreeMap;
 import java.util.stream.Stream;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -29,6 +28,7 @@ class RecordedNotificationsTest {
     private static final int SUBSCRIPTIONS = 7;
 
     private final SettableClock clock = new SettableClock();
+
     @AutoClose
     private final NotificationReceiver receiver = new NotificationReceiver();
 

@@ -3,8 +3,6 @@ package io.furrow.cli;
 import java.io.ByteArrayInputStream;
 import java.io.PrintWriter;
 import java.io.StringWriter;
-import static java.nio.charset.StandardCharsets.ISO_8859_1;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
@@ -19,6 +17,8 @@ import io.furrow.mission.marker.Marker;
 import io.furrow.mission.marker.Markers;
 import io.furrow.mission.mongo.MongoAccess;
 
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MissionExportTest {
@@ -72,9 +72,7 @@ class MissionExportTest {
             assertThat(out.toString()).contains("its markers in " + folder.resolve("hoeing.markers.jsonl"));
             assertThat(Files.readString(exported(mongo, "hoeing.geojson", "--format", "geojson")))
                     .contains("{\"kind\":\"marker\",\"id\":\"m1\"");
-            assertThat(new String(
-                            Files.readAllBytes(exported(mongo, "hoeing.mcap", "--format", "mcap")),
-                            ISO_8859_1))
+            assertThat(new String(Files.readAllBytes(exported(mongo, "hoeing.mcap", "--format", "mcap")), ISO_8859_1))
                     .contains("\"note\":\"turns\"");
 
             markers.remove("hoeing", "m1");

@@ -128,12 +128,8 @@ class ArchiveIT {
 
     @ParameterizedTest
     @CsvSource({
-        "ingest, ingest",
-        "ingest, normalize",
-        "analytics, temperature",
-        "analytics, collision",
-        "analytics, presence",
-        "replay, replay"
+        "ingest, ingest", "ingest, normalize", "analytics, temperature",
+        "analytics, collision", "analytics, presence", "replay, replay"
     })
     void rejectsWrongOptionsOfAJobInASentence(String module, String job) throws Exception {
         String jar = home.resolve("jobs/furrow-%s-%s-job.jar".formatted(module, VERSION))

@@ -52,7 +52,8 @@ class CollisionRulesTest {
 
     @Test
     void letTheExactStagesSeeEverythingUpToWhereEncountersEnd() {
-        var exact = CollisionRules.DEFAULT.with(new DebounceRules(2, Duration.ZERO)).exact();
+        var exact =
+                CollisionRules.DEFAULT.with(new DebounceRules(2, Duration.ZERO)).exact();
         assertThat(exact.thresholdMeters()).isEqualTo(10);
         assertThat(exact.ongoingEvery()).isZero();
         assertThat(exact.exact()).isEqualTo(exact);

@@ -1,6 +1,5 @@
 package io.furrow.provisioner.account;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
@@ -14,6 +13,7 @@ import io.furrow.model.device.DeviceConnection.ForeignTopic;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.FarmSecret;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class InMemoryAccountsTest {

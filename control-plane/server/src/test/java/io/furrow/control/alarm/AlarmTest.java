@@ -1,11 +1,10 @@
 package io.furrow.control.alarm;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
-
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.ngsi.StateJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class AlarmTest {

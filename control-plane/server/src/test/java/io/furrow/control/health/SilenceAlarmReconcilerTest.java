@@ -1,6 +1,5 @@
 package io.furrow.control.health;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.Optional;
 
@@ -16,6 +15,7 @@ import io.furrow.model.control.AlarmKind;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class SilenceAlarmReconcilerTest {

@@ -1,7 +1,5 @@
 package io.furrow.control.manager;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.Properties;
 
@@ -20,13 +18,14 @@ import org.apache.kafka.streams.kstream.Produced;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.Record;
 import org.apache.kafka.streams.test.TestRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

@@ -70,7 +70,8 @@ class MissionLifeTest {
         farm.pass(500);
         farm.request(new MissionCommand.Stop("m"));
 
-        var version = DeviceVersion.read(farm.publisher.compacted(Topics.DEVICES).get("farm|/|urn:robot"));
+        var version =
+                DeviceVersion.read(farm.publisher.compacted(Topics.DEVICES).get("farm|/|urn:robot"));
         assertThat(version)
                 .extracting(DeviceVersion::domain, DeviceVersion::mission, DeviceVersion::from, DeviceVersion::until)
                 .containsExactly("north", "m", begin, begin + 500);

@@ -1,6 +1,5 @@
 package io.furrow.control.replay;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Optional;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -10,6 +9,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class DeletedNamesTest {

@@ -1,8 +1,6 @@
 package io.furrow.control.rest;
 
-import org.junit.jupiter.api.AutoClose;
 import java.net.http.HttpResponse;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -15,7 +13,7 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -26,6 +24,7 @@ import io.furrow.control.rest.view.AuditHistory;
 import io.furrow.control.rest.view.StateView;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -48,8 +47,7 @@ class AuditIT {
                 producer.send(new ProducerRecord<>(Topics.AUDIT, entry(i)));
             }
         }
-        await()
-                .until(() -> running.get("/api/audit?limit=1").at("/0/time").asInt() == ENTRIES - 1);
+        await().until(() -> running.get("/api/audit?limit=1").at("/0/time").asInt() == ENTRIES - 1);
     }
 
     /** The first is about a mission of its own, and so is one of the last. */

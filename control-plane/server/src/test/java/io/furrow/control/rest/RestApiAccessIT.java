@@ -1,17 +1,15 @@
 package io.furrow.control.rest;
 
-import org.junit.jupiter.api.AutoClose;
 import java.net.Socket;
 import java.net.SocketTimeoutException;
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.US_ASCII;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.util.Arrays;
 import java.util.List;
 
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -21,6 +19,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.control.readiness.Readiness;
 import io.furrow.http.AllowedNames;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -30,6 +29,7 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class RestApiAccessIT {
     private Path directory;
+
     @AutoClose
     private RunningApi running;
 
@@ -129,8 +129,7 @@ class RestApiAccessIT {
         try (RestApi other = RestApi.start(running.settings(), settings, new Readiness(Clock.systemUTC()))) {
             ApiClient nobody = new ApiClient(other.uri(), null);
             ApiClient ann = new ApiClient(other.uri(), "a-token-of-sixteen-signs");
-            await()
-                    .until(() -> nobody.send("GET", "/ready", null).statusCode() == 200);
+            await().until(() -> nobody.send("GET", "/ready", null).statusCode() == 200);
             for (String path :
                     new String[] {"/api/domains", "//api/domains", "/api/../api/domains", "/api;x/domains"}) {
                 assertThat(nobody.raw(path, "localhost")).as(path).containsAnyOf(" 401 ", " 400 ");
@@ -146,9 +145,8 @@ class RestApiAccessIT {
             assertThat(ann.send("GET", "/api/domains", null).statusCode()).isEqualTo(200);
             ann.send("POST", "/api/domains", "{\"domain\":\"ann-s\",\"user\":\"bob\"}");
         }
-        await()
-                .untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
-                        .anyMatch(entry -> entry.path("user").asText().equals("ann")
-                                && entry.at("/about/domain").asText().equals("ann-s")));
+        await().untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
+                .anyMatch(entry -> entry.path("user").asText().equals("ann")
+                        && entry.at("/about/domain").asText().equals("ann-s")));
     }
 }

@@ -124,8 +124,7 @@ class RestApiIT {
         String key = running.settings().missions().scope().identity(id);
         running.write(Topics.DEVICES_CONNECTION, key, connection.toBytes());
 
-        await()
-                .until(() -> running.get("/api/devices/" + id).has("connection"));
+        await().until(() -> running.get("/api/devices/" + id).has("connection"));
         JsonNode shown = running.get("/api/devices/" + id).path("connection");
         assertThat(shown.at("/refusedLogin/count").asInt()).isEqualTo(12);
         assertThat(shown.at("/unreadablePayload/payload").asText()).isEqualTo("{");
@@ -142,8 +141,7 @@ class RestApiIT {
         byte[] device = new DeviceVersion(id, other.service(), other.servicePath(), "", "", 0, null, 1, null).toBytes();
         running.write(Topics.DEVICES, other.identity(id), device);
 
-        await()
-                .untilAsserted(() -> running.refused("GET", "/api/devices/" + id, null, 409, "ambiguous-device"));
+        await().untilAsserted(() -> running.refused("GET", "/api/devices/" + id, null, 409, "ambiguous-device"));
         running.refused("GET", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
         running.refused("POST", "/api/devices/" + id + "/credentials", null, 409, "ambiguous-device");
         running.refused(
@@ -166,11 +164,9 @@ class RestApiIT {
         running.refused("GET", "/api/devices/" + id + there + "&type=Pump", null, 404, "unknown-device");
 
         running.write(Topics.DEVICES, other.identity(id), null);
-        await()
-                .untilAsserted(() -> assertThat(running.get("/api/devices/" + id)
-                                .path("mission")
-                                .asText())
-                        .isEqualTo("hoeing"));
+        await().untilAsserted(() -> assertThat(
+                        running.get("/api/devices/" + id).path("mission").asText())
+                .isEqualTo("hoeing"));
     }
 
     private void devices() throws Exception {
@@ -256,21 +252,20 @@ class RestApiIT {
         running.refused("GET", "/api/devices/nosuch", null, 404, "unknown-device");
         running.refused("POST", "/api/devices/nosuch/commands", "{\"command\":\"on\"}", 404, "unknown-device");
 
-        await()
-                .untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
-                        .anyMatch(entry -> entry.path("command").asText().equals("Stop")
-                                && entry.at("/about/device").asText().equals("robot-1")
-                                && entry.path("user").asText().equals("rest")
-                                && entry.path("result").asText().equals("sent"))
-                        .anyMatch(entry -> entry.path("command").asText().equals("restart")
-                                && entry.at("/about/value").asText().equals("7"))
-                        .anyMatch(entry -> entry.path("command").asText().equals("credentials"))
-                        .anyMatch(entry -> entry.path("command").asText().equals("rotate-credentials")
-                                && entry.at("/about/device").asText().equals(id)
-                                && entry.path("result").asText().equals("rotated"))
-                        .anyMatch(entry -> entry.path("error").asText().equals("context-broker"))
-                        .anyMatch(entry -> entry.path("command").asText().equals("start")
-                                && entry.at("/about/mission").asText().equals("hoeing")));
+        await().untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
+                .anyMatch(entry -> entry.path("command").asText().equals("Stop")
+                        && entry.at("/about/device").asText().equals("robot-1")
+                        && entry.path("user").asText().equals("rest")
+                        && entry.path("result").asText().equals("sent"))
+                .anyMatch(entry -> entry.path("command").asText().equals("restart")
+                        && entry.at("/about/value").asText().equals("7"))
+                .anyMatch(entry -> entry.path("command").asText().equals("credentials"))
+                .anyMatch(entry -> entry.path("command").asText().equals("rotate-credentials")
+                        && entry.at("/about/device").asText().equals(id)
+                        && entry.path("result").asText().equals("rotated"))
+                .anyMatch(entry -> entry.path("error").asText().equals("context-broker"))
+                .anyMatch(entry -> entry.path("command").asText().equals("start")
+                        && entry.at("/about/mission").asText().equals("hoeing")));
     }
 
     @Test
@@ -391,8 +386,7 @@ class RestApiIT {
 
         try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await()
-                    .until(() -> there.send("GET", "/ready", null).statusCode() == 200);
+            await().until(() -> there.send("GET", "/ready", null).statusCode() == 200);
             assertThat(there.send("POST", "/api/domains", body, "Idempotency-Key", "key-1")
                             .body())
                     .isEqualTo(first.body());
@@ -429,8 +423,7 @@ class RestApiIT {
         running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 400, "wrong-member");
         assertThat(client.send("POST", "/api/missions/long/start", "{}").statusCode())
                 .isEqualTo(200);
-        await()
-                .until(() -> running.get("/api/devices?mission=long").size() == 10_000);
+        await().until(() -> running.get("/api/devices?mission=long").size() == 10_000);
         running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 409, "mission-running");
     }
 
@@ -488,12 +481,8 @@ class RestApiIT {
         assertThat(running.get("/api/fields").at("/features/0/properties/name").asText())
                 .isEqualTo("Hill");
         for (String body : new String[] {
-            "{}",
-            "{\"name\":\" \"}",
-            "{\"nmae\":\"x\"}",
-            "{\"name\":\"x\",\"validTo\":1}",
-            "{\"validTo\":\"soon\"}",
-            "{\"validTo\":null}",
+            "{}", "{\"name\":\" \"}", "{\"nmae\":\"x\"}",
+            "{\"name\":\"x\",\"validTo\":1}", "{\"validTo\":\"soon\"}", "{\"validTo\":null}",
             "{\"name\":7}"
         }) {
             running.refused("PATCH", "/api/fields/a", body, 400, "wrong-member");
@@ -515,8 +504,7 @@ class RestApiIT {
         running.refused("POST", "/api/fields", "{\"type\":\"Feature", 400, "unusable-file");
         running.refused("POST", "/api/fields?domain=a.b", file, 400, "wrong-member");
         running.refused("POST", "/api/fields", " ".repeat(FieldsResource.LARGEST + 1), 413, "too-large");
-        await()
-                .untilAsserted(
+        await().untilAsserted(
                         () -> assertThat(running.get("/api/audit?limit=1000").findValuesAsText("command"))
                                 .contains("import-fields", "rename-field", "end-field", "delete-field"));
     }
@@ -528,8 +516,7 @@ class RestApiIT {
             client.send("POST", "/api/missions", """
                     {"mission":"%s","domain":"audited","devices":["urn:%s"]}""".formatted(mission, mission));
         }
-        await()
-                .until(() -> running.get("/api/audit?mission=two").size() == 1);
+        await().until(() -> running.get("/api/audit?mission=two").size() == 1);
         assertThat(running.get("/api/audit?mission=two").at("/0/about/mission").asText())
                 .isEqualTo("two");
         assertThat(running.get("/api/audit?device=urn:nobody")).isEmpty();

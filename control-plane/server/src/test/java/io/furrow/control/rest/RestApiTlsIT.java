@@ -1,6 +1,5 @@
 package io.furrow.control.rest;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.io.InputStream;
 import java.net.URI;
@@ -22,8 +21,8 @@ import javax.net.ssl.SSLParameters;
 import javax.net.ssl.SSLSocket;
 import javax.net.ssl.TrustManagerFactory;
 
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -47,6 +46,7 @@ import static org.awaitility.Awaitility.await;
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 class RestApiTlsIT {
     private Path directory;
+
     @AutoClose
     private EmbeddedKafka kafka;
 
@@ -111,17 +111,15 @@ class RestApiTlsIT {
         assertThat(subject()).isEqualTo("CN=first");
 
         Files.copy(second.certificate(), certificate, StandardCopyOption.REPLACE_EXISTING);
-        await()
-                .untilAsserted(() -> assertThat(NgsiJson.read(health(first).body())
-                                .path("warnings")
-                                .path(0)
-                                .asText())
-                        .startsWith("the files of the certificate cannot be used"));
+        await().untilAsserted(() -> assertThat(NgsiJson.read(health(first).body())
+                        .path("warnings")
+                        .path(0)
+                        .asText())
+                .startsWith("the files of the certificate cannot be used"));
         assertThat(subject()).isEqualTo("CN=first");
 
         Files.copy(second.key(), key, StandardCopyOption.REPLACE_EXISTING);
-        await()
-                .untilAsserted(() -> assertThat(subject()).isEqualTo("CN=second"));
+        await().untilAsserted(() -> assertThat(subject()).isEqualTo("CN=second"));
         assertThat(NgsiJson.read(health(second).body()).path("warnings")).isEmpty();
     }
 

@@ -172,23 +172,20 @@ class RolesIT {
         assertThat(late.send("GET", "/api/domains", null).statusCode()).isEqualTo(401);
         try {
             Files.writeString(tokens, before + "lea token-of-a-late-one viewer\n");
-            await()
-                    .until(() -> late.send("GET", "/api/domains", null).statusCode() == 200);
+            await().until(() -> late.send("GET", "/api/domains", null).statusCode() == 200);
             assertThat(late.json(late.send("GET", "/health", null)).path("warnings"))
                     .isEmpty();
 
             Files.writeString(tokens, "lea short viewer\n");
-            await()
-                    .until(() -> late.json(late.send("GET", "/health", null))
-                            .path("warnings")
-                            .path(0)
-                            .asText()
-                            .equals("the file of tokens cannot be used as it is; the tokens from before count"));
+            await().until(() -> late.json(late.send("GET", "/health", null))
+                    .path("warnings")
+                    .path(0)
+                    .asText()
+                    .equals("the file of tokens cannot be used as it is; the tokens from before count"));
             assertThat(late.send("GET", "/api/domains", null).statusCode()).isEqualTo(200);
 
             Files.writeString(tokens, before);
-            await()
-                    .until(() -> late.send("GET", "/api/domains", null).statusCode() == 401);
+            await().until(() -> late.send("GET", "/api/domains", null).statusCode() == 401);
             assertThat(late.json(late.send("GET", "/health", null)).path("warnings"))
                     .isEmpty();
         } finally {

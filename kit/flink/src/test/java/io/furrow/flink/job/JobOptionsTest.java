@@ -1,6 +1,5 @@
 package io.furrow.flink.job;
 
-import static java.nio.charset.StandardCharsets.ISO_8859_1;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -18,6 +17,7 @@ import picocli.CommandLine.ParameterException;
 
 import io.furrow.flink.kafka.TopicOptions;
 
+import static java.nio.charset.StandardCharsets.ISO_8859_1;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

@@ -1,6 +1,5 @@
 package io.furrow.flink.kafka;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -28,6 +27,7 @@ import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TestJob;
 import io.furrow.flink.record.TopicRecord;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -64,8 +64,7 @@ class QuietInputIT {
                         int expected = i;
                         await().until(() -> {
                             consumer.poll(Duration.ofMillis(100))
-                                    .forEach(each ->
-                                            seen.add(Long.parseLong(new String(each.value(), UTF_8))));
+                                    .forEach(each -> seen.add(Long.parseLong(new String(each.value(), UTF_8))));
                             return seen.size() >= expected;
                         });
                         producer.send(record("changes")).get();

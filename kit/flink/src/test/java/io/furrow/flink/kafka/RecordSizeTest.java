@@ -1,6 +1,5 @@
 package io.furrow.flink.kafka;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Map;
 import java.util.Properties;
 import java.util.Random;
@@ -18,6 +17,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.flink.record.TopicRecord;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RecordSizeTest {

@@ -1,6 +1,5 @@
 package io.furrow.flink.record;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Map;
 
 import org.junit.jupiter.api.Test;
@@ -10,6 +9,7 @@ import io.furrow.model.event.OriginalReference;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class DeadLettersTest {

@@ -1,6 +1,5 @@
 package io.furrow.flink.record;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -32,6 +31,7 @@ import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.flink.kafka.KafkaInput;
 import io.furrow.model.event.HeaderNames;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 

@@ -2,7 +2,6 @@ package io.furrow.flink.restart;
 
 import java.io.IOException;
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -45,6 +44,7 @@ import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.apache.flink.runtime.execution.ExecutionState.FINISHED;
 import static org.apache.flink.runtime.execution.ExecutionState.RUNNING;
 import static org.assertj.core.api.Assertions.assertThat;

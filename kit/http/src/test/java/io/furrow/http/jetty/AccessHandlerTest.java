@@ -4,7 +4,6 @@ import java.io.IOException;
 import java.net.InetAddress;
 import java.net.Socket;
 import java.nio.ByteBuffer;
-import static java.nio.charset.StandardCharsets.US_ASCII;
 import java.util.List;
 import java.util.concurrent.atomic.AtomicInteger;
 
@@ -24,6 +23,7 @@ import io.furrow.http.AccessRule;
 import io.furrow.http.AllowedNames;
 import io.furrow.http.OptionNames;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class AccessHandlerTest {
@@ -49,9 +49,7 @@ class AccessHandlerTest {
         AccessRule rule = AccessRule.allowing(
                 new AllowedNames(List.of(), List.of("https://map.example.org")), new OptionNames("hosts", "origins"));
         server.setHandler(new AccessHandler(
-                rule,
-                refused -> ("{\"error\":\"" + refused.error() + "\"}").getBytes(US_ASCII),
-                new Counting()));
+                rule, refused -> ("{\"error\":\"" + refused.error() + "\"}").getBytes(US_ASCII), new Counting()));
         server.start();
     }
 

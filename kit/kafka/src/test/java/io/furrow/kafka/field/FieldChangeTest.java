@@ -29,10 +29,8 @@ class FieldChangeTest {
         assertThat(changes)
                 .extracting(FieldChange::kind)
                 .containsExactly(
-                        FieldChange.Kind.UNCHANGED,
-                        FieldChange.Kind.CHANGED,
-                        FieldChange.Kind.ADDED,
-                        FieldChange.Kind.ADDED);
+                        FieldChange.Kind.UNCHANGED, FieldChange.Kind.CHANGED,
+                        FieldChange.Kind.ADDED, FieldChange.Kind.ADDED);
     }
 
     @Test

@@ -1,6 +1,5 @@
 package io.furrow.kafka.secret;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Instant;
@@ -15,7 +14,7 @@ import java.util.concurrent.Future;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
@@ -38,6 +37,7 @@ class SecretTopicIT {
 
     private final FarmSecret first = FarmSecret.generate();
     private final FarmSecret second = first.rotated(NOW, NOW.plusSeconds(60), false);
+
     @AutoClose
     private EmbeddedKafka kafka;
 

@@ -1,7 +1,5 @@
 package io.furrow.model.control;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
-
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
@@ -12,6 +10,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.device.SecretFingerprints;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Records of {@code service.*} are written as they were read, member by member, whole and without what may be missing. */

@@ -1,13 +1,12 @@
 package io.furrow.model.control;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
-
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -25,7 +24,6 @@ class RecordedMissionTest {
     @ValueSource(
             strings = {"7", "{", "{\"mission\":\"m\",\"first\":1}", "{\"mission\":\"m\",\"first\":1,\"last\":\"2\"}"})
     void refusesWhatIsNone(String json) {
-        assertThatThrownBy(() -> RecordedMission.read(json.getBytes(UTF_8)))
-                .isInstanceOf(UnreadableException.class);
+        assertThatThrownBy(() -> RecordedMission.read(json.getBytes(UTF_8))).isInstanceOf(UnreadableException.class);
     }
 }

@@ -1,31 +1,19 @@
 package io.furrow.model.control;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Random;
 import java.util.function.Function;
 
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RequestsPropertyTest {
     private static final int CASES = 3000;
     private static final String[] SPLICES = {
-        "null",
-        "{}",
-        "[]",
-        "1e999",
-        "-1",
-        "1000e2147483647",
-        "\"\\ud800\"",
-        "\"\"",
-        "[[[[]]]]",
-        "true",
-        "\"a.b\"",
-        "999999999999999999",
-        "\"+999999999-12-31T23:59:59Z\"",
-        "\"PT9999999999999999H\"",
-        "{\"type\":\"Polygon\"}"
+        "null", "{}", "[]", "1e999", "-1", "1000e2147483647",
+        "\"\\ud800\"", "\"\"", "[[[[]]]]", "true", "\"a.b\"", "999999999999999999",
+        "\"+999999999-12-31T23:59:59Z\"", "\"PT9999999999999999H\"", "{\"type\":\"Polygon\"}"
     };
 
     @Test
@@ -74,7 +62,8 @@ class RequestsPropertyTest {
                     .as(said)
                     .isEqualTo(parsedRequest);
         } else if (parsedRequest instanceof ParsedRequest.Refused<C> refused) {
-            var answer = CommandResult.read(refused.answer().to(refused.requestId()).toBytes());
+            var answer =
+                    CommandResult.read(refused.answer().to(refused.requestId()).toBytes());
             assertThat(answer.status()).as(said).isEqualTo("error");
             assertThat(answer.error()).as(said).isPresent();
             assertThat(answer.json().path("reason").asText()).as(said).isNotBlank();

@@ -1,6 +1,5 @@
 package io.furrow.model.device;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.HashSet;
@@ -13,6 +12,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.model.device.FarmSecret.Login;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

@@ -1,6 +1,5 @@
 package io.furrow.model.event;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 
@@ -8,6 +7,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.model.ngsi.Entity;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.entry;
 
@@ -16,7 +16,8 @@ class EntityEventTest {
 
     @Test
     void carriesTheHeadersOfTheContract() {
-        var entity = Entity.builder("a", "T").integer("Time", 1_795_223_399_000L).build();
+        var entity =
+                Entity.builder("a", "T").integer("Time", 1_795_223_399_000L).build();
         EntityEvent event = EntityEvent.of(
                 entity,
                 FiwareScope.of("Agri", "/p"),

@@ -1,6 +1,5 @@
 package io.furrow.model.event;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.HashMap;
 import java.util.List;
@@ -16,6 +15,7 @@ import io.furrow.model.ngsi.Notification;
 import io.furrow.model.ngsi.RecordedNotification;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class EventIdTest {
@@ -122,45 +122,16 @@ class EventIdTest {
     void differsForEveryValue() throws Exception {
         Map<String, String> seen = new HashMap<>();
         for (String attributes : List.of(
-                "\"x\":1",
-                "\"x\":\"1\"",
-                "\"x\":\"#1\"",
-                "\"x\":[1]",
-                "\"x\":[[1]]",
-                "\"x\":[]",
-                "\"x\":{}",
-                "\"x\":[[]]",
-                "\"x\":[{}]",
-                "\"x\":null",
-                "\"x\":\"null\"",
-                "\"x\":\"\"",
-                "\"x\":true",
-                "\"x\":\"true\"",
-                "\"x\":false",
-                "\"x\":0",
-                "\"x\":1e20",
-                "\"x\":1e-20",
-                "\"x\":100000000000000000001",
-                "\"x\":0.1",
-                "\"x\":0.1000000000000000000001",
-                "\"x\":[1,2]",
-                "\"x\":[12]",
-                "\"x\":[[1],2]",
-                "\"x\":[[1,2]]",
-                "\"x\":{\"p\":1}",
-                "\"x\":[\"p\",1]",
-                "\"x\":{\"p\":{\"q\":1}}",
-                "\"x\":{\"p\":{},\"q\":1}",
-                "\"x\":1,\"y\":1",
-                "\"x\":\"1\\\"1:y#1\"",
-                "\"xy\":1",
-                "\"x\":\"y1\"",
-                "\"x\":\"a\",\"y\":\"b\"",
-                "\"x\":\"a\\\"1:y\\\"1:b\"",
-                "\"x\":\"é\"",
-                "\"x\":\"e\\u0301\"",
-                "\"x\":\"?\"",
-                "\"x\":\"🚜\"")) {
+                "\"x\":1", "\"x\":\"1\"", "\"x\":\"#1\"", "\"x\":[1]",
+                "\"x\":[[1]]", "\"x\":[]", "\"x\":{}", "\"x\":[[]]",
+                "\"x\":[{}]", "\"x\":null", "\"x\":\"null\"", "\"x\":\"\"",
+                "\"x\":true", "\"x\":\"true\"", "\"x\":false", "\"x\":0",
+                "\"x\":1e20", "\"x\":1e-20", "\"x\":100000000000000000001", "\"x\":0.1",
+                "\"x\":0.1000000000000000000001", "\"x\":[1,2]", "\"x\":[12]", "\"x\":[[1],2]",
+                "\"x\":[[1,2]]", "\"x\":{\"p\":1}", "\"x\":[\"p\",1]", "\"x\":{\"p\":{\"q\":1}}",
+                "\"x\":{\"p\":{},\"q\":1}", "\"x\":1,\"y\":1", "\"x\":\"1\\\"1:y#1\"", "\"xy\":1",
+                "\"x\":\"y1\"", "\"x\":\"a\",\"y\":\"b\"", "\"x\":\"a\\\"1:y\\\"1:b\"", "\"x\":\"é\"",
+                "\"x\":\"e\\u0301\"", "\"x\":\"?\"", "\"x\":\"🚜\"")) {
             String other = seen.put(id("{\"id\":\"a\"," + attributes + "}"), attributes);
             assertThat(other).as("has the id of %s", attributes).isNull();
         }

@@ -1,6 +1,5 @@
 package io.furrow.model.event;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -12,6 +11,7 @@ import org.junit.jupiter.params.provider.CsvFileSource;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Notification;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

@@ -1,6 +1,5 @@
 package io.furrow.model.event;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -15,6 +14,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Notification;
 import io.furrow.model.ngsi.UnreadableException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class NotificationRulesTest {

@@ -8,22 +8,8 @@ import java.util.Random;
 /** Entities with everything that devices, brokers and robots write, and much that none should; mostly well-formed. */
 public final class MadeUpEntities {
     private static final String[] NAMES = {
-        "location",
-        "Latitude",
-        "Longitude",
-        "gnss",
-        "pose",
-        "temperature",
-        "Mission",
-        "TimeInstant",
-        "Time",
-        "speed",
-        "other",
-        "Image",
-        "id",
-        "type",
-        "na\\u006de",
-        "\\ud83d\\ude9c",
+        "location", "Latitude", "Longitude", "gnss", "pose", "temperature", "Mission", "TimeInstant",
+        "Time", "speed", "other", "Image", "id", "type", "na\\u006de", "\\ud83d\\ude9c",
         "\\ud83d"
     };
     private static final String[] NUMBERS = """

@@ -1,34 +1,21 @@
 package io.furrow.model.ngsi;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
+
 /** Breaks JSON at random: values and names become others, the end is cut off, a byte is replaced. */
 public final class Mutations {
     private static final String[] SPLICES = {
-        "null",
-        "{}",
-        "[]",
-        "1e999",
-        "-1e999999999",
-        "1000e2147483647",
-        "1e99999999999",
-        "\"\\ud800\"",
-        "NaN",
-        "\"\"",
-        "{\"value\":null}",
-        "{\"type\":null,\"value\":1,\"metadata\":[]}",
-        "\"%27\"",
-        "[[[[]]]]",
-        "\"0,0\"",
-        "-1",
-        "true",
-        "{\"type\":\"Point\",\"coordinates\":{\"a\":1,\"b\":2}}",
-        "\"9999-12-31T23:59:59Z\"",
-        "999999999999999999",
-        "\"+999999999-12-31T23:59:59Z\"",
+        "null", "{}", "[]",
+        "1e999", "-1e999999999", "1000e2147483647",
+        "1e99999999999", "\"\\ud800\"", "NaN",
+        "\"\"", "{\"value\":null}", "{\"type\":null,\"value\":1,\"metadata\":[]}",
+        "\"%27\"", "[[[[]]]]", "\"0,0\"",
+        "-1", "true", "{\"type\":\"Point\",\"coordinates\":{\"a\":1,\"b\":2}}",
+        "\"9999-12-31T23:59:59Z\"", "999999999999999999", "\"+999999999-12-31T23:59:59Z\"",
         "\"2026-11-21T01:00:00/\""
     };
     private static final String[] NAMES = """

@@ -1,6 +1,5 @@
 package io.furrow.model.ngsi;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.HexFormat;
 import java.util.stream.Collectors;
@@ -12,6 +11,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.catchThrowableOfType;
@@ -21,23 +21,12 @@ import static org.junit.jupiter.api.Assertions.assertTimeout;
 class NgsiJsonTest {
     @ParameterizedTest
     @CsvSource({
-        "'', nothing",
-        "20, only a space",
-        "EFBBBF7B7D, a byte order mark",
-        "FEFF007B007D, UTF-16",
-        "0000007B0000007D, UTF-32",
-        "22FF22, a byte that UTF-8 has not",
-        "22C3, half a character",
-        "22EDA08022, a surrogate as UTF-8",
-        "7B7D7B7D, two documents",
-        "7B7D78, trailing garbage",
-        "7B22, an end too soon",
-        "4E614E, NaN",
-        "496E66696E697479, Infinity",
-        "3031, a leading zero",
-        "7B2761273A317D, single quotes",
-        "7B2261223A312C2261223A317D, a name twice",
-        "2209220A, a tab inside a text"
+        "'', nothing", "20, only a space", "EFBBBF7B7D, a byte order mark",
+        "FEFF007B007D, UTF-16", "0000007B0000007D, UTF-32", "22FF22, a byte that UTF-8 has not",
+        "22C3, half a character", "22EDA08022, a surrogate as UTF-8", "7B7D7B7D, two documents",
+        "7B7D78, trailing garbage", "7B22, an end too soon", "4E614E, NaN",
+        "496E66696E697479, Infinity", "3031, a leading zero", "7B2761273A317D, single quotes",
+        "7B2261223A312C2261223A317D, a name twice", "2209220A, a tab inside a text"
     })
     void refusesWhatIsNotJson(String hex, String what) {
         byte[] bytes = HexFormat.of().parseHex(hex);
@@ -49,11 +38,8 @@ class NgsiJsonTest {
     void takesNestingUpToTheLimitAndNoDeeper() throws Exception {
         assertThat(NgsiJson.read(nested(NgsiJson.MAX_NESTING)).isArray()).isTrue();
         assertThat(unreadable(nested(NgsiJson.MAX_NESTING + 1)).reason()).isEqualTo(Reason.TOO_DEEP);
-        assertThat(unreadable("[".repeat(100_000).getBytes(UTF_8))
-                        .reason())
-                .isEqualTo(Reason.TOO_DEEP);
-        assertThat(unreadable("{\"a\":".repeat(100_000).getBytes(UTF_8))
-                        .reason())
+        assertThat(unreadable("[".repeat(100_000).getBytes(UTF_8)).reason()).isEqualTo(Reason.TOO_DEEP);
+        assertThat(unreadable("{\"a\":".repeat(100_000).getBytes(UTF_8)).reason())
                 .isEqualTo(Reason.TOO_DEEP);
     }
 
@@ -85,12 +71,8 @@ class NgsiJsonTest {
     @ParameterizedTest
     @ValueSource(
             strings = {
-                "1e999999999",
-                "-1e999999999",
-                "1e-999999999",
-                "1000e2147483647",
-                "1e2147483647",
-                "1e1001",
+                "1e999999999", "-1e999999999", "1e-999999999",
+                "1000e2147483647", "1e2147483647", "1e1001",
                 "1e-1002"
             })
     void refusesAnEntityWithANumberThatWouldFillTheMemory(String number) {
@@ -141,9 +123,7 @@ class NgsiJsonTest {
 
         Entity entity = assertTimeout(
                 Duration.ofSeconds(15),
-                () -> Notification.read(body.getBytes(UTF_8), null)
-                        .entities()
-                        .get(0));
+                () -> Notification.read(body.getBytes(UTF_8), null).entities().get(0));
 
         assertThat(entity.number("attribute49999")).contains(49_999.0);
     }

@@ -1,6 +1,5 @@
 package io.furrow.model.ngsi;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Set;
 
 import org.junit.jupiter.params.ParameterizedTest;
@@ -8,6 +7,7 @@ import org.junit.jupiter.params.provider.CsvFileSource;
 
 import io.furrow.model.position.EntityReader;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 

@@ -2,11 +2,12 @@ package io.furrow.model.ngsi;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.stream.Stream;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * A request that a context broker (Orion 4.7) sent, as it came over the wire; the files under {@code orion/}.

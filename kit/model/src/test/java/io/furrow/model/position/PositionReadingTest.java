@@ -1,12 +1,11 @@
 package io.furrow.model.position;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
-
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvFileSource;
 
 import io.furrow.model.ngsi.Notification;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class PositionReadingTest {

@@ -2,12 +2,12 @@ package io.furrow.model.text;
 
 import java.nio.ByteBuffer;
 import java.nio.charset.CharacterCodingException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Random;
 
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 @Tag("full")

@@ -2,7 +2,6 @@ package io.furrow.mission.export;
 
 import java.io.ByteArrayOutputStream;
 import java.io.StringWriter;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
@@ -19,6 +18,7 @@ import io.furrow.mission.marker.Marker;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.position.Position;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class GeoJsonExportTest {

@@ -2,7 +2,6 @@ package io.furrow.mission.export;
 
 import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
@@ -10,6 +9,7 @@ import java.util.Map;
 import java.util.TreeMap;
 import java.util.zip.CRC32;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Reads an MCAP file by its specification, and checks every length, offset, count and checksum in it. */

@@ -1,8 +1,6 @@
 package io.furrow.mission.marker;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.ByteArrayOutputStream;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.List;
 
@@ -10,7 +8,7 @@ import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
 import com.mongodb.client.MongoCollection;
 import org.bson.Document;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
@@ -20,6 +18,7 @@ import io.furrow.mission.RandomEvents;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.mongo.MongoRecordings;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

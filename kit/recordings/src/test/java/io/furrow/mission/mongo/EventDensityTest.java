@@ -1,6 +1,5 @@
 package io.furrow.mission.mongo;
 
-import org.junit.jupiter.api.AutoClose;
 import java.time.Duration;
 import java.util.Arrays;
 import java.util.Date;
@@ -11,7 +10,7 @@ import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
 import com.mongodb.client.MongoCollection;
 import org.bson.Document;
-import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 

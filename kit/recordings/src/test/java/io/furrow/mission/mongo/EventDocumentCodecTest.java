@@ -1,6 +1,5 @@
 package io.furrow.mission.mongo;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Map;
 import java.util.TreeMap;
 
@@ -16,6 +15,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.NgsiJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class EventDocumentCodecTest {
@@ -70,8 +70,7 @@ class EventDocumentCodecTest {
 
         StoredEvent read = EventDocumentCodec.read(written(json));
 
-        assertThat(json(read))
-                .isEqualTo(NgsiJson.read(json.getBytes(UTF_8)).toString());
+        assertThat(json(read)).isEqualTo(NgsiJson.read(json.getBytes(UTF_8)).toString());
         assertThat(read).isEqualTo(event(json));
     }
 

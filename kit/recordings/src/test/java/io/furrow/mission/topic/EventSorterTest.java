@@ -1,6 +1,5 @@
 package io.furrow.mission.topic;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -16,6 +15,7 @@ import io.furrow.mission.Cursor;
 import io.furrow.mission.RecordingDeletedException;
 import io.furrow.mission.RecordingInterruptedException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

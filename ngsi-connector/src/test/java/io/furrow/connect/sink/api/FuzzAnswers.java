@@ -1,6 +1,5 @@
 package io.furrow.connect.sink.api;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -20,6 +19,8 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * What a fuzzer throws at the sink: the first byte picks the API and when batches are taken apart, the others are the answers of
@@ -124,8 +125,7 @@ public final class FuzzAnswers {
     private static List<String> ids(Exchange exchange) {
         List<String> ids = new ArrayList<>();
         if (exchange.method().equals("DELETE")) {
-            ids.add(java.net.URLDecoder.decode(
-                    exchange.path().replaceAll(".*/entities/([^/?]*).*", "$1"), UTF_8));
+            ids.add(java.net.URLDecoder.decode(exchange.path().replaceAll(".*/entities/([^/?]*).*", "$1"), UTF_8));
         } else {
             JsonNode body = json(exchange.body()).orElseThrow();
             (body.isArray() ? body : body.path("entities"))

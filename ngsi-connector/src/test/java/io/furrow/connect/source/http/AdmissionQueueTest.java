@@ -1,6 +1,5 @@
 package io.furrow.connect.source.http;
 
-import org.junit.jupiter.api.AutoClose;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -9,7 +8,7 @@ import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.ledger.Ledger;
@@ -23,6 +22,7 @@ class AdmissionQueueTest {
     private static final CompletableFuture<Void> DURABLE = CompletableFuture.completedFuture(null);
 
     private final Ledger ledger = new Ledger();
+
     @AutoClose
     private final AdmissionQueue admissionQueue = new AdmissionQueue(this::take, ledger);
 

@@ -3,8 +3,6 @@ package io.furrow.connect.source.http;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.nio.ByteBuffer;
-import static java.nio.charset.StandardCharsets.US_ASCII;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
@@ -24,6 +22,9 @@ import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.NgsiSourceConfig;
 import io.furrow.connect.source.journal.RecordLog;
 import io.furrow.connect.source.notification.NotificationTranslator;
+
+import static java.nio.charset.StandardCharsets.US_ASCII;
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /**
  * What a fuzzer throws at bodies with {@code Content-Encoding: gzip}: the first byte picks how the others become one, as they
@@ -171,8 +172,7 @@ public final class FuzzGzip {
             }
             request.writeBytes("0\r\n\r\n".getBytes(US_ASCII));
         } else {
-            request.writeBytes(
-                    (head + "Content-Length: " + body.length + "\r\n\r\n").getBytes(US_ASCII));
+            request.writeBytes((head + "Content-Length: " + body.length + "\r\n\r\n").getBytes(US_ASCII));
             request.writeBytes(body);
         }
         ByteBuffer answer =

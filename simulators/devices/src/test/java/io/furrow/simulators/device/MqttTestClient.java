@@ -1,6 +1,5 @@
 package io.furrow.simulators.device;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.UUID;
 import java.util.concurrent.CopyOnWriteArrayList;
@@ -16,6 +15,8 @@ import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Another client of the MQTT broker: hears what devices say, and can say something. */
 public final class MqttTestClient implements MqttCallback, AutoCloseable {

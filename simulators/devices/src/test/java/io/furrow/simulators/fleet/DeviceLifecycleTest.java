@@ -1,7 +1,6 @@
 package io.furrow.simulators.fleet;
 
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
@@ -29,6 +28,7 @@ import io.furrow.simulators.device.MqttTestClient;
 import io.furrow.simulators.mqtt.MqttAccess;
 import io.furrow.simulators.scenario.DesiredDeviceReader;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 

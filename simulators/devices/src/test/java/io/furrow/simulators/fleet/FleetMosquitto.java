@@ -4,7 +4,6 @@ import java.io.IOException;
 import java.net.InetAddress;
 import java.net.Socket;
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.security.KeyStore;
@@ -14,6 +13,8 @@ import java.util.concurrent.TimeUnit;
 import org.awaitility.Awaitility;
 
 import io.furrow.embedded.FreePort;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Eclipse Mosquitto as Debian packs it, on loopback, with a password file and TLS. */
 final class FleetMosquitto {

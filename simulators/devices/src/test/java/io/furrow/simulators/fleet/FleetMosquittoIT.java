@@ -2,7 +2,6 @@ package io.furrow.simulators.fleet;
 
 import java.io.ByteArrayInputStream;
 import java.io.IOException;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -21,6 +20,7 @@ import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
 import io.furrow.simulators.scenario.Farm;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -79,8 +79,7 @@ class FleetMosquittoIT {
 
             assertThat(fleet.drain(Duration.ofSeconds(60))).isTrue();
             assertThat(fleet.tally()).isEqualTo(new FarmFleet.Tally(fleet.reports(), 0, 0));
-            await()
-                    .untilAsserted(() -> assertThat(subscriber.measures()).hasSize((int) fleet.reports()));
+            await().untilAsserted(() -> assertThat(subscriber.measures()).hasSize((int) fleet.reports()));
         }
     }
 
@@ -97,8 +96,7 @@ class FleetMosquittoIT {
                 FleetAccess.Logins.of(() -> secret));
 
         // Mosquitto reads its files a moment after it is told to.
-        try (FarmFleet fleet = await()
-                        .ignoreExceptions()
+        try (FarmFleet fleet = await().ignoreExceptions()
                         .until(() -> fleet(farm, access, 5), started -> started.connections() == 1);
                 Subscriber subscriber = Subscriber.to(broker, "subscriber-farmer")) {
             await().until(() -> subscriber.measures().size() > 20);

@@ -1,13 +1,11 @@
 package io.furrow.simulators.host;
 
-import org.junit.jupiter.api.AutoClose;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
 
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
@@ -60,21 +58,18 @@ class DeviceHostIT {
     void runsWhatIsDesiredFromWhenTheBrokerAcceptsIt() throws Exception {
         String device = entity("Thermometer", "late", 1);
         long sequence = bench.addDesired("late", device, true, YARD);
-        await()
-                .untilAsserted(() -> assertThat(bench.status(device)).hasValueSatisfying(status -> {
-                    assertThat(status.state()).isEqualTo(State.FAILED);
-                    assertThat(status.reason())
-                            .contains("refuses user 'furrow.d.late.urn%3Angsi-ld%3AThermometer%3Alate-1.1.0'");
-                }));
+        await().untilAsserted(() -> assertThat(bench.status(device)).hasValueSatisfying(status -> {
+            assertThat(status.state()).isEqualTo(State.FAILED);
+            assertThat(status.reason())
+                    .contains("refuses user 'furrow.d.late.urn%3Angsi-ld%3AThermometer%3Alate-1.1.0'");
+        }));
 
         bench.admit("late", device);
 
-        await()
-                .untilAsserted(() ->
-                        assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        await()
-                .untilAsserted(() -> assertThat(listener.received(topic("late", device, "attrs")))
-                        .hasSizeGreaterThan(3));
+        await().untilAsserted(() ->
+                assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        await().untilAsserted(() ->
+                assertThat(listener.received(topic("late", device, "attrs"))).hasSizeGreaterThan(3));
     }
 
     @Test
@@ -82,8 +77,7 @@ class DeviceHostIT {
         String device = run("anew", 1);
         FarmSecret before = bench.secret;
         bench.secret = null;
-        await()
-                .untilAsserted(() -> assertThat(host.lastFailure()).contains("null"));
+        await().untilAsserted(() -> assertThat(host.lastFailure()).contains("null"));
         bench.secret = before;
 
         await().until(host::isCaughtUp);
@@ -103,11 +97,9 @@ class DeviceHostIT {
         long sequence = bench.addDesired("end", stopped, false, YARD);
         bench.delete(deleted);
 
-        await()
-                .untilAsserted(() ->
-                        assertThat(bench.status(stopped)).contains(new DeviceStatus(sequence, State.STOPPED, null)));
-        await()
-                .untilAsserted(() -> assertThat(bench.status(deleted)).isEmpty());
+        await().untilAsserted(() ->
+                assertThat(bench.status(stopped)).contains(new DeviceStatus(sequence, State.STOPPED, null)));
+        await().untilAsserted(() -> assertThat(bench.status(deleted)).isEmpty());
         await().until(() -> host.fleet().connections() == 1);
         int before = received("end", stopped) + received("end", deleted);
         int other = received("end", goesOn);
@@ -126,14 +118,11 @@ class DeviceHostIT {
 
         host = DeviceHost.start(bench.settings());
 
-        await()
-                .untilAsserted(() ->
-                        assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        await()
-                .untilAsserted(() -> assertThat(bench.status(gone)).isEmpty());
-        await()
-                .until(() -> listener.received(topic("again", device, "attrs")).stream()
-                        .anyMatch(json -> json.path("lon").doubleValue() == -3.5));
+        await().untilAsserted(() ->
+                assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        await().untilAsserted(() -> assertThat(bench.status(gone)).isEmpty());
+        await().until(() -> listener.received(topic("again", device, "attrs")).stream()
+                .anyMatch(json -> json.path("lon").doubleValue() == -3.5));
         bench.delete(device);
     }
 
@@ -142,19 +131,17 @@ class DeviceHostIT {
         String device = entity("Thermometer", "field", 1);
         bench.admit("field", device);
         bench.addDesired("field", device, true, "{\"area\": \"orchard\"}");
-        await()
-                .untilAsserted(() -> assertThat(bench.status(device))
-                        .hasValueSatisfying(
-                                status -> assertThat(status.reason()).startsWith("area: there is no field 'orchard'")));
+        await().untilAsserted(() -> assertThat(bench.status(device))
+                .hasValueSatisfying(
+                        status -> assertThat(status.reason()).startsWith("area: there is no field 'orchard'")));
 
         bench.put(Topics.FIELDS, "orchard@2020-01-01T00:00:00.000Z", """
                 {"type": "Feature", "id": "orchard", "properties": {"validFrom": "2020-01-01T00:00:00Z"}, "geometry": {"type": "Polygon",
                  "coordinates": [[[-3.5, 40.3], [-3.49, 40.3], [-3.49, 40.31], [-3.5, 40.3]]]}}
                 """);
 
-        await()
-                .untilAsserted(() -> assertThat(bench.status(device).map(DeviceStatus::state))
-                        .contains(State.RUNNING));
+        await().untilAsserted(() ->
+                assertThat(bench.status(device).map(DeviceStatus::state)).contains(State.RUNNING));
         bench.delete(device);
     }
 
@@ -168,9 +155,8 @@ class DeviceHostIT {
                 camera,
                 true,
                 "{\"carriedBy\": \"%s\", \"parameters\": {\"battery\": \"P3D\"}}".formatted(robot));
-        await()
-                .untilAsserted(() -> assertThat(bench.status(camera).map(DeviceStatus::reason))
-                        .contains("carriedBy: '" + robot + "' is no robot that runs here"));
+        await().untilAsserted(() -> assertThat(bench.status(camera).map(DeviceStatus::reason))
+                .contains("carriedBy: '" + robot + "' is no robot that runs here"));
 
         bench.addDesired("carry", robot, true, "{\"path\": [[-3.48, 40.31], [-3.48, 40.32]], \"speed\": 2}");
 
@@ -193,10 +179,9 @@ class DeviceHostIT {
         String device = run("restart", 1);
         listener.publish(topic("restart", device, "cmd"), "{\"restart\": \"\"}");
 
-        await()
-                .untilAsserted(() -> assertThat(listener.received(topic("restart", device, "cmdexe")))
-                        .singleElement()
-                        .hasToString("{\"restart\":\"ok\"}"));
+        await().untilAsserted(() -> assertThat(listener.received(topic("restart", device, "cmdexe")))
+                .singleElement()
+                .hasToString("{\"restart\":\"ok\"}"));
         List<Long> times = listener.received(topic("restart", device, "attrs")).stream()
                 .map(json -> json.path("time").longValue())
                 .toList();
@@ -217,9 +202,8 @@ class DeviceHostIT {
 
         long sequence = bench.addRotated("stolen", device, YARD, 1);
 
-        await()
-                .untilAsserted(() ->
-                        assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        await().untilAsserted(() ->
+                assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
         int before = received("stolen", device);
         await().until(() -> received("stolen", device) > before + 3);
         bench.delete(device);
@@ -241,9 +225,8 @@ class DeviceHostIT {
         bench.passwords.put(other.user(), other.password());
         long sequence = bench.addDesired("rotated", second, true, YARD);
 
-        await()
-                .untilAsserted(() ->
-                        assertThat(bench.status(second)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        await().untilAsserted(() ->
+                assertThat(bench.status(second)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
         bench.passwords.remove(HostFixture.SECRET.device("rotated", device).user());
         int before = received("rotated", device);
         await().until(() -> received("rotated", device) > before + 10);

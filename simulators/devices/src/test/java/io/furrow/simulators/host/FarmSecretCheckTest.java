@@ -1,6 +1,5 @@
 package io.furrow.simulators.host;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Instant;
 import java.util.Map;
 
@@ -10,6 +9,7 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.SecretFingerprints;
 import io.furrow.simulators.host.FarmSecretCheck.AnotherSecretException;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

@@ -1,7 +1,6 @@
 package io.furrow.simulators.host;
 
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.HashMap;
@@ -39,6 +38,8 @@ import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.device.MqttTestClient;
 import io.furrow.simulators.mqtt.MqttAccess;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** All that a host of devices speaks to, and who asks it for devices in the place of the control plane. */
 final class HostFixture implements AutoCloseable {
@@ -142,8 +143,7 @@ final class HostFixture implements AutoCloseable {
     }
 
     void put(String topic, String key, String value) throws Exception {
-        producer.send(new ProducerRecord<>(topic, key, value.getBytes(UTF_8)))
-                .get();
+        producer.send(new ProducerRecord<>(topic, key, value.getBytes(UTF_8))).get();
     }
 
     Optional<DeviceStatus> status(String entity) throws Exception {

@@ -1,6 +1,5 @@
 package io.furrow.simulators.load;
 
-import org.junit.jupiter.api.AutoClose;
 import java.io.IOException;
 import java.time.Duration;
 import java.util.List;
@@ -8,8 +7,8 @@ import java.util.Map;
 import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;

@@ -1,7 +1,6 @@
 package io.furrow.fiware.agent;
 
 import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;

@@ -1,7 +1,5 @@
 package io.furrow.fiware.agent;
 
-import org.junit.jupiter.api.AutoClose;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.CopyOnWriteArrayList;
@@ -9,8 +7,8 @@ import java.util.concurrent.CopyOnWriteArrayList;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.eclipse.paho.client.mqttv3.MqttClient;
 import org.eclipse.paho.client.mqttv3.MqttException;
-import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
@@ -24,6 +22,7 @@ import io.furrow.fiware.MqttDevice;
 import io.furrow.fiware.NotificationReceiver;
 import io.furrow.fiware.broker.NgsiTime;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -62,9 +61,7 @@ class IotAgentTest {
                     "commands": [{"name": "on", "type": "command"}]}]}""");
         assertThat(provisioned.status()).as(provisioned.body()).isEqualTo(201);
         device = MqttDevice.connect(
-                mqtt,
-                "/k1/t1/cmd",
-                (topic, message) -> commands.add(new String(message.getPayload(), UTF_8)));
+                mqtt, "/k1/t1/cmd", (topic, message) -> commands.add(new String(message.getPayload(), UTF_8)));
     }
 
     @AfterEach

@@ -1,6 +1,5 @@
 package io.furrow.fiware.agent;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.time.Clock;
 import java.time.Instant;
 import java.time.ZoneOffset;
@@ -10,6 +9,7 @@ import org.junit.jupiter.api.Test;
 import io.furrow.fiware.agent.MeasureHistory.Ignored;
 import io.furrow.fiware.agent.MeasureHistory.Received;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MeasureHistoryTest {

@@ -1,6 +1,5 @@
 package io.furrow.fiware.agent;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.Map;
 
 import org.eclipse.paho.client.mqttv3.MqttClient;
@@ -14,6 +13,7 @@ import io.furrow.fiware.FiwareSettings;
 import io.furrow.fiware.FiwareStandIn;
 import io.furrow.fiware.MqttDevice;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 

@@ -1,6 +1,5 @@
 package io.furrow.cli.catalog;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.List;
 
 import org.junit.jupiter.api.Test;
@@ -9,6 +8,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.ngsi.NgsiJson;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class CatalogTableTest {
@@ -27,25 +27,13 @@ class CatalogTableTest {
         assertThat(lines).hasSize(4);
         assertThat(lines.get(2).split(" {2,}"))
                 .containsExactly(
-                        "north / weeding",
-                        "Thermometer",
-                        "3",
-                        "1200",
-                        "1.2 MB",
-                        "0",
-                        "0 B",
-                        "2023-11-14T22:13:20Z",
+                        "north / weeding", "Thermometer", "3", "1200",
+                        "1.2 MB", "0", "0 B", "2023-11-14T22:13:20Z",
                         "2023-11-14T23:13:20Z");
         assertThat(lines.get(3).trim().split(" {2,}"))
                 .containsExactly(
-                        "Temperature",
-                        "Float, number",
-                        "CEL",
-                        "1200",
-                        "0.333",
-                        "-3.5 … 31.0",
-                        "2023-11-14T22:13:20Z",
-                        "2023-11-14T23:13:20Z");
+                        "Temperature", "Float, number", "CEL", "1200",
+                        "0.333", "-3.5 … 31.0", "2023-11-14T22:13:20Z", "2023-11-14T23:13:20Z");
     }
 
     @Test

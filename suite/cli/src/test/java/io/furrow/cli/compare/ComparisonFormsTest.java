@@ -1,7 +1,5 @@
 package io.furrow.cli.compare;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
-
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
 
@@ -13,6 +11,7 @@ import static io.furrow.cli.compare.ResultRecords.encounter;
 import static io.furrow.cli.compare.ResultRecords.entered;
 import static io.furrow.cli.compare.ResultRecords.left;
 import static io.furrow.cli.compare.ResultRecords.side;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ComparisonFormsTest {

@@ -6,7 +6,6 @@ import java.io.InputStreamReader;
 import java.net.InetAddress;
 import java.net.ServerSocket;
 import java.net.Socket;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.PosixFilePermissions;
@@ -21,6 +20,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.launcher.Furrow;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class LogFileTest {
@@ -100,8 +100,7 @@ class LogFileTest {
                     .redirectOutput(ProcessBuilder.Redirect.DISCARD)
                     .start();
             try (Socket errors = journal.accept();
-                    BufferedReader lines = new BufferedReader(
-                            new InputStreamReader(errors.getInputStream(), UTF_8))) {
+                    BufferedReader lines = new BufferedReader(new InputStreamReader(errors.getInputStream(), UTF_8))) {
                 errors.setSoTimeout(TIMEOUT_MS);
                 StringBuilder others = new StringBuilder();
                 String line = lines.readLine();

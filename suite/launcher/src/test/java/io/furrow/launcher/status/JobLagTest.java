@@ -3,7 +3,6 @@ package io.furrow.launcher.status;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.util.HashMap;
 import java.util.Map;
 import java.util.Optional;
@@ -15,6 +14,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.launcher.status.JobLag.Lag;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class JobLagTest {
@@ -48,10 +48,8 @@ class JobLagTest {
         job(
                 "2",
                 Map.of(
-                        "c",
-                        "Source: Read reported events -> Recognize events",
-                        "d",
-                        "Source: Read devices -> Recognize devices"));
+                        "c", "Source: Read reported events -> Recognize events",
+                        "d", "Source: Read devices -> Recognize devices"));
         metric("2", "c", "Source__Read_reported_events.pendingRecords", 5);
         metric("2", "d", "Source__Read_devices.pendingRecords", 0);
         JobLag lag = new JobLag(uri, Map.of("collision", "1", "ingest", "2"));

@@ -330,12 +330,8 @@ class CommandLineTest {
 
     @ParameterizedTest
     @CsvSource({
-        "hooks.example.com/x, no scheme",
-        "localhost:8080/x, http",
-        "ftp://hooks.example.com/x, http",
-        "http:///x, host",
-        "https://, not a URI",
-        "http://a b/x, not a URI"
+        "hooks.example.com/x, no scheme", "localhost:8080/x, http", "ftp://hooks.example.com/x, http",
+        "http:///x, host", "https://, not a URI", "http://a b/x, not a URI"
     })
     void refusesToStartWithAWebhookThatCannotBeReached(String webhook, String reason) {
         for (String command : new String[] {"up", "control-plane"}) {

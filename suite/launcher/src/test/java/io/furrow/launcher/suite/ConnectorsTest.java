@@ -3,11 +3,11 @@ package io.furrow.launcher.suite;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
-import static java.nio.charset.StandardCharsets.UTF_8;
 
 import com.sun.net.httpserver.HttpServer;
 import org.junit.jupiter.api.Test;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ConnectorsTest {

@@ -127,14 +127,10 @@ class WebhookTest {
 
     @ParameterizedTest
     @CsvSource({
-        "429, 30, PT30S",
-        "503, 30, PT30S",
-        "500, 30, ",
-        "503, 999999, PT1H",
-        "503, 'Tue, 14 Nov 2023 22:14:00 GMT', PT40S",
-        "503, 'Tue, 14 Nov 2023 22:13:00 GMT', PT0S",
-        "503, soon, ",
-        "503, -1, "
+        "429, 30, PT30S", "503, 30, PT30S",
+        "500, 30, ", "503, 999999, PT1H",
+        "503, 'Tue, 14 Nov 2023 22:14:00 GMT', PT40S", "503, 'Tue, 14 Nov 2023 22:13:00 GMT', PT0S",
+        "503, soon, ", "503, -1, "
     })
     void readsHowLongItIsToWait(int answered, String header, Duration expected) throws Exception {
         status = answered;

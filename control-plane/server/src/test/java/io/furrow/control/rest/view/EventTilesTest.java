@@ -1,6 +1,5 @@
 package io.furrow.control.rest.view;
 
-import org.junit.jupiter.api.AutoClose;
 import java.time.Clock;
 import java.time.Instant;
 import java.time.ZoneId;
@@ -15,7 +14,7 @@ import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.rest.access.ProblemException;
@@ -31,6 +30,7 @@ class EventTilesTest {
 
     private final Counter counter = new Counter();
     private final SettableClock clock = new SettableClock();
+
     @AutoClose
     private final EventTiles tiles = new EventTiles(counter, clock);
 

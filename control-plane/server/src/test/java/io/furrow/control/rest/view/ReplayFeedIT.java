@@ -8,8 +8,6 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
-import static java.nio.charset.StandardCharsets.US_ASCII;
-import static java.nio.charset.StandardCharsets.UTF_8;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -31,6 +29,8 @@ import io.furrow.control.rest.RunningApi;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.topic.Topics;
 
+import static java.nio.charset.StandardCharsets.US_ASCII;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -139,8 +139,7 @@ class ReplayFeedIT {
                 Socket socket = new Socket(
                         running.api().uri().getHost(), running.api().uri().getPort());
                 socket.getOutputStream()
-                        .write("GET /api/replays/events HTTP/1.1\r\nHost: localhost\r\n\r\n"
-                                .getBytes(US_ASCII));
+                        .write("GET /api/replays/events HTTP/1.1\r\nHost: localhost\r\n\r\n".getBytes(US_ASCII));
                 silent.add(socket);
             }
             await().until(() -> open("/api/replays/" + replay + "/events").statusCode() == 503);
