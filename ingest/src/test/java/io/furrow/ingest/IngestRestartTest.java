@@ -27,6 +27,7 @@ import io.furrow.flink.kafka.TopicNames;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.RestartContract;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -34,33 +35,20 @@ import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-@Timeout(value = 10, unit = TimeUnit.HOURS)
 @Tag("full")
-class IngestRestartTest {
-    @RegisterExtension
-    static final MiniClusterExtension FLINK = Restarts.cluster();
-
-    @Test
-    void writesWhatAnUndisturbedRunWritesWhereverItIsRestarted(
-            @InjectMiniCluster MiniCluster flink, @TempDir Path folder) throws Exception {
-        new Restarts(flink, folder).changeNothing(3, Case::new);
-    }
-
-    @Test
-    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).goOnFromReleases("ingest", new Case(1));
+class IngestRestartTest extends RestartContract {
+    IngestRestartTest() {
+        super("ingest", Case::new);
     }
 
     /**
      * Events of a few entities with deletions, garbage and late events. What comes again under the id of an event says something
      * else, so that it would show if it passed.
      */
-    private static final class Case implements JobCase {
+    private static final class Case extends JobCase {
         private static final int STEP = 100;
         private static final long START = 1_700_000_000_000L;
 
-        private final List<Arrival> arrivals = new ArrayList<>();
         private final Random random;
 
         Case(long seed) {
@@ -110,11 +98,6 @@ class IngestRestartTest {
 
         private static TopicRecord record(Map<String, String> headers, String key, long time, byte[] value) {
             return new TopicRecord(Topics.RAW, 0, 7, time, key.getBytes(UTF_8), value, headers);
-        }
-
-        @Override
-        public List<Arrival> arrivals() {
-            return arrivals;
         }
 
         @Override

@@ -25,34 +25,22 @@ import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.RestartContract;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-@Timeout(value = 10, unit = TimeUnit.HOURS)
 @Tag("full")
-class CollisionRestartTest {
-    @RegisterExtension
-    static final MiniClusterExtension FLINK = Restarts.cluster();
-
-    @Test
-    void tellsWhatAnUndisturbedRunTellsWhereverItIsRestarted(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).changeNothing(3, Case::new);
-    }
-
-    @Test
-    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).goOnFromReleases("collision", new Case(1));
+class CollisionRestartTest extends RestartContract {
+    CollisionRestartTest() {
+        super("collision", Case::new);
     }
 
     /** Robots that wander along 30 m, with late positions. */
-    private static final class Case implements JobCase {
+    private static final class Case extends JobCase {
         private static final int STEP = 100;
 
-        private final List<Arrival> arrivals = new ArrayList<>();
 
         Case(long seed) {
             Random random = Restarts.random(seed);
@@ -68,11 +56,6 @@ class CollisionRestartTest {
                     arrivals.add(new Arrival(ReportedRun.robot("r" + robot, random.nextInt(30), late), true));
                 }
             }
-        }
-
-        @Override
-        public List<Arrival> arrivals() {
-            return arrivals;
         }
 
         @Override

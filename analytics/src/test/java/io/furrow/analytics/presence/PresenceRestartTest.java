@@ -28,6 +28,7 @@ import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.RestartContract;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -35,30 +36,17 @@ import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-@Timeout(value = 10, unit = TimeUnit.HOURS)
 @Tag("full")
-class PresenceRestartTest {
-    @RegisterExtension
-    static final MiniClusterExtension FLINK = Restarts.cluster();
-
-    @Test
-    void tellsWhatAnUndisturbedRunTellsWhereverItIsRestarted(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).changeNothing(3, Case::new);
-    }
-
-    @Test
-    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).goOnFromReleases("presence", new Case(1));
+class PresenceRestartTest extends RestartContract {
+    PresenceRestartTest() {
+        super("presence", Case::new);
     }
 
     /** Devices that walk through the fields of a story, with late positions. */
-    private static final class Case implements JobCase {
+    private static final class Case extends JobCase {
         private static final int STEP = 100;
         private static final long START = 1_700_000_100_000L;
 
-        private final List<Arrival> arrivals = new ArrayList<>();
         private final ArrayList<Plot> plots;
 
         Case(long seed) {
@@ -91,11 +79,6 @@ class PresenceRestartTest {
             Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
             byte[] key = device.getBytes(UTF_8);
             return new TopicRecord(Topics.RAW, 0, 7, time, key, entity.toBytes(), headers);
-        }
-
-        @Override
-        public List<Arrival> arrivals() {
-            return arrivals;
         }
 
         @Override

@@ -1,5 +1,6 @@
 package io.furrow.analytics.presence;
 
+import io.furrow.analytics.Serializers;
 import java.util.List;
 
 import org.apache.flink.api.common.serialization.SerializerConfigImpl;
@@ -15,7 +16,6 @@ import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.analytics.position.PositionFix;
 
-import static org.assertj.core.api.Assertions.assertThat;
 
 class PresenceTypesTest {
     private static final PositionFix FIX = Story.fix("d", 2, 3, 1000);
@@ -33,21 +33,6 @@ class PresenceTypesTest {
     @ParameterizedTest
     @MethodSource("records")
     void goThroughFlinksOwnSerializer(Object written) throws Exception {
-        assertThat(copied(written)).isEqualTo(written);
-    }
-
-    private static <T> T copied(T written) throws Exception {
-        // Refuses every type that would fall to Kryo.
-        Configuration strict = new Configuration().set(PipelineOptions.GENERIC_TYPES, false);
-        @SuppressWarnings("unchecked")
-        Class<T> type = (Class<T>) written.getClass();
-        TypeSerializer<T> serializer = TypeInformation.of(type).createSerializer(new SerializerConfigImpl(strict));
-        assertThat(serializer).isInstanceOf(PojoSerializer.class);
-        DataOutputSerializer out = new DataOutputSerializer(256);
-        serializer.serialize(written, out);
-        DataInputDeserializer in = new DataInputDeserializer(out.getCopyOfBuffer());
-        T read = serializer.deserialize(in);
-        assertThat(in.available()).isZero();
-        return read;
+        Serializers.assertPlain(written);
     }
 }

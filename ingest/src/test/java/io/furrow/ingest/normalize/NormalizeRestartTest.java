@@ -22,33 +22,20 @@ import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.RestartContract;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.ingest.CollectedOutput;
 import io.furrow.model.event.HeaderNames;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
-@Timeout(value = 10, unit = TimeUnit.HOURS)
-class NormalizeRestartTest {
-    @RegisterExtension
-    static final MiniClusterExtension FLINK = Restarts.cluster();
-
-    @Test
-    void writesWhatAnUndisturbedRunWritesWhereverItIsRestarted(
-            @InjectMiniCluster MiniCluster flink, @TempDir Path folder) throws Exception {
-        new Restarts(flink, folder).changeNothing(3, Case::new);
-    }
-
-    @Test
-    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
-            throws Exception {
-        new Restarts(flink, folder).goOnFromReleases("normalize", new Case(1));
+class NormalizeRestartTest extends RestartContract {
+    NormalizeRestartTest() {
+        super("normalize", Case::new);
     }
 
     /** Notifications of one to three entities, some of which cannot be read. */
-    private static final class Case implements JobCase {
-        private final List<Arrival> arrivals = new ArrayList<>();
-
+    private static final class Case extends JobCase {
         Case(long seed) {
             Random random = Restarts.random(seed);
             for (int i = 0; i < 300; i++) {
@@ -71,11 +58,6 @@ class NormalizeRestartTest {
                     "s",
                     body.replace('\'', '"').getBytes(UTF_8),
                     Map.of("Fiware-Service", "farm", "Fiware-Servicepath", "/north"));
-        }
-
-        @Override
-        public List<Arrival> arrivals() {
-            return arrivals;
         }
 
         @Override

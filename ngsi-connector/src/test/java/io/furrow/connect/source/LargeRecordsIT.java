@@ -148,13 +148,7 @@ class LargeRecordsIT {
     }
 
     private static void post(SourceOnConnect source, String id, String text) throws Exception {
-        HttpRequest request = HttpRequest.newBuilder(URI.create("http://127.0.0.1:" + source.port() + "/v2/notify"))
-                .POST(BodyPublishers.ofString("{\"id\": \"" + id + "\", \"x\": \"" + text + "\"}"))
-                .build();
-        assertThat(HttpClient.newHttpClient()
-                        .send(request, HttpResponse.BodyHandlers.discarding())
-                        .statusCode())
-                .isEqualTo(200);
+        assertThat(source.post(id, "\"" + text + "\"")).isEqualTo(200);
     }
 
     private static void make(ConnectRig rig, String topic, String maxBytes) {

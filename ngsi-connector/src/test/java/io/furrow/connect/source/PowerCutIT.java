@@ -34,14 +34,12 @@ class PowerCutIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
     private static final String NAME = "ngsi-source";
 
-    private final HttpClient client =
-            HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
     private final List<String> answered = new ArrayList<>();
 
     @Test
     void hasEveryNotificationThatWasAnsweredThoughTheTopicLostItsEnd(@TempDir Path directory) throws Exception {
         int port = FreePort.orFree(0);
-        URI source = URI.create("http://127.0.0.1:" + port + "/notify");
+        SourceOnConnect source = new SourceOnConnect(port);
         try (ConnectRig rig = ConnectRig.start(directory)) {
             rig.createTopic(new NewTopic("data.raw", 2, (short) 1));
             Map<String, String> options = Map.of(
@@ -81,22 +79,11 @@ class PowerCutIT {
         }
     }
 
-    private void notify(URI source, String name, int number) {
+    private void notify(SourceOnConnect source, String name, int number) {
         for (int i = 0; i < number; i++) {
             String id = name + i;
-            await().atMost(TIMEOUT).until(() -> post(source, id) == 200);
+            await().atMost(TIMEOUT).until(() -> source.post(id) == 200);
             answered.add(id);
-        }
-    }
-
-    private int post(URI source, String id) throws InterruptedException {
-        HttpRequest request = HttpRequest.newBuilder(source)
-                .POST(BodyPublishers.ofString("{\"id\": \"" + id + "\", \"x\": 1}"))
-                .build();
-        try {
-            return client.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
-        } catch (IOException e) {
-            return 0;
         }
     }
 

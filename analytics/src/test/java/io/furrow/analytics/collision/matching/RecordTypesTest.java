@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision.matching;
 
+import io.furrow.analytics.Serializers;
 import java.util.List;
 
 import org.apache.flink.api.common.serialization.SerializerConfigImpl;
@@ -50,8 +51,8 @@ class RecordTypesTest {
     @ParameterizedTest
     @MethodSource("records")
     void goThroughTheirFormats(Object written) throws Exception {
-        assertThat(copied(written)).isEqualTo(written);
-        assertThat(serializer(written)).isNotInstanceOf(PojoSerializer.class);
+        assertThat(Serializers.copied(written)).isEqualTo(written);
+        assertThat(Serializers.of(written)).isNotInstanceOf(PojoSerializer.class);
     }
 
     static Object[] plainRecords() {
@@ -65,13 +66,12 @@ class RecordTypesTest {
     @ParameterizedTest
     @MethodSource("plainRecords")
     void goThroughFlinksOwnSerializer(Object written) throws Exception {
-        assertThat(copied(written)).isEqualTo(written);
-        assertThat(serializer(written)).isInstanceOf(PojoSerializer.class);
+        Serializers.assertPlain(written);
     }
 
     @Test
     void tracksGoThroughTheirFormat() throws Exception {
-        Track track = copied(new Track(FIX, new long[] {3, -4}));
+        Track track = Serializers.copied(new Track(FIX, new long[] {3, -4}));
         assertThat(track.last()).isEqualTo(FIX);
         assertThat(track.cells()).containsExactly(3, -4);
     }
@@ -82,10 +82,10 @@ class RecordTypesTest {
         cell.put(CellEntry.of(FIX, true));
         cell.put(inACrowd(Fixes.east("c", 3, 500)));
         cell.report(new CrowdReport(1000, true, FIX));
-        assertThat(copied(cell).report()).isEqualTo(cell.report());
-        assertThat(copied(cell).isCrowded()).isTrue();
-        assertThat(copied(cell).members()).containsExactlyInAnyOrderElementsOf(cell.members());
-        Cell copy = serializer(cell).copy(cell);
+        assertThat(Serializers.copied(cell).report()).isEqualTo(cell.report());
+        assertThat(Serializers.copied(cell).isCrowded()).isTrue();
+        assertThat(Serializers.copied(cell).members()).containsExactlyInAnyOrderElementsOf(cell.members());
+        Cell copy = Serializers.of(cell).copy(cell);
         copy.put(CellEntry.of(Fixes.east("d", 3, 500), false));
         copy.report(null);
         assertThat(copy.members()).hasSize(3);
@@ -97,23 +97,5 @@ class RecordTypesTest {
         CellEntry cellEntry = CellEntry.of(fix, false);
         cellEntry.shortlist(new NearestNeighbors(List.of("farm|/|a", "farm|/|é")));
         return cellEntry;
-    }
-
-    private static <T> T copied(T written) throws Exception {
-        TypeSerializer<T> serializer = serializer(written);
-        DataOutputSerializer out = new DataOutputSerializer(256);
-        serializer.serialize(written, out);
-        DataInputDeserializer in = new DataInputDeserializer(out.getCopyOfBuffer());
-        T read = serializer.deserialize(in);
-        assertThat(in.available()).isZero();
-        return read;
-    }
-
-    private static <T> TypeSerializer<T> serializer(T written) {
-        // Refuses every type that would fall to Kryo.
-        Configuration strict = new Configuration().set(PipelineOptions.GENERIC_TYPES, false);
-        @SuppressWarnings("unchecked")
-        Class<T> type = (Class<T>) written.getClass();
-        return TypeInformation.of(type).createSerializer(new SerializerConfigImpl(strict));
     }
 }

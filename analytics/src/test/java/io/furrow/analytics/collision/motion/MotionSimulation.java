@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision.motion;
 
+import io.furrow.analytics.collision.Simulation;
 import java.util.ArrayList;
 import java.util.Collection;
 import java.util.Collections;
@@ -36,7 +37,7 @@ final class MotionSimulation {
         long watermark = fixes.stream().mapToLong(PositionFix::time).min().orElse(0);
         while (!waiting.isEmpty()) {
             watermark += random.nextInt(2000);
-            simulation.advance(taken(waiting, watermark), watermark);
+            simulation.advance(Simulation.taken(waiting, watermark), watermark);
         }
         simulation.advance(List.of(), Long.MAX_VALUE);
         simulation.contacts.values().forEach(open -> Contact.close(open, simulation.approaches::add));
@@ -45,7 +46,7 @@ final class MotionSimulation {
 
     private void advance(List<PositionFix> due, long until) {
         List<LegUpdate> updates = new ArrayList<>();
-        grouped(due, PositionFix::key).forEach((device, fixes) -> {
+        Simulation.grouped(due, PositionFix::key, random).forEach((device, fixes) -> {
             fixes.sort(PositionFix.SEQUENCE);
             motions.put(
                     device,
@@ -53,35 +54,19 @@ final class MotionSimulation {
         });
         List<Finding> predictions = new ArrayList<>();
         List<Finding> found = new ArrayList<>();
-        grouped(updates, LegUpdate::cube).forEach((cube, all) -> {
+        Simulation.grouped(updates, LegUpdate::cube, random).forEach((cube, all) -> {
             all.sort(LegUpdate.SEQUENCE);
             Neighbourhood here = neighbourhoods.computeIfAbsent(cube, id -> Neighbourhood.empty());
             here.apply(all, new ApproachDetector(rules, cubes, cube, predictions::add, found::add));
             here.forget(until, rules.timeToLive());
         });
-        grouped(predictions, Finding::pair).forEach((pair, findings) -> {
+        Simulation.grouped(predictions, Finding::pair, random).forEach((pair, findings) -> {
             findings.sort(Finding.SEQUENCE);
             foretold.put(pair, OngoingPrediction.follow(foretold.get(pair), findings, rules, approaches::add));
         });
-        grouped(found, Finding::pair).forEach((pair, findings) -> {
+        Simulation.grouped(found, Finding::pair, random).forEach((pair, findings) -> {
             findings.sort(Finding.SEQUENCE);
             contacts.put(pair, Contact.join(contacts.get(pair), findings, approaches::add));
         });
-    }
-
-    private <K, T> Map<K, List<T>> grouped(List<T> all, Function<T, K> key) {
-        List<T> shuffled = new ArrayList<>(all);
-        Collections.shuffle(shuffled, random);
-        Map<K, List<T>> groups = new HashMap<>();
-        shuffled.forEach(each ->
-                groups.computeIfAbsent(key.apply(each), k -> new ArrayList<>()).add(each));
-        return groups;
-    }
-
-    private static List<PositionFix> taken(List<PositionFix> waiting, long watermark) {
-        List<PositionFix> due =
-                waiting.stream().filter(fix -> fix.time() <= watermark).toList();
-        waiting.removeIf(fix -> fix.time() <= watermark);
-        return due;
     }
 }

@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision.motion;
 
+import io.furrow.analytics.Serializers;
 import java.util.List;
 import java.util.Map;
 
@@ -17,7 +18,6 @@ import org.junit.jupiter.params.provider.MethodSource;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.position.PositionFix;
 
-import static org.assertj.core.api.Assertions.assertThat;
 
 class MotionTypesTest {
     private static final PositionFix FIX = Courses.fix("a", new double[] {40.5, -3.25}, 1000);
@@ -43,21 +43,6 @@ class MotionTypesTest {
     @ParameterizedTest
     @MethodSource("records")
     void goThroughFlinksOwnSerializer(Object written) throws Exception {
-        assertThat(copied(written)).isEqualTo(written);
-    }
-
-    private static <T> T copied(T written) throws Exception {
-        // Refuses every type that would fall to Kryo.
-        Configuration strict = new Configuration().set(PipelineOptions.GENERIC_TYPES, false);
-        @SuppressWarnings("unchecked")
-        Class<T> type = (Class<T>) written.getClass();
-        TypeSerializer<T> serializer = TypeInformation.of(type).createSerializer(new SerializerConfigImpl(strict));
-        assertThat(serializer).isInstanceOf(PojoSerializer.class);
-        DataOutputSerializer out = new DataOutputSerializer(256);
-        serializer.serialize(written, out);
-        DataInputDeserializer in = new DataInputDeserializer(out.getCopyOfBuffer());
-        T read = serializer.deserialize(in);
-        assertThat(in.available()).isZero();
-        return read;
+        Serializers.assertPlain(written);
     }
 }

@@ -1,5 +1,9 @@
 package io.furrow.analytics.collision.motion;
 
+import io.furrow.flink.time.KeyedLatenessOperator;
+import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
+import org.apache.flink.api.common.typeinfo.Types;
+import io.furrow.analytics.collision.encounter.Stage;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
@@ -37,7 +41,7 @@ class RestartedMotionTest {
     @Test
     void leavesOutWhatComesBehindTheWatermarkAlsoAfterARestart() throws Exception {
         MotionRules rules = Courses.rules(20);
-        var track = MotionStage.track(rules);
+        var track = track(rules);
         track.receive(List.of(Courses.fix("a", new double[] {40, 3}, 1, 90, Courses.START)));
         assertThat(track.advance(Courses.START + 10)).isNotEmpty();
         track.restart();
@@ -52,12 +56,20 @@ class RestartedMotionTest {
         track.stop();
     }
 
+    private static Stage<String, PositionFix, LegUpdate> track(MotionRules rules) throws Exception {
+        return Stage.of(
+                () -> new KeyedLatenessOperator<>(new TrackMotion(rules)), PositionFix::key, Types.STRING);
+    }
+
     private List<Approach> restarted(List<PositionFix> arrivals, MotionRules rules) throws Exception {
-        var track = MotionStage.track(rules);
-        var match = MotionStage.match(rules);
-        var predict = MotionStage.predict(rules);
-        var join = MotionStage.join(rules);
-        List<MotionStage<?, ?, ?>> stages = List.of(track, match, predict, join);
+        var track = track(rules);
+        Stage<Long, LegUpdate, Finding> match =
+                Stage.of(() -> new KeyedProcessOperator<>(new MatchSegments(rules)), LegUpdate::cube, Types.LONG);
+        Stage<String, Finding, Approach> predict =
+                Stage.of(() -> new KeyedProcessOperator<>(new TrackPredictions(rules)), Finding::pair, Types.STRING);
+        Stage<String, Finding, Approach> join =
+                Stage.of(() -> new KeyedProcessOperator<>(new JoinContacts(rules)), Finding::pair, Types.STRING);
+        List<Stage<?, ?, ?>> stages = List.of(track, match, predict, join);
         List<Approach> approaches = new ArrayList<>();
         long newest = Long.MIN_VALUE;
         for (int i = 0; i <= arrivals.size(); i++) {
@@ -84,8 +96,9 @@ class RestartedMotionTest {
                 approaches.addAll(join.advance(watermark));
             }
         }
-        for (MotionStage<?, ?, ?> stage : stages) {
-            assertThat(stage.isEmpty()).isTrue();
+        for (Stage<?, ?, ?> stage : stages) {
+            assertThat(stage.stateEntries()).isZero();
+            assertThat(stage.timers()).isZero();
             stage.stop();
         }
         return approaches;

@@ -125,7 +125,7 @@ public final class Restarts {
     public void goOnFromReleases(String name, JobCase job) throws Exception {
         Map<String, String> undisturbed = undisturbed(job);
         Written.clear();
-        int cut = job.arrivals().size() / 2;
+        int cut = job.arrivals.size() / 2;
         JobID first = start(job, 0, new Run(2, false), null);
         pass(first, Math.max(0, cut - ON_THEIR_WAY));
         Input.awaitJudges();
@@ -168,7 +168,7 @@ public final class Restarts {
     private String disturbed(JobCase job, Random random) throws Exception {
         Written.clear();
         StringBuilder how = new StringBuilder();
-        int last = job.arrivals().size() - 1;
+        int last = job.arrivals.size() - 1;
         int position = 0;
         String state = null;
         int restarts = 2 + random.nextInt(3);
