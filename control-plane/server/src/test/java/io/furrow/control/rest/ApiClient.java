@@ -38,16 +38,37 @@ public final class ApiClient {
         this.token = token;
     }
 
-    public HttpResponse<byte[]> send(String method, String path, String body) throws Exception {
-        return send(method, path, body, true);
+    /** @param header none, or its name and value */
+    public HttpResponse<byte[]> send(String method, String path, String body, String... header) throws Exception {
+        HttpRequest.Builder request = request(method, path, body);
+        if (header.length > 0) {
+            request.setHeader(header[0], header[1]);
+        }
+        return send(request, true);
     }
 
     HttpResponse<byte[]> send(String method, String path, String body, boolean described) throws Exception {
         return send(request(method, path, body), described);
     }
 
-    HttpResponse<byte[]> send(String method, String path, String body, String header, String value) throws Exception {
-        return send(request(method, path, body).setHeader(header, value), true);
+    int status(String method, String path, String body, String... header) throws Exception {
+        return send(method, path, body, header).statusCode();
+    }
+
+    JsonNode get(String path) throws Exception {
+        return ask("GET", path, null);
+    }
+
+    JsonNode ask(String method, String path, String body, String... header) throws Exception {
+        return json(send(method, path, body, header));
+    }
+
+    String error(String method, String path, String body, String... header) throws Exception {
+        return error(send(method, path, body, header));
+    }
+
+    String error(String method, String path, String body, boolean described) throws Exception {
+        return error(send(method, path, body, described));
     }
 
     private HttpRequest.Builder request(String method, String path, String body) {

@@ -36,24 +36,22 @@ class RefusedRequestsIT {
         client.send("POST", "/api/domains", "{\"domain\":\"keyed\"}");
         String start = "{\"domain\":\"keyed\"}";
         client.send("POST", "/api/missions/b/start", start);
-        assertThat(client.send("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2")
-                        .statusCode())
+        assertThat(client.status("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2"))
                 .isEqualTo(200);
 
-        assertThat(client.error(client.send("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2")))
+        assertThat(client.error("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2"))
                 .isEqualTo("422 request-id-reused");
-        assertThat(client.error(client.send(
-                        "POST", "/api/missions/a/start", "{\"domain\":\"nowhere\"}", "Idempotency-Key", "key-2")))
+        assertThat(client.error(
+                        "POST", "/api/missions/a/start", "{\"domain\":\"nowhere\"}", "Idempotency-Key", "key-2"))
                 .isEqualTo("422 request-id-reused");
         assertThat(running.get("/api/missions/b").at("/status/state").asText()).isEqualTo("running");
-        assertThat(client.send("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2")
-                        .statusCode())
+        assertThat(client.status("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2"))
                 .isEqualTo(200);
 
         try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
             ApiClient there = new ApiClient(other.uri(), null);
             await().until(other::isReady);
-            assertThat(there.error(there.send("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2")))
+            assertThat(there.error("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2"))
                     .isEqualTo("422 request-id-reused");
         }
     }
@@ -63,11 +61,11 @@ class RefusedRequestsIT {
         String area = "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[1,1],[0,0]]],\"note\":\"%s\"}";
         for (int bytes : new int[] {Limits.REQUEST_BYTES - 100, Limits.REQUEST_BYTES, 1_300_000}) {
             String body = "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(bytes)));
-            assertThat(client.error(client.send("POST", "/api/domains", body))).isEqualTo("413 too-large");
+            assertThat(client.error("POST", "/api/domains", body)).isEqualTo("413 too-large");
         }
         String body =
                 "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(Limits.REQUEST_BYTES - 400)));
-        assertThat(client.send("POST", "/api/domains", body).statusCode()).isEqualTo(201);
+        assertThat(client.status("POST", "/api/domains", body)).isEqualTo(201);
         assertThat(running.get("/api/domains/large").at("/area/note").asText()).hasSize(Limits.REQUEST_BYTES - 400);
         client.send("DELETE", "/api/domains/large", null);
     }
@@ -76,7 +74,7 @@ class RefusedRequestsIT {
     void rejectsAFilterOfAlarmsThatNoneCanPass() throws Exception {
         for (String query : """
                 state=opne state= state=open&state=open state=null&state=null limit=0 limit=1&limit=2 limit=x""".split("\\s+")) {
-            assertThat(client.error(client.send("GET", "/api/alarms?" + query, null)))
+            assertThat(client.error("GET", "/api/alarms?" + query, null))
                     .as(query)
                     .isEqualTo("400 wrong-member");
         }

@@ -98,14 +98,14 @@ class RestApiAccessIT {
         running.refused("POST", "/api/domains", "{}", 400, "missing-member");
         running.refused("POST", "/api/domains", "{\"domain\":\"x\",\"name\":7}", 400, "wrong-member");
         running.refused("GET", "/api/audit?limit=0", null, 400, "wrong-member");
-        assertThat(client.error(client.send("GET", "/api/nosuch", null, false))).isEqualTo("404 not-found");
-        assertThat(client.error(client.send("PUT", "/api/domains", "{}", false)))
+        assertThat(client.error("GET", "/api/nosuch", null, false)).isEqualTo("404 not-found");
+        assertThat(client.error("PUT", "/api/domains", "{}", false))
                 .isEqualTo("405 method-not-allowed");
-        assertThat(client.error(client.send("POST", "/api/domains", "{}", "Content-Type", "text/plain")))
+        assertThat(client.error("POST", "/api/domains", "{}", "Content-Type", "text/plain"))
                 .isEqualTo("415 unsupported-media-type");
-        assertThat(client.error(client.send("POST", "/api/domains", "{}", "Idempotency-Key", "a b")))
+        assertThat(client.error("POST", "/api/domains", "{}", "Idempotency-Key", "a b"))
                 .isEqualTo("400 wrong-header");
-        assertThat(client.error(client.send("POST", "/api/domains", "{}", "Origin", "http://evil.example")))
+        assertThat(client.error("POST", "/api/domains", "{}", "Origin", "http://evil.example"))
                 .isEqualTo("403 foreign-origin");
         assertThat(client.raw("/api/domains", "evil.example"))
                 .contains(" 403 ", "\"error\":\"foreign-host\"", "'evil.example'", "--allowed-hosts");
@@ -115,7 +115,7 @@ class RestApiAccessIT {
                 .contains(" 400 ", "{\"type\":\"response\",\"status\":\"error\"");
         byte[] large = new byte[9 * 1024 * 1024];
         Arrays.fill(large, (byte) ' ');
-        assertThat(client.error(client.send("POST", "/api/domains", new String(large))))
+        assertThat(client.error("POST", "/api/domains", new String(large)))
                 .isEqualTo("413 too-large");
     }
 
@@ -129,16 +129,16 @@ class RestApiAccessIT {
         try (RestApi other = RestApi.start(running.settings(), settings, new Readiness(Clock.systemUTC()))) {
             ApiClient nobody = new ApiClient(other.uri(), null);
             ApiClient ann = new ApiClient(other.uri(), "a-token-of-sixteen-signs");
-            await().until(() -> nobody.send("GET", "/ready", null).statusCode() == 200);
+            await().until(() -> nobody.status("GET", "/ready", null) == 200);
             for (String path :
                     new String[] {"/api/domains", "//api/domains", "/api/../api/domains", "/api;x/domains"}) {
                 assertThat(nobody.raw(path, "localhost")).as(path).containsAnyOf(" 401 ", " 400 ");
             }
             assertThat(nobody.raw("/api/domains", "farm.example.org")).contains(" 401 ");
             assertThat(nobody.raw("/api/domains", "evil.example")).contains(" 403 ", "foreign-host");
-            assertThat(client.error(ann.send("GET", "/api/domains", null, "Origin", "https://evil.example")))
+            assertThat(ann.error("GET", "/api/domains", null, "Origin", "https://evil.example"))
                     .isEqualTo("403 foreign-origin");
-            assertThat(client.error(nobody.send("GET", "/api/domains", null))).isEqualTo("401 unauthorized");
+            assertThat(nobody.error("GET", "/api/domains", null)).isEqualTo("401 unauthorized");
             assertThat(client.error(
                             new ApiClient(other.uri(), "another-token-of-signs").send("GET", "/api/domains", null)))
                     .isEqualTo("401 unauthorized");

@@ -58,7 +58,7 @@ class ReplayFeedIT {
     }
 
     private String startReplay() throws Exception {
-        return client.json(client.send("POST", "/api/replays", "{\"mission\":\"m\"}"))
+        return client.ask("POST", "/api/replays", "{\"mission\":\"m\"}")
                 .path("replay")
                 .asText();
     }
