@@ -102,10 +102,14 @@ public final class BadAmongGood implements AutoCloseable {
     private void submit(JobOptions options, Path checkpoints) {
         JobCommandLine.of(options)
                 .parseArgs(
-                        "--bootstrap-servers", kafka.bootstrapServers(),
-                        "--checkpoint-interval", "5s",
-                        "--checkpoint-dir", checkpoints.toUri().toString(),
-                        "--parallelism", "1");
+                        "--bootstrap-servers",
+                        kafka.bootstrapServers(),
+                        "--checkpoint-interval",
+                        "5s",
+                        "--checkpoint-dir",
+                        checkpoints.toUri().toString(),
+                        "--parallelism",
+                        "1");
         StreamExecutionEnvironment env = options instanceof IngestOptions ingest
                 ? IngestJob.assemble(ingest)
                 : NormalizeJob.assemble((NormalizeOptions) options);

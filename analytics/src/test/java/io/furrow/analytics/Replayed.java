@@ -93,10 +93,14 @@ public final class Replayed {
     public static TopicRecord record(TopicRecord live, int epoch, long offset, String kind) {
         var stamped = new TopicRecord(TOPIC, 0, 7, live.timestamp() + offset, live.key(), live.value(), live.headers());
         return stamped.with(Map.of(
-                HeaderNames.REPLAY_EPOCH, Integer.toString(epoch),
-                HeaderNames.REPLAY_OFFSET, Long.toString(offset),
-                HeaderNames.REPLAY_KIND, kind,
-                HeaderNames.ORIGIN, "replay"));
+                HeaderNames.REPLAY_EPOCH,
+                Integer.toString(epoch),
+                HeaderNames.REPLAY_OFFSET,
+                Long.toString(offset),
+                HeaderNames.REPLAY_KIND,
+                kind,
+                HeaderNames.ORIGIN,
+                "replay"));
     }
 
     /** Those of the job's own source, with a watermark after each record. Records of other topics only begin event time. */

@@ -21,12 +21,18 @@ public final class TopicReader implements AutoCloseable {
 
     public TopicReader(String bootstrapServers, String... topics) {
         Map<String, Object> settings = Map.of(
-                "bootstrap.servers", bootstrapServers,
-                "group.id", "reader-" + System.nanoTime(),
-                "isolation.level", "read_committed",
-                "auto.offset.reset", "earliest",
-                "metadata.max.age.ms", "200",
-                "max.partition.fetch.bytes", 20_000_000);
+                "bootstrap.servers",
+                bootstrapServers,
+                "group.id",
+                "reader-" + System.nanoTime(),
+                "isolation.level",
+                "read_committed",
+                "auto.offset.reset",
+                "earliest",
+                "metadata.max.age.ms",
+                "200",
+                "max.partition.fetch.bytes",
+                20_000_000);
         consumer = new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer());
         consumer.subscribe(List.of(topics));
     }

@@ -53,9 +53,12 @@ final class YearFarm implements AutoCloseable {
                 furrow,
                 folder.resolve("up"),
                 List.of(
-                        "--orion", standIn.contextBroker().toString(),
-                        "--start-timeout", "5s",
-                        "--window", YearResults.WINDOW.toSeconds() + "s"));
+                        "--orion",
+                        standIn.contextBroker().toString(),
+                        "--start-timeout",
+                        "5s",
+                        "--window",
+                        YearResults.WINDOW.toSeconds() + "s"));
         data = folder.resolve("up").resolve("data");
         tap = new Tap(up.port("notify"));
         up.with("--public-url", tap.publicUrl());

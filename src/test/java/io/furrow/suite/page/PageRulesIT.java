@@ -95,9 +95,15 @@ class PageRulesIT {
                 return [...allAttributes(entity).map(({ name, value }) => `${name}=${value}`),
                   ...keyAttributes(entity, 9).map(({ label, value, unit }) => `${label}: ${value} ${unit}`.trim()), `${entity.speed} m/s`];"""))
                 .contains(
-                        "code=840380235174088834", "least=-9007199254740993", "far=1E400",
-                        "zeros=0042", "Code: 840380235174088834", "Serial: 12 345 678 901",
-                        "Battery: 1 %", "Battery level: 7 %", "Speed: 36 km/h",
+                        "code=840380235174088834",
+                        "least=-9007199254740993",
+                        "far=1E400",
+                        "zeros=0042",
+                        "Code: 840380235174088834",
+                        "Serial: 12 345 678 901",
+                        "Battery: 1 %",
+                        "Battery level: 7 %",
+                        "Speed: 36 km/h",
                         "10 m/s");
     }
 

@@ -46,8 +46,12 @@ class ReportDelayedDevicesTest {
         }
         assertThat(harness.extractOutputValues())
                 .extracting(
-                        ClockReport::kind, ClockReport::id, ClockReport::mission,
-                        ClockReport::millis, ClockReport::positions, ClockReport::time)
+                        ClockReport::kind,
+                        ClockReport::id,
+                        ClockReport::mission,
+                        ClockReport::millis,
+                        ClockReport::positions,
+                        ClockReport::time)
                 .containsExactly(
                         tuple(ClockReport.Kind.DELAYED, "slow", "m", 2 * HOUR, 31, START + 30 * SECOND),
                         tuple(ClockReport.Kind.DELAYED, "slow", "m", 2 * HOUR, 91, START + 90 * SECOND));

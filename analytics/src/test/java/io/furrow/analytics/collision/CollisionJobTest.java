@@ -247,11 +247,23 @@ class CollisionJobTest {
                         .sorted(Comparator.comparing(StreamNode::getTransformationUID))
                         .map(StreamNode::getTransformationUID))
                 .containsExactly(
-                        "Sink Committer: write-topics", "assign-carriers", "describe-clocks",
-                        "describe-delayed-devices", "describe-encounters", "describe-late-positions",
-                        "describe-overflows", "ensure-topics", "match-pairs",
-                        "read-devices", "read-events", "read-positions",
-                        "recognize-devices", "report-delayed-devices", "track-devices",
-                        "track-encounters", "watch-clocks", "write-topics");
+                        "Sink Committer: write-topics",
+                        "assign-carriers",
+                        "describe-clocks",
+                        "describe-delayed-devices",
+                        "describe-encounters",
+                        "describe-late-positions",
+                        "describe-overflows",
+                        "ensure-topics",
+                        "match-pairs",
+                        "read-devices",
+                        "read-events",
+                        "read-positions",
+                        "recognize-devices",
+                        "report-delayed-devices",
+                        "track-devices",
+                        "track-encounters",
+                        "watch-clocks",
+                        "write-topics");
     }
 }

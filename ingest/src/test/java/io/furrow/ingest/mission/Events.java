@@ -26,13 +26,20 @@ final class Events {
     static MissionEvent event(String mission, String id, long time, String json) {
         byte[] value = json == null ? null : json.getBytes(UTF_8);
         Map<String, String> headers = new HashMap<>(Map.of(
-                HeaderNames.CE_ID, id,
-                HeaderNames.CE_SOURCE, "/test",
-                HeaderNames.SERVICE, "farm",
-                HeaderNames.SERVICE_PATH, "/",
-                HeaderNames.TS_DEVICE, Long.toString(time),
-                HeaderNames.TS_SOURCE, Long.toString(time + 5),
-                HeaderNames.TS_INGEST, Long.toString(time + 9)));
+                HeaderNames.CE_ID,
+                id,
+                HeaderNames.CE_SOURCE,
+                "/test",
+                HeaderNames.SERVICE,
+                "farm",
+                HeaderNames.SERVICE_PATH,
+                "/",
+                HeaderNames.TS_DEVICE,
+                Long.toString(time),
+                HeaderNames.TS_SOURCE,
+                Long.toString(time + 5),
+                HeaderNames.TS_INGEST,
+                Long.toString(time + 9)));
         return new MissionEvent(
                 "farm", mission, new TopicRecord("data.raw", 0, 7, time, "t1".getBytes(UTF_8), value, headers));
     }

@@ -1,23 +1,16 @@
 package io.furrow.connect.journal;
 
-import static io.furrow.connect.journal.JournalTest.payloads;
-import static io.furrow.connect.journal.JournalTest.read;
-import static io.furrow.connect.journal.JournalTest.append;
 import java.nio.file.Files;
-import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 
-import org.apache.logging.log4j.Level;
-import org.apache.logging.log4j.core.config.Configurator;
-import org.junit.jupiter.api.AfterAll;
-import org.junit.jupiter.api.BeforeAll;
-import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 
+import static io.furrow.connect.journal.JournalTest.append;
+import static io.furrow.connect.journal.JournalTest.payloads;
+import static io.furrow.connect.journal.JournalTest.read;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class FailingDiskTest extends QuietJournal {
@@ -171,8 +164,8 @@ class FailingDiskTest extends QuietJournal {
     }
 
     private static void assertFails(Journal journal, List<String> texts, Class<? extends Throwable> kind) {
-        CompletableFuture<Void> durable = journal.append(payloads(texts.toArray(String[]::new)))
-                .orElseThrow();
+        CompletableFuture<Void> durable =
+                journal.append(payloads(texts.toArray(String[]::new))).orElseThrow();
         assertThat(durable)
                 .failsWithin(Duration.ofMinutes(1))
                 .withThrowableOfType(ExecutionException.class)

@@ -1,7 +1,5 @@
 package io.furrow.connect.journal;
 
-import static io.furrow.connect.journal.JournalTest.read;
-import static io.furrow.connect.journal.JournalTest.append;
 import java.io.IOException;
 import java.io.RandomAccessFile;
 import java.nio.file.Files;
@@ -9,14 +7,10 @@ import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.List;
 
-import org.apache.logging.log4j.Level;
-import org.apache.logging.log4j.core.config.Configurator;
-import org.junit.jupiter.api.AfterAll;
-import org.junit.jupiter.api.BeforeAll;
-import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 
+import static io.furrow.connect.journal.JournalTest.append;
+import static io.furrow.connect.journal.JournalTest.read;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** What a journal makes of bytes that look like its own and are not. */

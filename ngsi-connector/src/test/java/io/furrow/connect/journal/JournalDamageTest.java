@@ -1,7 +1,5 @@
 package io.furrow.connect.journal;
 
-import static io.furrow.connect.journal.JournalTest.read;
-import static io.furrow.connect.journal.JournalTest.append;
 import java.io.IOException;
 import java.io.RandomAccessFile;
 import java.nio.file.Files;
@@ -14,14 +12,11 @@ import java.util.Map;
 import java.util.Random;
 import java.util.stream.Stream;
 
-import org.apache.logging.log4j.Level;
-import org.apache.logging.log4j.core.config.Configurator;
-import org.junit.jupiter.api.AfterAll;
-import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
-import org.junit.jupiter.api.io.TempDir;
 
+import static io.furrow.connect.journal.JournalTest.append;
+import static io.furrow.connect.journal.JournalTest.read;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
@@ -61,9 +56,7 @@ class JournalDamageTest extends QuietJournal {
         for (int length = begin; length < end; length++) {
             Files.write(last, Arrays.copyOf(whole, length));
             try (Journal journal = open()) {
-                assertThat(read(journal.reader(0)))
-                        .as("cut at %d", length)
-                        .isEqualTo(expected(0, RECORDS - 1));
+                assertThat(read(journal.reader(0))).as("cut at %d", length).isEqualTo(expected(0, RECORDS - 1));
                 assertThat(journal.damages())
                         .as("cut at %d", length)
                         .extracting(Corruption::kind)
@@ -84,9 +77,7 @@ class JournalDamageTest extends QuietJournal {
             Arrays.fill(torn, written, end, (byte) 0);
             Files.write(last, torn);
             try (Journal journal = open()) {
-                assertThat(read(journal.reader(0)))
-                        .as("written to %d", written)
-                        .isEqualTo(expected(0, RECORDS - 1));
+                assertThat(read(journal.reader(0))).as("written to %d", written).isEqualTo(expected(0, RECORDS - 1));
                 boolean anything = written > begin && !onlyZeros(torn, begin, end);
                 assertThat(journal.damages().isEmpty()).isEqualTo(!anything);
                 assertThat(journal.lostRecords()).isZero();

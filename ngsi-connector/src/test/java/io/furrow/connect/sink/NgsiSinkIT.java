@@ -104,11 +104,16 @@ class NgsiSinkIT {
         rig.create(
                 "ngsi-sink",
                 Map.of(
-                        "topics", topic,
-                        "context.broker.url", broker.url().toString(),
-                        "errors.deadletterqueue.topic.name", topic + ".dead",
-                        "retry.backoff.ms", "100",
-                        "consumer.override.metadata.max.age.ms", "500"));
+                        "topics",
+                        topic,
+                        "context.broker.url",
+                        broker.url().toString(),
+                        "errors.deadletterqueue.topic.name",
+                        topic + ".dead",
+                        "retry.backoff.ms",
+                        "100",
+                        "consumer.override.metadata.max.age.ms",
+                        "500"));
     }
 
     private static void produce(String topic, int count) {

@@ -1,11 +1,5 @@
 package io.furrow.connect.source;
 
-import java.io.IOException;
-import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpRequest.BodyPublishers;
-import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.Map;
@@ -23,6 +17,7 @@ import static org.awaitility.Awaitility.await;
 
 class NgsiSourceAwayIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
+
     @Test
     void takesNotificationsWhileKafkaIsAwayAndWritesThemWhenItIsBack(@TempDir Path directory)
             throws InterruptedException {

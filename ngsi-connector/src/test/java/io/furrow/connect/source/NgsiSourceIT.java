@@ -162,10 +162,14 @@ class NgsiSourceIT {
         rig.create(
                 "ngsi-source",
                 Map.of(
-                        "topic", topic,
-                        "listen.port", Integer.toString(port),
-                        "producer.override.max.request.size", "16777216",
-                        "admin.override.bootstrap.servers", rig.bootstrapServers()));
+                        "topic",
+                        topic,
+                        "listen.port",
+                        Integer.toString(port),
+                        "producer.override.max.request.size",
+                        "16777216",
+                        "admin.override.bootstrap.servers",
+                        rig.bootstrapServers()));
         source = URI.create("http://127.0.0.1:" + port);
         org.awaitility.Awaitility.await().ignoreExceptions().until(() -> health().contains("\"requests\":0"));
     }

@@ -74,10 +74,14 @@ class NgsiSourceTaskTest {
         NgsiSourceTask task = new NgsiSourceTask();
         task.initialize(new StubContext(Map.of(), offsets));
         task.start(Map.of(
-                "name", name,
-                "listen.port", Integer.toString(port),
-                "journal.dir", directory.toString(),
-                "topic", "raw"));
+                "name",
+                name,
+                "listen.port",
+                Integer.toString(port),
+                "journal.dir",
+                directory.toString(),
+                "topic",
+                "raw"));
         return task;
     }
 

@@ -192,8 +192,14 @@ class OverloadTest {
     @Test
     void turnsAwayABodyThatFindsNoMemoryInTime() {
         try (NotificationRig rig = new NotificationRig(
-                "max.body.bytes", "100000", "overload.memory.bytes", "100000",
-                "overload.hold.ms", "300", "overload.answer", "503")) {
+                "max.body.bytes",
+                "100000",
+                "overload.memory.bytes",
+                "100000",
+                "overload.hold.ms",
+                "300",
+                "overload.answer",
+                "503")) {
             rig.recordLog.answer = Optional.of(new CompletableFuture<>());
             byte[] all = new byte[100_000];
 

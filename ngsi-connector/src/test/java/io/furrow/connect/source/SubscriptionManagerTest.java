@@ -157,10 +157,14 @@ class SubscriptionManagerTest {
 
     private NgsiSourceConfig config(Map<String, String> options) {
         Map<String, String> all = new HashMap<>(Map.of(
-                "name", "farm",
-                "journal.dir", directory.toString(),
-                "topic", "raw",
-                "context.broker.url", broker.uri().toString()));
+                "name",
+                "farm",
+                "journal.dir",
+                directory.toString(),
+                "topic",
+                "raw",
+                "context.broker.url",
+                broker.uri().toString()));
         all.putAll(options);
         return new NgsiSourceConfig(all);
     }

@@ -203,9 +203,12 @@ class TlsTest {
 
     private static String[] withKeys(String file) {
         return new String[] {
-            "ssl.keystore.type", "PKCS12",
-            "ssl.keystore.location", keys.file(file),
-            "ssl.keystore.password", TlsKeys.PASSWORD
+            "ssl.keystore.type",
+            "PKCS12",
+            "ssl.keystore.location",
+            keys.file(file),
+            "ssl.keystore.password",
+            TlsKeys.PASSWORD
         };
     }
 

@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision.encounter;
 
-import io.furrow.analytics.eventtime.HasEventTime;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Supplier;
@@ -22,6 +21,7 @@ import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.grid.TrackDevices;
 import io.furrow.analytics.collision.matching.MatchPairs;
 import io.furrow.analytics.collision.rules.CollisionRules;
+import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 

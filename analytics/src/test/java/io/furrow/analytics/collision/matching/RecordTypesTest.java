@@ -1,20 +1,13 @@
 package io.furrow.analytics.collision.matching;
 
-import io.furrow.analytics.Serializers;
 import java.util.List;
 
-import org.apache.flink.api.common.serialization.SerializerConfigImpl;
-import org.apache.flink.api.common.typeinfo.TypeInformation;
-import org.apache.flink.api.common.typeutils.TypeSerializer;
 import org.apache.flink.api.java.typeutils.runtime.PojoSerializer;
-import org.apache.flink.configuration.Configuration;
-import org.apache.flink.configuration.PipelineOptions;
-import org.apache.flink.core.memory.DataInputDeserializer;
-import org.apache.flink.core.memory.DataOutputSerializer;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.analytics.Serializers;
 import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.collision.debounce.SteadyState;
 import io.furrow.analytics.collision.encounter.Encounter;

@@ -1,16 +1,13 @@
 package io.furrow.analytics.collision.motion;
 
-import io.furrow.analytics.collision.Worlds;
 import java.time.Duration;
 import java.util.ArrayList;
-import java.util.Comparator;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
 import java.util.Random;
 import java.util.Set;
 
 import io.furrow.analytics.Seeds;
+import io.furrow.analytics.collision.Worlds;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 

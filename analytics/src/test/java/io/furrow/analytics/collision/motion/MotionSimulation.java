@@ -1,15 +1,13 @@
 package io.furrow.analytics.collision.motion;
 
-import io.furrow.analytics.collision.Simulation;
 import java.util.ArrayList;
 import java.util.Collection;
-import java.util.Collections;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
-import java.util.function.Function;
 
+import io.furrow.analytics.collision.Simulation;
 import io.furrow.analytics.position.PositionFix;
 
 /** The stages without Flink: watermarks at random instants, and within each all keys in random order. */

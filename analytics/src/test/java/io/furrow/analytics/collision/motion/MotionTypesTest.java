@@ -1,23 +1,14 @@
 package io.furrow.analytics.collision.motion;
 
-import io.furrow.analytics.Serializers;
 import java.util.List;
 import java.util.Map;
 
-import org.apache.flink.api.common.serialization.SerializerConfigImpl;
-import org.apache.flink.api.common.typeinfo.TypeInformation;
-import org.apache.flink.api.common.typeutils.TypeSerializer;
-import org.apache.flink.api.java.typeutils.runtime.PojoSerializer;
-import org.apache.flink.configuration.Configuration;
-import org.apache.flink.configuration.PipelineOptions;
-import org.apache.flink.core.memory.DataInputDeserializer;
-import org.apache.flink.core.memory.DataOutputSerializer;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.analytics.Serializers;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.position.PositionFix;
-
 
 class MotionTypesTest {
     private static final PositionFix FIX = Courses.fix("a", new double[] {40.5, -3.25}, 1000);

@@ -1,17 +1,17 @@
 package io.furrow.analytics.collision.motion;
 
-import io.furrow.flink.time.KeyedLatenessOperator;
-import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
-import org.apache.flink.api.common.typeinfo.Types;
-import io.furrow.analytics.collision.encounter.Stage;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 import java.util.Random;
 
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.analytics.collision.encounter.Stage;
 import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.time.KeyedLatenessOperator;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -57,8 +57,7 @@ class RestartedMotionTest {
     }
 
     private static Stage<String, PositionFix, LegUpdate> track(MotionRules rules) throws Exception {
-        return Stage.of(
-                () -> new KeyedLatenessOperator<>(new TrackMotion(rules)), PositionFix::key, Types.STRING);
+        return Stage.of(() -> new KeyedLatenessOperator<>(new TrackMotion(rules)), PositionFix::key, Types.STRING);
     }
 
     private List<Approach> restarted(List<PositionFix> arrivals, MotionRules rules) throws Exception {

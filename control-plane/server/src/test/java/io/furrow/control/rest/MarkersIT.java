@@ -67,16 +67,13 @@ class MarkersIT {
 
         HttpResponse<byte[]> again = add("{\"time\":1772352000000,\"note\":\"The robot turns too early\"}", "k-1");
         assertThat(olga.json(again)).as("a request that is repeated").isEqualTo(marker);
-        assertThat(olga.get(MARKERS).findValuesAsText("note"))
-                .containsExactly("before", "The robot turns too early");
-        assertThat(olga.get("/api/missions/other/markers"))
-                .isEmpty();
+        assertThat(olga.get(MARKERS).findValuesAsText("note")).containsExactly("before", "The robot turns too early");
+        assertThat(olga.get("/api/missions/other/markers")).isEmpty();
 
         assertThat(olga.error("DELETE", "/api/missions/other/markers/" + id, null))
                 .isEqualTo("404 unknown-marker");
         assertThat(olga.status("DELETE", MARKERS + "/" + id, null)).isEqualTo(200);
-        assertThat(olga.get(MARKERS).findValuesAsText("note"))
-                .containsExactly("before");
+        assertThat(olga.get(MARKERS).findValuesAsText("note")).containsExactly("before");
         await().until(() -> olga.get("/api/audit").size() == 5);
         assertThat(olga.get("/api/audit"))
                 .allSatisfy(entry -> assertThat(entry.path("user").asText()).isEqualTo("olga"))

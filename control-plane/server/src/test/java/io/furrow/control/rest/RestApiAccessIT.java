@@ -99,8 +99,7 @@ class RestApiAccessIT {
         running.refused("POST", "/api/domains", "{\"domain\":\"x\",\"name\":7}", 400, "wrong-member");
         running.refused("GET", "/api/audit?limit=0", null, 400, "wrong-member");
         assertThat(client.error("GET", "/api/nosuch", null, false)).isEqualTo("404 not-found");
-        assertThat(client.error("PUT", "/api/domains", "{}", false))
-                .isEqualTo("405 method-not-allowed");
+        assertThat(client.error("PUT", "/api/domains", "{}", false)).isEqualTo("405 method-not-allowed");
         assertThat(client.error("POST", "/api/domains", "{}", "Content-Type", "text/plain"))
                 .isEqualTo("415 unsupported-media-type");
         assertThat(client.error("POST", "/api/domains", "{}", "Idempotency-Key", "a b"))
@@ -115,8 +114,7 @@ class RestApiAccessIT {
                 .contains(" 400 ", "{\"type\":\"response\",\"status\":\"error\"");
         byte[] large = new byte[9 * 1024 * 1024];
         Arrays.fill(large, (byte) ' ');
-        assertThat(client.error("POST", "/api/domains", new String(large)))
-                .isEqualTo("413 too-large");
+        assertThat(client.error("POST", "/api/domains", new String(large))).isEqualTo("413 too-large");
     }
 
     @Test

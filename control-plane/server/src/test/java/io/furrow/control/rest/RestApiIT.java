@@ -56,8 +56,7 @@ class RestApiIT {
     @Test
     void reportsWhoRequestsAndWhatIsNotThere() throws Exception {
         assertThat(client.status("GET", "/api/me", null)).isEqualTo(200);
-        assertThat(client.status("HEAD", "/api/replays/events", null))
-                .isEqualTo(200);
+        assertThat(client.status("HEAD", "/api/replays/events", null)).isEqualTo(200);
         assertThat(client.status("HEAD", "/api/replays/none.1/events", null))
                 .isEqualTo(200); // of an answer without an end only the form is told
         running.refused("GET", "/api/recordings/none/timeline", null, 501, "no-mongodb");
@@ -74,8 +73,7 @@ class RestApiIT {
         assertThat(running.get("/api/domains").findValuesAsText("description")).contains("wet");
 
         running.refused("POST", "/api/domains", "{\"domain\":\"north\"}", 409, "domain-exists");
-        assertThat(client.status("DELETE", "/api/domains/north", null))
-                .isEqualTo(200);
+        assertThat(client.status("DELETE", "/api/domains/north", null)).isEqualTo(200);
         running.refused("GET", "/api/domains/north", null, 404, "unknown-domain");
         running.refused("DELETE", "/api/domains/north?force=true", null, 404, "unknown-domain");
         running.refused("PATCH", "/api/domains/north", "{}", 404, "unknown-domain");
@@ -88,8 +86,7 @@ class RestApiIT {
         assertThat(client.status("POST", "/api/missions", mission)).isEqualTo(201);
         assertThat(running.get("/api/missions/hoeing").at("/status/state").asText())
                 .isEqualTo("created");
-        assertThat(client.status("POST", "/api/missions/hoeing/start", null))
-                .isEqualTo(200);
+        assertThat(client.status("POST", "/api/missions/hoeing/start", null)).isEqualTo(200);
         JsonNode started = running.get("/api/missions/hoeing");
         assertThat(started.at("/status/state").asText()).isEqualTo("starting");
         assertThat(started.at("/status/devices").asInt()).isEqualTo(4);
@@ -101,8 +98,7 @@ class RestApiIT {
         running.refused("POST", "/api/missions/hoeing/start", "{}", 409, "mission-running");
         running.refused("DELETE", "/api/domains/south", null, 409, "missions-running");
         devices();
-        assertThat(client.status("POST", "/api/missions/hoeing/stop", null))
-                .isEqualTo(200);
+        assertThat(client.status("POST", "/api/missions/hoeing/stop", null)).isEqualTo(200);
         running.refused("DELETE", "/api/missions/hoeing", null, 409, "mission-running");
         running.refused("GET", "/api/missions/nosuch", null, 404, "unknown-mission");
         running.refused("POST", "/api/missions/nosuch/stop", null, 404, "unknown-mission");
@@ -225,9 +221,7 @@ class RestApiIT {
         assertThat(running.broker().last()).contains("hoeing-1/attrs?type=Thermometer {\"on\":");
         for (String own : new String[] {"urn:own:1", "urn:on:no-mission"}) {
             assertThat(client.status(
-                                    "POST",
-                                    "/api/devices/" + own + "/commands",
-                                    "{\"command\":\"Stop\",\"type\":\"ROBOT\"}"))
+                            "POST", "/api/devices/" + own + "/commands", "{\"command\":\"Stop\",\"type\":\"ROBOT\"}"))
                     .as(own)
                     .isEqualTo(202);
             assertThat(running.broker().last())
@@ -280,8 +274,7 @@ class RestApiIT {
                         .path("version")
                         .asInt())
                 .isEqualTo(2);
-        assertThat(client.status("DELETE", "/api/templates/t@2", null))
-                .isEqualTo(200);
+        assertThat(client.status("DELETE", "/api/templates/t@2", null)).isEqualTo(200);
         assertThat(running.get("/api/templates/t").path("version").asInt()).isEqualTo(1);
         assertThat(client.status("DELETE", "/api/templates/t", null)).isEqualTo(200);
         running.refused("GET", "/api/templates/t", null, 404, "unknown-template");
@@ -294,16 +287,12 @@ class RestApiIT {
         JsonNode made = client.ask("POST", "/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}");
         String replay = "/api/replays/" + made.path("replay").asText();
         assertThat(running.get(replay).path("wanted").asText()).isEqualTo("running");
-        assertThat(client.ask("POST", replay + "/pause", null)
-                        .path("status")
-                        .asText())
+        assertThat(client.ask("POST", replay + "/pause", null).path("status").asText())
                 .isEqualTo("paused");
-        assertThat(client.status("POST", replay + "/step", "{\"count\":3}"))
-                .isEqualTo(200);
+        assertThat(client.status("POST", replay + "/step", "{\"count\":3}")).isEqualTo(200);
         assertThat(client.status("POST", replay + "/seek", "{\"to\":1700000000000}"))
                 .isEqualTo(200);
-        assertThat(client.status("POST", replay + "/speed", "{\"speed\":2}"))
-                .isEqualTo(200);
+        assertThat(client.status("POST", replay + "/speed", "{\"speed\":2}")).isEqualTo(200);
         assertThat(client.status("POST", replay + "/resume", null)).isEqualTo(200);
         assertThat(running.get("/api/replays").findValuesAsText("replay"))
                 .contains(made.path("replay").asText());
@@ -361,8 +350,7 @@ class RestApiIT {
         assertThat(running.get(group).findValuesAsText("mission")).containsExactly("rolling", "sowing");
 
         assertThat(client.status("POST", group + "/pause", null)).isEqualTo(200);
-        assertThat(client.status("POST", group + "/seek", "{\"to\":5000}"))
-                .isEqualTo(200);
+        assertThat(client.status("POST", group + "/seek", "{\"to\":5000}")).isEqualTo(200);
         assertThat(running.get(group).get(0).at("/clock/shows").asLong()).isEqualTo(5000);
         running.refused("POST", group + "/step", "{}", 409, "wrong-state");
         running.refused("GET", "/api/replays/groups/0a1b2c3d", null, 404, "unknown-replay");
@@ -415,8 +403,7 @@ class RestApiIT {
         }
         assertThat(running.get("/api/missions/long").path("devices")).hasSize(10_000);
         running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 400, "wrong-member");
-        assertThat(client.status("POST", "/api/missions/long/start", "{}"))
-                .isEqualTo(200);
+        assertThat(client.status("POST", "/api/missions/long/start", "{}")).isEqualTo(200);
         await().until(() -> running.get("/api/devices?mission=long").size() == 10_000);
         running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 409, "mission-running");
     }
@@ -455,8 +442,7 @@ class RestApiIT {
                         now -> assertThat(now.at("/properties/name").asText()).isEqualTo("Behind the barn"));
 
         String bow = file.replace(square, "[[[10,50],[10.002,50.002],[10.002,50],[10,50.002],[10,50]]]");
-        assertThat(client.ask("POST", "/api/fields?domain=north", bow)
-                        .at("/fields/0/mended"))
+        assertThat(client.ask("POST", "/api/fields?domain=north", bow).at("/fields/0/mended"))
                 .anySatisfy(note -> assertThat(note.asText()).contains("Self-intersection"));
         assertThat(running.get("/api/fields").at("/features/0/geometry/type").asText())
                 .isEqualTo("MultiPolygon");
@@ -490,9 +476,7 @@ class RestApiIT {
                         .asText())
                 .isEqualTo("ended");
         assertThat(running.get("/api/fields").path("features")).isEmpty();
-        assertThat(client.ask("DELETE", "/api/fields/a", null)
-                        .path("versions")
-                        .asInt())
+        assertThat(client.ask("DELETE", "/api/fields/a", null).path("versions").asInt())
                 .isEqualTo(4);
 
         running.refused("POST", "/api/fields", "{\"type\":\"Feature", 400, "unusable-file");

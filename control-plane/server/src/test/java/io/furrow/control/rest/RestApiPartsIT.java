@@ -88,11 +88,8 @@ class RestApiPartsIT {
             await().atMost(TIMEOUT).until(watch::isHealthy);
             producer.send(new ProducerRecord<>(Topics.COLLISION, "r1-r2", collision("started")));
             await().atMost(TIMEOUT)
-                    .until(() -> client.get("/api/alarms?state=open")
-                                    .size()
-                            == 1);
-            JsonNode alarm =
-                    client.get("/api/alarms").get(0);
+                    .until(() -> client.get("/api/alarms?state=open").size() == 1);
+            JsonNode alarm = client.get("/api/alarms").get(0);
             String path = "/api/alarms/" + alarm.path("alarm").asText();
             assertThat(alarm.path("kind").asText()).isEqualTo("collision");
 
@@ -108,9 +105,7 @@ class RestApiPartsIT {
                     .isEqualTo(409);
             producer.send(new ProducerRecord<>(Topics.COLLISION, "r1-r2", collision("ended")));
             await().atMost(TIMEOUT)
-                    .until(() -> client.get("/api/alarms?state=closed&limit=1")
-                                    .size()
-                            == 1);
+                    .until(() -> client.get("/api/alarms?state=closed&limit=1").size() == 1);
             assertThat(client.get("/api/alarms?state=closed")
                             .get(0)
                             .path("acknowledgedBy")
@@ -126,8 +121,7 @@ class RestApiPartsIT {
     private int answered(String path, String body) throws Exception {
         String key = java.util.UUID.randomUUID().toString();
         await().atMost(TIMEOUT)
-                .until(() -> client.status("POST", path, body == null ? "" : body, "Idempotency-Key", key)
-                        != 503);
+                .until(() -> client.status("POST", path, body == null ? "" : body, "Idempotency-Key", key) != 503);
         return client.status("POST", path, body == null ? "" : body, "Idempotency-Key", key);
     }
 

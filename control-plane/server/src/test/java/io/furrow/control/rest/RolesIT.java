@@ -173,8 +173,7 @@ class RolesIT {
         try {
             Files.writeString(tokens, before + "lea token-of-a-late-one viewer\n");
             await().until(() -> late.status("GET", "/api/domains", null) == 200);
-            assertThat(late.get("/health").path("warnings"))
-                    .isEmpty();
+            assertThat(late.get("/health").path("warnings")).isEmpty();
 
             Files.writeString(tokens, "lea short viewer\n");
             await().until(() -> late.get("/health")
@@ -186,8 +185,7 @@ class RolesIT {
 
             Files.writeString(tokens, before);
             await().until(() -> late.status("GET", "/api/domains", null) == 401);
-            assertThat(late.get("/health").path("warnings"))
-                    .isEmpty();
+            assertThat(late.get("/health").path("warnings")).isEmpty();
         } finally {
             Files.writeString(tokens, before);
         }

@@ -78,9 +78,7 @@ class TimelineIT {
     }
 
     private JsonNode counted(String query) throws Exception {
-        await().until(() -> client.get(TIMELINE + query)
-                .path("complete")
-                .asBoolean());
+        await().until(() -> client.get(TIMELINE + query).path("complete").asBoolean());
         return client.get(TIMELINE + query);
     }
 
@@ -117,7 +115,6 @@ class TimelineIT {
     }
 
     private void assertRefused(String path, String error) throws Exception {
-        await().untilAsserted(() ->
-                assertThat(client.error("GET", path, null)).isEqualTo(error));
+        await().untilAsserted(() -> assertThat(client.error("GET", path, null)).isEqualTo(error));
     }
 }

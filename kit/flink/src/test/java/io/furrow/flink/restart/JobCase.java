@@ -22,8 +22,8 @@ public abstract class JobCase {
     public abstract JobOptions options(int parallelism);
 
     /** The pipeline of these options; every operator has a uid. */
-    public abstract DataStream<TopicRecord> define(StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options)
-            throws Exception;
+    public abstract DataStream<TopicRecord> define(
+            StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) throws Exception;
 
     /** To which an undisturbed run must write, else it shows little. */
     public abstract Set<String> topics();

@@ -27,13 +27,25 @@ class CatalogTableTest {
         assertThat(lines).hasSize(4);
         assertThat(lines.get(2).split(" {2,}"))
                 .containsExactly(
-                        "north / weeding", "Thermometer", "3", "1200",
-                        "1.2 MB", "0", "0 B", "2023-11-14T22:13:20Z",
+                        "north / weeding",
+                        "Thermometer",
+                        "3",
+                        "1200",
+                        "1.2 MB",
+                        "0",
+                        "0 B",
+                        "2023-11-14T22:13:20Z",
                         "2023-11-14T23:13:20Z");
         assertThat(lines.get(3).trim().split(" {2,}"))
                 .containsExactly(
-                        "Temperature", "Float, number", "CEL", "1200",
-                        "0.333", "-3.5 … 31.0", "2023-11-14T22:13:20Z", "2023-11-14T23:13:20Z");
+                        "Temperature",
+                        "Float, number",
+                        "CEL",
+                        "1200",
+                        "0.333",
+                        "-3.5 … 31.0",
+                        "2023-11-14T22:13:20Z",
+                        "2023-11-14T23:13:20Z");
     }
 
     @Test
