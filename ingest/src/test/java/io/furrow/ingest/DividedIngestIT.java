@@ -65,7 +65,7 @@ class DividedIngestIT {
         await().until(() -> suite.status(missions) == JobStatus.RESTARTING);
         report("in-away", 100, 200, "away");
 
-        assertThat(ids(suite.awaitRecords("data.away.realtime.m", 200))).hasSize(200);
+        assertThat(KafkaSuite.ids(suite.awaitRecords("data.away.realtime.m", 200))).hasSize(200);
         await().until(() -> newest("away").size() >= 200);
         assertThat(suite.status(others)).isEqualTo(JobStatus.RUNNING);
         try (EmbeddedMongo server = EmbeddedMongo.start(directory.resolve("mongo"), port);
@@ -100,7 +100,7 @@ class DividedIngestIT {
         suite.cancel(routes);
         suite.cancel(latest);
 
-        assertThat(ids(routed)).hasSize(1000).hasSameSizeAs(routed);
+        assertThat(KafkaSuite.ids(routed)).hasSize(1000).hasSameSizeAs(routed);
         assertThat(suite.awaitRecords("data.parted.realtime", 1001)).hasSize(1001);
         assertThat(newest("parted")).doesNotHaveDuplicates().hasSize(1001);
     }
@@ -127,12 +127,6 @@ class DividedIngestIT {
                 .filter(record -> new String(record.key(), UTF_8).startsWith(domain))
                 .map(record -> KafkaSuite.headers(record).get(HeaderNames.CE_ID))
                 .toList();
-    }
-
-    private static Set<String> ids(List<ConsumerRecord<byte[], byte[]>> records) {
-        Set<String> ids = new HashSet<>();
-        records.forEach(record -> ids.add(KafkaSuite.headers(record).get(HeaderNames.CE_ID)));
-        return ids;
     }
 
     private static void report(String topic, int from, int to, String domain) {

@@ -1,5 +1,6 @@
 package io.furrow.ingest;
 
+import io.furrow.flink.TestClusters;
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
 import java.nio.file.Files;
@@ -43,10 +44,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 /** Images within the whole job. */
 class ImageStageJobTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     private static final long TIME = 1_700_000_000_000L;
 
@@ -159,37 +157,7 @@ class ImageStageJobTest {
     }
 
     private static List<TopicRecord> run(IngestOptions options, TopicRecord... records) throws Exception {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
-        env.setParallelism(2);
-        DataStream<TopicRecord> source = env.fromData(List.of(records))
-                .setParallelism(1)
-                .uid("records")
-                .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forMonotonousTimestamps()
-                        .withTimestampAssigner((record, ignored) -> record.timestamp()))
-                .uid("timestamps")
-                .keyBy(record -> new String(record.key(), UTF_8)); // as a topic's partitions do
-
-        DataStream<TopicRecord> noDevices = env.fromData(List.of(
-                        new TopicRecord(Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of())))
-                .setParallelism(1)
-                .uid("devices")
-                .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())
-                .uid("no-hindrance")
-                .setParallelism(1);
-
-        CollectedOutput out = new CollectedOutput();
-        IngestJob.define(
-                new IngestInputs(
-                        source,
-                        noDevices,
-                        FixedDevices.of(),
-                        TopicSnapshot.NONE,
-                        TopicSnapshot.NONE,
-                        TopicSnapshot.NONE,
-                        TopicNames.NONE),
-                out,
-                options);
-        return out.run();
+        return IngestRun.of(options, FixedDevices.of(), records);
     }
 
     private static IngestOptions options(String... args) {

@@ -1,5 +1,6 @@
 package io.furrow.ingest;
 
+import io.furrow.flink.TestClusters;
 import java.time.Duration;
 import java.util.List;
 
@@ -20,10 +21,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class IngestDeadLettersTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     @Test
     void setsAsideWhatIsNoEntityAndRoutesTheRest() throws Exception {

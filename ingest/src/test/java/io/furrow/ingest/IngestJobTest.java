@@ -1,5 +1,6 @@
 package io.furrow.ingest;
 
+import io.furrow.flink.TestClusters;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -29,10 +30,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class IngestJobTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     @Test
     void bringsAnEventToItsDomainAndItsMissionUnchanged() throws Exception {

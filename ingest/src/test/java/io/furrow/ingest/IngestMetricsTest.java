@@ -1,5 +1,6 @@
 package io.furrow.ingest;
 
+import io.furrow.flink.TestClusters;
 import java.nio.file.Path;
 import java.util.Base64;
 import java.util.HashMap;
@@ -32,11 +33,7 @@ class IngestMetricsTest {
     private static final InMemoryReporter METRICS = InMemoryReporter.createWithRetainedMetrics();
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2, METRICS.addToConfiguration(new Configuration()));
 
     private static final long TIME = 1_700_000_000_000L;
 

@@ -150,8 +150,8 @@ class IngestOnKafkaIT {
         report(in, 6000, 6001, domain); // comes behind whatever might have come too often
         suite.awaitRecords("data." + domain + ".realtime", 6001);
         suite.cancel(job);
-        assertThat(ids(all)).hasSize(6000).hasSameSizeAs(all);
-        assertThat(ids(mission)).isEqualTo(ids(all)).hasSameSizeAs(mission);
+        assertThat(KafkaSuite.ids(all)).hasSize(6000).hasSameSizeAs(all);
+        assertThat(KafkaSuite.ids(mission)).isEqualTo(KafkaSuite.ids(all)).hasSameSizeAs(mission);
         assertThat(suite.awaitRecords("data." + domain + ".realtime", 6001)).hasSize(6001);
     }
 
@@ -174,12 +174,6 @@ class IngestOnKafkaIT {
                         + number + ",'metadata':{}}}")
                 .replace('\'', '"');
         suite.write(topic, null, TIME + number, "t" + number % 50, entity, Map.of(HeaderNames.CE_ID, domain + number));
-    }
-
-    private static Set<String> ids(List<ConsumerRecord<byte[], byte[]>> records) {
-        Set<String> ids = new HashSet<>();
-        records.forEach(record -> ids.add(KafkaSuite.headers(record).get(HeaderNames.CE_ID)));
-        return ids;
     }
 
     private static Config config(String topic) throws Exception {

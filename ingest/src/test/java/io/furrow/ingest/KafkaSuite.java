@@ -1,5 +1,8 @@
 package io.furrow.ingest;
 
+import io.furrow.model.event.HeaderNames;
+import java.util.stream.Collectors;
+import java.util.Set;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -168,6 +171,11 @@ final class KafkaSuite implements AutoCloseable {
         return flink.cluster().listJobs().join().stream()
                 .map(job -> job.getJobName() + " " + job.getJobState())
                 .toList();
+    }
+
+    /** The ids of the events. */
+    static Set<String> ids(List<ConsumerRecord<byte[], byte[]>> records) {
+        return records.stream().map(record -> headers(record).get(HeaderNames.CE_ID)).collect(Collectors.toSet());
     }
 
     static Map<String, String> headers(ConsumerRecord<byte[], byte[]> record) {

@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision;
 
+import io.furrow.flink.TestClusters;
 import java.util.ArrayList;
 import java.util.List;
 
@@ -29,10 +30,7 @@ class CollisionDetectionTest {
     private static final Logger LOG = LoggerFactory.getLogger(CollisionDetectionTest.class);
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setConfiguration(JobCounters.kept())
-            .setNumberSlotsPerTaskManager(4)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(4, JobCounters.kept());
 
     private static final int CASES = Integer.getInteger("furrow.collision.cases", 1000);
     private static final int CASES_PER_JOB = 100;

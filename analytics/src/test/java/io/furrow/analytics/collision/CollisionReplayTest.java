@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision;
 
+import io.furrow.flink.TestClusters;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.HashMap;
@@ -29,10 +30,7 @@ class CollisionReplayTest {
     private static final Logger LOG = LoggerFactory.getLogger(CollisionReplayTest.class);
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     @ParameterizedTest
     @ValueSource(strings = {"", " --dwell 2s --leave-factor 2 --crossed --horizon 5s --crowd 1"})

@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision;
 
+import io.furrow.flink.TestClusters;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
@@ -33,9 +34,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 /** What the job reports courses and of the ways between reports, as it is written. */
 class MotionJobTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
     private static final long START = 1_700_000_000_000L;

@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision;
 
+import io.furrow.flink.TestClusters;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -54,9 +55,7 @@ class RescaledDetectionTest {
     private static final Logger LOG = LoggerFactory.getLogger(RescaledDetectionTest.class);
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberSlotsPerTaskManager(4)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(4);
 
     private static final long START = 1_700_000_000_000L;
     private static final int[] PARALLELISMS = {1, 2, 4, 2};

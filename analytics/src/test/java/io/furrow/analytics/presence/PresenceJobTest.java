@@ -1,5 +1,6 @@
 package io.furrow.analytics.presence;
 
+import io.furrow.flink.TestClusters;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Predicate;
@@ -41,11 +42,7 @@ class PresenceJobTest {
     static final InMemoryReporter METRICS = InMemoryReporter.create();
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(4)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(4, METRICS.addToConfiguration(new Configuration()));
 
     private static final Plot FIELD = new Plot("f", 0, List.of(new Box(1, 1, 1 + 5e-4, 1 + 5e-4)), null);
 

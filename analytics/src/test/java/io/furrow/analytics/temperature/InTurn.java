@@ -1,5 +1,6 @@
 package io.furrow.analytics.temperature;
 
+import io.furrow.flink.TestClusters;
 import java.io.Serializable;
 import java.time.Duration;
 import java.util.Collection;
@@ -95,11 +96,7 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
 
     private static MiniClusterExtension cluster(int slots, InMemoryReporter reporter) {
         metrics = reporter;
-        return new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-                .setNumberTaskManagers(1)
-                .setNumberSlotsPerTaskManager(slots)
-                .setConfiguration(metrics.addToConfiguration(new Configuration()))
-                .build());
+        return TestClusters.of(slots, metrics.addToConfiguration(new Configuration()));
     }
 
     /** What a counter of the job has counted at all subtasks. */

@@ -1,5 +1,6 @@
 package io.furrow.ingest.image;
 
+import io.furrow.flink.TestClusters;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -33,10 +34,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class ImagesAfterFailuresTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     private static final int IMAGES = 400;
     private static final int FAILURES = 6;

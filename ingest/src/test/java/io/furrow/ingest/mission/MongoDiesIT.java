@@ -1,5 +1,6 @@
 package io.furrow.ingest.mission;
 
+import io.furrow.flink.TestClusters;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
@@ -45,10 +46,7 @@ class MongoDiesIT {
     private static final List<String> MISSIONS = List.of("weeding", "spraying", "field.7");
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     @Test
     void leavesTheDocumentsOfARunWithoutTheFault(@TempDir Path directory) throws Exception {

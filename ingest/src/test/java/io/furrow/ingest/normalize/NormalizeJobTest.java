@@ -1,5 +1,6 @@
 package io.furrow.ingest.normalize;
 
+import io.furrow.flink.TestClusters;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.Arrays;
@@ -37,10 +38,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class NormalizeJobTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(2);
 
     private static final long RECEIVED = 1_700_000_060_000L;
     private static final long TIME = 1_700_000_000_000L;

@@ -62,7 +62,7 @@ class ForeignBytesTest extends QuietJournal {
 
     @Test
     void takesNoPayloadForARecordThatIsNotItsOwn() throws Exception {
-        Path other = Files.createDirectory(parent.resolve("0-other"));
+        Path other = Files.createDirectory(folder.resolveSibling("0-other"));
         try (Journal journal = open()) {
             append(journal, "its own", "and one more");
         }

@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision.motion;
 
+import io.furrow.flink.TestClusters;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
@@ -23,9 +24,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class MotionDetectionTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberSlotsPerTaskManager(4)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(4);
 
     private static final int WORLDS = 30;
     private static final int MORE_THAN_ANY_TEST_FINDS = 100_000;

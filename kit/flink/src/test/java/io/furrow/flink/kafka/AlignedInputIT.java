@@ -1,5 +1,6 @@
 package io.furrow.flink.kafka;
 
+import io.furrow.flink.TestClusters;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -48,11 +49,7 @@ class AlignedInputIT {
     private static final InMemoryReporter METRICS = InMemoryReporter.createWithRetainedMetrics();
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(1)
-            .build());
+    static final MiniClusterExtension FLINK = TestClusters.of(1, METRICS.addToConfiguration(new Configuration()));
 
     private static final int BACKLOG = 300_000;
     private static final byte[] ENTITY = IntStream.range(0, 8)

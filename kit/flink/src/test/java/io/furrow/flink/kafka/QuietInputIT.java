@@ -1,5 +1,6 @@
 package io.furrow.flink.kafka;
 
+import io.furrow.flink.time.TellEventTime;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -107,22 +108,5 @@ class QuietInputIT {
                 .sinkTo(KafkaConnectors.sink(options))
                 .uid("write-event-time");
         return env.executeAsync();
-    }
-
-    /** Emits the event time at each change. */
-    private static final class TellEventTime extends CoProcessFunction<TopicRecord, TopicRecord, TopicRecord> {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        public void processElement1(TopicRecord event, Context context, Collector<TopicRecord> out) {
-            out.collect(event.to("seen"));
-        }
-
-        @Override
-        public void processElement2(TopicRecord change, Context context, Collector<TopicRecord> out) {
-            byte[] time =
-                    Long.toString(context.timerService().currentWatermark()).getBytes(UTF_8);
-            out.collect(new TopicRecord("seen", 0, 0, 0, null, time, Map.of()));
-        }
     }
 }

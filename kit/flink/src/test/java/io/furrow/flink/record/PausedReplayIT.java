@@ -1,5 +1,6 @@
 package io.furrow.flink.record;
 
+import io.furrow.flink.time.TellEventTime;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -121,22 +122,5 @@ class PausedReplayIT {
                 .sinkTo(KafkaConnectors.sink(options))
                 .uid("write-event-time");
         return env.executeAsync();
-    }
-
-    /** Emits the event time at each change. */
-    private static final class TellEventTime extends CoProcessFunction<TopicRecord, TopicRecord, TopicRecord> {
-        private static final long serialVersionUID = 1L;
-
-        @Override
-        public void processElement1(TopicRecord event, Context context, Collector<TopicRecord> out) {
-            // moves event time
-        }
-
-        @Override
-        public void processElement2(TopicRecord change, Context context, Collector<TopicRecord> out) {
-            byte[] time =
-                    Long.toString(context.timerService().currentWatermark()).getBytes(UTF_8);
-            out.collect(new TopicRecord("seen", 0, 0, 0, null, time, Map.of()));
-        }
     }
 }
