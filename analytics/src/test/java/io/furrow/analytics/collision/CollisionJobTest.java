@@ -236,31 +236,4 @@ class CollisionJobTest {
                 .hasMessageContaining("--zones /nowhere/yard.geojson: cannot be read");
         assertThat(options().rules()).isEqualTo(CollisionRules.DEFAULT);
     }
-
-    @Test
-    void keepsTheNamesThatSavepointsKnowItsOperatorsBy() {
-        assertThat(CollisionJob.assemble(options()).getStreamGraph(false).getStreamNodes().stream()
-                        .filter(node -> node.getTransformationUID() != null)
-                        .sorted(Comparator.comparing(StreamNode::getTransformationUID))
-                        .map(StreamNode::getTransformationUID))
-                .containsExactly(
-                        "Sink Committer: write-topics",
-                        "assign-carriers",
-                        "describe-clocks",
-                        "describe-delayed-devices",
-                        "describe-encounters",
-                        "describe-late-positions",
-                        "describe-overflows",
-                        "ensure-topics",
-                        "match-pairs",
-                        "read-devices",
-                        "read-events",
-                        "read-positions",
-                        "recognize-devices",
-                        "report-delayed-devices",
-                        "track-devices",
-                        "track-encounters",
-                        "watch-clocks",
-                        "write-topics");
-    }
 }

@@ -19,7 +19,6 @@ import io.furrow.provisioner.account.MosquittoPassword;
 import io.furrow.provisioner.account.MqttAccount;
 
 import static io.furrow.provisioner.ProvisionedMosquitto.AGENT;
-import static io.furrow.provisioner.ProvisionedMosquitto.TIMEOUT;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -62,7 +61,7 @@ class MosquittoIT {
         Login right = SECRET.device("hoeing", DEVICE);
         try (MqttPeer device = broker.comesIn(right)) {
             device.publish(KEY + "/" + DEVICE + "/attrs", "1");
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> agent.newest(KEY + "/" + DEVICE + "/attrs").equals("1"));
         }
         Login guessed = new Login(right.user(), SECRET.device("hoeing", "d").password());
@@ -85,7 +84,7 @@ class MosquittoIT {
             device.publish("/json" + KEY + "/" + DEVICE + "/attrs", "2");
 
             // One connection keeps its order: what was forged would have come before.
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> agent.newest("/json" + KEY + "/" + DEVICE + "/attrs")
                             .equals("2"));
             assertThat(foreign)
@@ -102,7 +101,7 @@ class MosquittoIT {
             agent.publish(KEY + "/" + DEVICE + "/attrs", "3");
             agent.publish(KEY + "/" + DEVICE + "/cmd", "off");
 
-            await().atMost(TIMEOUT)
+            await()
                     .until(() -> device.newest(KEY + "/" + DEVICE + "/cmd").equals("off"));
             assertThat(device.topics()).containsOnly(KEY + "/" + DEVICE + "/cmd");
         }
@@ -116,8 +115,8 @@ class MosquittoIT {
             gateway.subscribe(KEY + "/+/cmd");
             agent.publish(KEY + "/any/cmd", "on");
 
-            await().atMost(TIMEOUT).until(() -> agent.newest(KEY + "/any/attrs").equals("4"));
-            await().atMost(TIMEOUT).until(() -> gateway.newest(KEY + "/any/cmd").equals("on"));
+            await().until(() -> agent.newest(KEY + "/any/attrs").equals("4"));
+            await().until(() -> gateway.newest(KEY + "/any/cmd").equals("on"));
             assertThat(agent.newest(OTHER_KEY + "/other/attrs")).isEmpty();
         }
     }
@@ -127,7 +126,7 @@ class MosquittoIT {
         try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
             files.replace(List.of(), Set.of());
 
-            await().atMost(TIMEOUT).until(() -> !device.isConnected());
+            await().until(() -> !device.isConnected());
             assertThatThrownBy(() -> broker.connect(SECRET.device("hoeing", DEVICE), "again"))
                     .isInstanceOf(MqttException.class);
             assertThat(agent.isConnected()).isTrue();
@@ -144,7 +143,7 @@ class MosquittoIT {
             gateway.publish(KEY + "/" + DEVICE + "/attrs", "forged");
             gateway.publish(key + "/d/attrs", "5");
 
-            await().atMost(TIMEOUT).until(() -> again.newest(key + "/d/attrs").equals("5"));
+            await().until(() -> again.newest(key + "/d/attrs").equals("5"));
             assertThat(again.newest(KEY + "/" + DEVICE + "/attrs")).isEmpty();
             assertThat(agent.isConnected()).isTrue();
         }
@@ -180,7 +179,7 @@ class MosquittoIT {
                             SECRET.device("hoeing", DEVICE, 1).user(),
                             SECRET.device("weeding", "other").user()),
                     any -> true);
-            await().atMost(TIMEOUT).until(() -> !thief.isConnected());
+            await().until(() -> !thief.isConnected());
             files.replace(rotated, Set.of());
 
             broker.comesIn(SECRET.device("hoeing", DEVICE, 1)).close();

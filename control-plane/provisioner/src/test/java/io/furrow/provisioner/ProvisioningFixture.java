@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import java.util.function.LongSupplier;
 import java.io.IOException;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -41,6 +42,7 @@ abstract class ProvisioningFixture {
     final Map<String, String> refused = new HashMap<>();
     /** How much later it is than by the clock. */
     final AtomicLong passed = new AtomicLong();
+    LongSupplier clock = () -> System.nanoTime() + passed.get();
 
     @AutoClose
     FakeAgent agent;
@@ -59,7 +61,7 @@ abstract class ProvisioningFixture {
 
     ProvisioningReconciler provisioning(ProvisioningSettings settings, RemovalGuard.Origin origin) {
         ProvisioningReconciler begun =
-                new ProvisioningReconciler(settings, desired, () -> System.nanoTime() + passed.get());
+                new ProvisioningReconciler(settings, desired, () -> clock.getAsLong());
         begun.startAnew(origin);
         return begun;
     }

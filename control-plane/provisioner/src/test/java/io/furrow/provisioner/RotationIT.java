@@ -34,7 +34,6 @@ import io.furrow.model.device.FarmSecretCodec;
 import io.furrow.model.topic.Topics;
 
 import static io.furrow.provisioner.ProvisionedMosquitto.AGENT;
-import static io.furrow.provisioner.ProvisionedMosquitto.TIMEOUT;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -96,15 +95,15 @@ class RotationIT {
 
         MqttPeer renewed = open(broker.comesIn(rotated.device("hoeing", first.device())));
         renewed.publish(measures, "new");
-        await().atMost(TIMEOUT).until(() -> agent.newest(measures).equals("new"));
+        await().until(() -> agent.newest(measures).equals("new"));
         moved.publish(measures, "old");
-        await().atMost(TIMEOUT).until(() -> agent.newest(measures).equals("old"));
+        await().until(() -> agent.newest(measures).equals("old"));
         open(broker.connect(old.device("hoeing", second.device()), "again"));
         assertThat(late.isConnected()).isTrue();
 
         clock.move(ACCEPTED);
 
-        await().atMost(TIMEOUT).until(() -> !late.isConnected() && !moved.isConnected());
+        await().until(() -> !late.isConnected() && !moved.isConnected());
         assertThatThrownBy(() -> broker.connect(old.device("hoeing", second.device()), "too-late"))
                 .isInstanceOf(MqttException.class)
                 .hasMessageContaining("Not authorized");
@@ -121,7 +120,7 @@ class RotationIT {
 
         put(first.withGeneration(1));
 
-        await().atMost(TIMEOUT).until(() -> !thief.isConnected());
+        await().until(() -> !thief.isConnected());
         broker.comesIn(old.device("hoeing", first.device(), 1)).close();
         assertThatThrownBy(() -> broker.connect(old.device("hoeing", first.device()), "thief"))
                 .isInstanceOf(MqttException.class);
@@ -132,7 +131,7 @@ class RotationIT {
     void retainsEverythingAsItIsWhereTheFileIsReplacedByAnothersSecret() throws Exception {
         MqttPeer device = open(broker.comesIn(old.device("hoeing", first.device())));
         Files.writeString(file, FarmSecretCodec.write(FarmSecret.generate()));
-        await().atMost(TIMEOUT)
+        await()
                 .untilAsserted(() -> assertThat(secret.problem())
                         .hasValueSatisfying(why -> assertThat(why).contains("this farm has another secret")));
         DesiredDevice third = DesiredDeviceFixture.thermometer("hoeing", 3);
