@@ -34,7 +34,7 @@ class ControlTopologyTest {
     /** As the WeLASER dashboard asks. */
     @Test
     void answersARequestForANewDomainOnTheTopicOfTheRequest() throws Exception {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
 
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
         assertThat(ManagerFixture.text(answer.value()))
@@ -60,30 +60,30 @@ class ControlTopologyTest {
     /** Else whoever asks for something new would take the answer of something old for its own. */
     @Test
     void rejectsAnotherRequestUnderTheSameId() {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-1','user':'ann','domain':'north'");
         assertThat(ManagerFixture.response(farm.only(Topics.DOMAIN_MANAGER)).status())
                 .isEqualTo("created");
         for (String other : List.of(
                 "'user':'ann','domain':'south'",
                 "'user':'bob','domain':'north'",
                 "'user':'ann','command':'nonsense','domain':'north'")) {
-            farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1'," + other + "}");
+            farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-1'," + other);
             assertThat(ManagerFixture.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("request-id-reused");
         }
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-1','user':'ann','domain':'north'");
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).isEmpty();
         assertThat(farm.read(Topics.DOMAINS)).hasSize(1);
     }
 
     @Test
     void endsTheFieldsOfADomainThatIsDeletedAndReportsSo() throws Exception {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
         FieldVersion field = new FieldVersion(
                 "f", 0, (ObjectNode) NgsiJson.read("{\"type\":\"Polygon\"}".getBytes(UTF_8)), (ObjectNode)
                         NgsiJson.read("{\"Domain\":\"north\"}".getBytes(UTF_8)));
         farm.pipe(Topics.FIELDS, field.key(), field.toBytes());
         farm.pipe(Topics.FIELDS, "g", new byte[] {'?'});
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'command':'delete','domain':'north'");
 
         TestRecord<String, byte[]> end = farm.only(Topics.FIELDS);
         assertThat(end.key()).isEqualTo("f@2026-03-01T08:00:00.000Z");
@@ -132,7 +132,7 @@ class ControlTopologyTest {
         farm.request(Topics.DOMAIN_MANAGER, null, request);
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).hasSize(1);
         farm.pass(ManagerFixture.REMEMBERED.dividedBy(4));
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-2','domain':'south'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-2','domain':'south'");
         farm.read(Topics.DOMAIN_MANAGER);
         farm.request(Topics.DOMAIN_MANAGER, null, request);
         assertThat(ManagerFixture.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("domain-exists");
@@ -141,28 +141,25 @@ class ControlTopologyTest {
 
     @Test
     void passesOverAnswersAndRecordsWithoutAValue() {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
         farm.pipe(Topics.DOMAIN_MANAGER, answer.key(), answer.value());
         farm.pipe(Topics.DOMAIN_MANAGER, null, null);
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).isEmpty();
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'south'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'south'");
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).hasSize(1);
     }
 
     @Test
     void takesAMissionThroughItsLifeAsHostsReport() throws Exception {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
-        farm.request(
-                Topics.MISSION_MANAGER,
-                null,
-                "{'type':'request','command':'start','mission':'m','domain':'north','devices':[{'type':'Camera','count':2,'simulated':true}]}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
+        farm.request(Topics.MISSION_MANAGER, "'command':'start','mission':'m','domain':'north','devices':[{'type':'Camera','count':2,'simulated':true}]");
         assertThat(farm.state("m")).isEqualTo("starting");
         assertThat(farm.hostAll(DeviceStatus.State.RUNNING)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("running");
 
-        farm.request(Topics.MISSION_MANAGER, null, "{'type':'request','command':'stop','mission':'m'}");
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.MISSION_MANAGER, "'command':'stop','mission':'m'");
+        farm.request(Topics.DOMAIN_MANAGER, "'command':'delete','domain':'north'");
         assertThat(farm.read(Topics.DOMAIN_MANAGER))
                 .extracting(record -> ManagerFixture.response(record)
                         .error()
@@ -172,18 +169,15 @@ class ControlTopologyTest {
         assertThat(farm.hostAll(DeviceStatus.State.STOPPED)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("stopped");
 
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'command':'delete','domain':'north'");
         assertThat(farm.only(Topics.MISSIONS_STATUS).value()).isNull();
         assertThat(farm.read(Topics.DEVICES)).extracting(TestRecord::value).containsOnlyNulls();
     }
 
     @Test
     void countsARealDeviceByTheReportThatTheFarmWatchSaw() throws Exception {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
-        farm.request(
-                Topics.MISSION_MANAGER,
-                null,
-                "{'type':'request','command':'start','mission':'m','domain':'north','devices':[{'type':'Camera'}]}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
+        farm.request(Topics.MISSION_MANAGER, "'command':'start','mission':'m','domain':'north','devices':[{'type':'Camera'}]");
         farm.hostAll(DeviceStatus.State.RUNNING);
         farm.pass(Duration.ofHours(1));
         assertThat(farm.state("m")).isEqualTo("starting");
@@ -198,11 +192,8 @@ class ControlTopologyTest {
 
     @Test
     void startsAMissionAtItsDateAndHasTheMissionOfTheThesisAtHand() throws Exception {
-        farm.request(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
-        farm.request(
-                Topics.MISSION_MANAGER,
-                null,
-                "{'type':'request','command':'start','mission':'m','domain':'north','template':'thesis-demo','start':'2026-03-01T08:01:00Z'}");
+        farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
+        farm.request(Topics.MISSION_MANAGER, "'command':'start','mission':'m','domain':'north','template':'thesis-demo','start':'2026-03-01T08:01:00Z'");
         assertThat(farm.state("m")).isEqualTo("created");
         assertThat(farm.only(Topics.TEMPLATES).key()).isEqualTo("thesis-demo@1");
         farm.pass(Duration.ofSeconds(59));
@@ -226,20 +217,14 @@ class ControlTopologyTest {
 
     @Test
     void handsReplaysOnAndForgetsThemWhenTheyAreOver() throws Exception {
-        farm.request(
-                Topics.REPLAY_MANAGER,
-                null,
-                "{'type':'request','command':'start','mission':'m','speed':'max','from':1000,'devices':['urn:x']}");
+        farm.request(Topics.REPLAY_MANAGER, "'command':'start','mission':'m','speed':'max','from':1000,'devices':['urn:x']");
         CommandResult created = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
         String replay = created.json().path("replay").asText();
         assertThat(replay).matches("m\\.[0-9a-f]{8}");
         assertThat(created.json().path("topic").asText()).isEqualTo("data.m.replay." + replay.substring(2));
 
         for (String command : List.of("step", "pause", "step", "step", "seek", "resume", "resume", "stop", "stop")) {
-            farm.request(
-                    Topics.REPLAY_MANAGER,
-                    null,
-                    "{'type':'request','command':'" + command + "','to':5000,'replay':'" + replay + "'}");
+            farm.request(Topics.REPLAY_MANAGER, "'command':'" + command + "','to':5000,'replay':'" + replay + "'");
         }
         assertThat(farm.read(Topics.REPLAY_MANAGER))
                 .extracting(record -> ManagerFixture.response(record)
@@ -261,12 +246,12 @@ class ControlTopologyTest {
         assertThat(farm.read(Topics.REPLAYS)).as("older, or not settled").isEmpty();
         farm.pipe(Topics.REPLAYS_STATUS, replay, "{\"sequence\":7,\"state\":\"stopped\"}".getBytes(UTF_8));
         assertThat(farm.only(Topics.REPLAYS).value()).isNull();
-        farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'stop','replay':'" + replay + "'}");
+        farm.request(Topics.REPLAY_MANAGER, "'command':'stop','replay':'" + replay + "'");
         assertThat(ManagerFixture.error(farm.only(Topics.REPLAY_MANAGER))).isEqualTo("unknown-replay");
     }
 
     private String startReplay(String members) {
-        farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'start','mission':'m'" + members + "}");
+        farm.request(Topics.REPLAY_MANAGER, "'command':'start','mission':'m'" + members);
         String replay = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER))
                 .json()
                 .path("replay")
@@ -276,8 +261,7 @@ class ControlTopologyTest {
     }
 
     private CommandResult steer(String replay, String command) {
-        farm.request(
-                Topics.REPLAY_MANAGER, null, "{'type':'request','replay':'" + replay + "','command':" + command + "}");
+        farm.request(Topics.REPLAY_MANAGER, "'replay':'" + replay + "','command':" + command);
         return ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
     }
 

@@ -98,6 +98,10 @@ final class FarmWatchFixture implements AutoCloseable {
         pipe(Topics.CLOCKS, device, entity.toBytes());
     }
 
+    void request(String manager, String members) {
+        pipe(manager, null, "{'type':'request'," + members + "}");
+    }
+
     void pipe(String topic, String key, String json) {
         pipe(topic, key, json.replace('\'', '"').getBytes(UTF_8));
     }

@@ -65,6 +65,11 @@ final class ManagerFixture implements AutoCloseable {
         return remembered;
     }
 
+    /** A request without a key and with these members. */
+    void request(String manager, String members) {
+        request(manager, null, "{'type':'request'," + members + "}");
+    }
+
     void request(String topic, String key, String json) {
         pipe(topic, key, json.replace('\'', '"').getBytes(UTF_8));
     }

@@ -33,7 +33,7 @@ class ReplayGroupTopologyTest {
     private long sequence;
 
     private CommandResult request(String members) {
-        farm.request(Topics.REPLAY_MANAGER, null, "{'type':'request'," + members + "}");
+        farm.request(Topics.REPLAY_MANAGER, members);
         return ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
     }
 

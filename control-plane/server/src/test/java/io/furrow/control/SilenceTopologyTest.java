@@ -161,7 +161,7 @@ class SilenceTopologyTest {
         farm.pass(Duration.ofSeconds(30));
         farm.pass(Duration.ofSeconds(1));
         farm.pass(Duration.ofSeconds(1));
-        farm.pipe(Topics.ALARM_MANAGER, null, "{'type':'request','command':'close','alarm':'silent-device-1'}");
+        farm.request(Topics.ALARM_MANAGER, "'command':'close','alarm':'silent-device-1'");
         assertThat(farm.newest(Topics.ALARM_MANAGER).path("reason").asText())
                 .contains("silent-device-1", "1 of 1 device of mission m is silent", "mute");
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("open");

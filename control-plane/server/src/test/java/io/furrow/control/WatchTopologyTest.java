@@ -59,7 +59,7 @@ class WatchTopologyTest {
     void raisesACollisionAnewThatWasClosedByHandWhileTheEncounterLasts() throws Exception {
         farm.encounter("started", 3.2);
         farm.pass(Duration.ofMinutes(2));
-        farm.pipe(Topics.ALARM_MANAGER, null, "{'type':'request','command':'close','alarm':'collision-1'}");
+        farm.request(Topics.ALARM_MANAGER, "'command':'close','alarm':'collision-1'");
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
         farm.encounter("ongoing", 3.2);
         JsonNode again = farm.newest(Topics.ALARMS);
@@ -209,7 +209,7 @@ class WatchTopologyTest {
         assertThat(alarms).allMatch(alarm -> alarm.path("subject").asText().equals("r"));
         assertThat(alarms.get(1).path("devices"))
                 .hasToString("[{\"id\":\"r\",\"type\":\"ROBOT\",\"service\":\"other\"}]");
-        farm.pipe(Topics.ALARM_MANAGER, null, "{'type':'request','command':'acknowledge','alarm':'clock-behind-2'}");
+        farm.request(Topics.ALARM_MANAGER, "'command':'acknowledge','alarm':'clock-behind-2'");
         assertThat(farm.all(Topics.ALARMS))
                 .singleElement()
                 .extracting(alarm -> alarm.path("identity").asText())
@@ -367,16 +367,10 @@ class WatchTopologyTest {
     void answersWhatIsRequestedOfAlarms() throws Exception {
         farm.encounter("started", 3.2);
         farm.newest(Topics.ALARMS);
-        farm.pipe(
-                Topics.ALARM_MANAGER,
-                null,
-                "{'type':'request','requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'}");
-        farm.pipe(
-                Topics.ALARM_MANAGER,
-                null,
-                "{'type':'request','requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'}");
-        farm.pipe(Topics.ALARM_MANAGER, null, "{'type':'request','command':'mute','kind':'collision','for':'PT1H'}");
-        farm.pipe(Topics.ALARM_MANAGER, null, "{'type':'request','command':'close','alarm':'collision-9'}");
+        farm.request(Topics.ALARM_MANAGER, "'requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'");
+        farm.request(Topics.ALARM_MANAGER, "'requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'");
+        farm.request(Topics.ALARM_MANAGER, "'command':'mute','kind':'collision','for':'PT1H'");
+        farm.request(Topics.ALARM_MANAGER, "'command':'close','alarm':'collision-9'");
 
         assertThat(farm.all(Topics.ALARM_MANAGER))
                 .extracting(each -> each.path("status").asText())
