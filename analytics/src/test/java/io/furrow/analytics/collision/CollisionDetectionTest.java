@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision;
 
+import static io.furrow.analytics.collision.Fixes.east;
 import io.furrow.flink.TestClusters;
 import java.util.ArrayList;
 import java.util.List;
@@ -105,10 +106,10 @@ class CollisionDetectionTest {
     @Test
     void setsLatePositionsAsideAndDetectsAmongTheRest() throws Exception {
         List<PositionFix> fixes = new ArrayList<>(List.of(
-                Fixes.east("a", 0, START),
-                Fixes.east("b", 1, START),
-                Fixes.east("c", 1000, START + DetectionRun.BOUND + 10)));
-        PositionFix late = Fixes.east("d", 2, START);
+                east("a", 0, START),
+                east("b", 1, START),
+                east("c", 1000, START + DetectionRun.BOUND + 10)));
+        PositionFix late = east("d", 2, START);
         List<Encounter> expected = CollisionOracle.encounters(fixes, CollisionRules.DEFAULT);
         fixes.add(late);
         DetectionRun run = run(fixes, CollisionRules.DEFAULT, 1);
@@ -121,7 +122,7 @@ class CollisionDetectionTest {
     void reportsAndCountsThePairsThatACrowdLeavesOut() throws Exception {
         List<PositionFix> fixes = new ArrayList<>();
         for (String device : List.of("a", "b", "c", "d", "e")) {
-            fixes.add(Fixes.east(device, device.charAt(0) - 'a', START));
+            fixes.add(east(device, device.charAt(0) - 'a', START));
         }
         CollisionRules rules = CollisionRules.DEFAULT.with(new CellRules(100, 3));
 

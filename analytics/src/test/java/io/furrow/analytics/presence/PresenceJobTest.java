@@ -1,5 +1,6 @@
 package io.furrow.analytics.presence;
 
+import static io.furrow.analytics.presence.Story.fix;
 import io.furrow.flink.TestClusters;
 import java.util.ArrayList;
 import java.util.List;
@@ -73,7 +74,7 @@ class PresenceJobTest {
     @Test
     void writesEntitiesOfDeviceAndField() throws Exception {
         List<TopicRecord> written = run(
-                options(), List.of(FIELD), report(Story.fix("r1", 2, 3, 1000)), report(Story.fix("r1", 9, 3, 4000)));
+                options(), List.of(FIELD), report(fix("r1", 2, 3, 1000)), report(fix("r1", 9, 3, 4000)));
 
         assertThat(written).extracting(TopicRecord::topic).containsOnly("data.presence");
         Entity entered = entity(written.get(0));
@@ -105,11 +106,11 @@ class PresenceJobTest {
         List<TopicRecord> written = run(
                 options("--parallelism", "1"),
                 List.of(FIELD),
-                report(Story.fix("r1", 2, 3, 1000)),
-                report(Story.fix("r1", 9, 3, 1500)).to(replay),
-                report(Story.fix("r1", 3, 3, 2000)).to(replay),
-                report(Story.fix("r1", 9, 3, 4000)),
-                report(Story.fix("r1", 9, 3, 1000)).to(replay));
+                report(fix("r1", 2, 3, 1000)),
+                report(fix("r1", 9, 3, 1500)).to(replay),
+                report(fix("r1", 3, 3, 2000)).to(replay),
+                report(fix("r1", 9, 3, 4000)),
+                report(fix("r1", 9, 3, 1000)).to(replay));
 
         assertThat(written)
                 .extracting(TopicRecord::topic, TopicRecord::timestamp)
@@ -127,12 +128,12 @@ class PresenceJobTest {
         List<TopicRecord> written = run(
                 options("--parallelism", "1"),
                 List.of(FIELD),
-                report(Story.fix("r1", 2, 3, 1000)),
+                report(fix("r1", 2, 3, 1000)),
                 garbage.to("reports"),
                 garbage, // of data.raw, which ingest sets aside
                 record("r2", 1000, null),
-                report(Story.fix("r1", 2, 3, 90_000)),
-                report(Story.fix("r1", 9, 9, 2000)));
+                report(fix("r1", 2, 3, 90_000)),
+                report(fix("r1", 9, 9, 2000)));
 
         assertThat(written)
                 .extracting(TopicRecord::topic)
@@ -152,8 +153,8 @@ class PresenceJobTest {
         List<TopicRecord> reports = new ArrayList<>();
         for (long now = 1_000_000; now < 1_200_000; now += 1000) {
             String received = Long.toString(now);
-            reports.add(report(Story.fix("right", 9, 9, now)).with(HeaderNames.TS_SOURCE, received));
-            reports.add(report(Story.fix("slow", 2, 3, now - behind)).with(HeaderNames.TS_SOURCE, received));
+            reports.add(report(fix("right", 9, 9, now)).with(HeaderNames.TS_SOURCE, received));
+            reports.add(report(fix("slow", 2, 3, now - behind)).with(HeaderNames.TS_SOURCE, received));
         }
         TopicRecord[] all = reports.toArray(TopicRecord[]::new);
 

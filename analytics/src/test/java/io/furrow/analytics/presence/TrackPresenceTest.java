@@ -1,5 +1,6 @@
 package io.furrow.analytics.presence;
 
+import static io.furrow.analytics.presence.Story.fix;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -78,7 +79,7 @@ class TrackPresenceTest {
     void goesByOtherRulesAsSoonAsTheyAreRestored() throws Exception {
         Following following = new Following(
                 new PresenceRules(Duration.ofSeconds(60), Duration.ofSeconds(10)), 1, List.of(FIELD.record(0)));
-        following.receive(Story.fix("d", 2, 2, 1000));
+        following.receive(fix("d", 2, 2, 1000));
         assertThat(following.advance(5000)).isEmpty();
 
         following.restart(new PresenceRules(Duration.ofSeconds(20), Duration.ofSeconds(3)));
@@ -93,10 +94,10 @@ class TrackPresenceTest {
     @Test
     void tellsHowLongADeviceStayed() throws Exception {
         Following following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
-        following.receive(Story.fix("d", 9, 9, 1000));
-        following.receive(Story.fix("d", 2, 2, 2000));
-        following.receive(Story.fix("d", 3, 3, 5000));
-        following.receive(Story.fix("d", 9, 9, 7500));
+        following.receive(fix("d", 9, 9, 1000));
+        following.receive(fix("d", 2, 2, 2000));
+        following.receive(fix("d", 3, 3, 5000));
+        following.receive(fix("d", 9, 9, 7500));
 
         List<PresenceTransition> passages = following.advance(8000);
 
@@ -110,9 +111,9 @@ class TrackPresenceTest {
     @Test
     void judgesSilentDevicesAnewWhenTheirFieldChangesOrGoes() throws Exception {
         Following following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
-        following.receive(Story.fix("stays", 1, 1, 1000));
-        following.receive(Story.fix("falls-out", 4, 4, 1000));
-        following.receive(Story.fix("comes-in", 7, 1, 1000));
+        following.receive(fix("stays", 1, 1, 1000));
+        following.receive(fix("falls-out", 4, 4, 1000));
+        following.receive(fix("comes-in", 7, 1, 1000));
         assertThat(following.advance(1000)).hasSize(2);
 
         following.receive(new Plot("f", 3000, List.of(new Box(1, 1, 1 + 8e-4, 1 + 2e-4)), null).record(1));
@@ -135,8 +136,8 @@ class TrackPresenceTest {
     @Test
     void takesAVersionThatComesLateIntoAccountSoon() throws Exception {
         Following following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
-        following.receive(Story.fix("d", 2, 2, 10_000));
-        following.receive(Story.fix("d", 3, 3, 11_500));
+        following.receive(fix("d", 2, 2, 10_000));
+        following.receive(fix("d", 3, 3, 11_500));
         assertThat(following.advance(12_000)).hasSize(1);
 
         following.receive(new Plot("f", 11_000, List.of(), null).record(1));
@@ -156,7 +157,7 @@ class TrackPresenceTest {
                 new PresenceRules(Duration.ofSeconds(60), Duration.ofSeconds(3)), 1, List.of(FIELD.record(0)));
         int[] where = {2, 9, 2, 2, 2, 2, 9, 2, 9, 2, 9, 9, 9, 9};
         for (int second = 0; second < where.length; second++) {
-            following.receive(Story.fix("d", where[second], 2, 1000L * second));
+            following.receive(fix("d", where[second], 2, 1000L * second));
         }
 
         assertThat(following.advance(20_000).stream().map(PresenceOracle::line))
@@ -169,14 +170,14 @@ class TrackPresenceTest {
     @Test
     void showsTheLatePositionsThatAreTheNewestOfTheirDevice() throws Exception {
         Following following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
-        following.receive(Story.fix("d", 2, 2, 10_000));
-        following.receive(Story.fix("e", 2, 2, 13_000));
+        following.receive(fix("d", 2, 2, 10_000));
+        following.receive(fix("e", 2, 2, 13_000));
         following.advance(12_000);
 
-        following.receive(Story.fix("d", 9, 9, 9_000));
-        following.receive(Story.fix("d", 9, 9, 11_000));
-        following.receive(Story.fix("e", 9, 9, 11_000));
-        following.receive(Story.fix("f", 9, 9, 11_500));
+        following.receive(fix("d", 9, 9, 9_000));
+        following.receive(fix("d", 9, 9, 11_000));
+        following.receive(fix("e", 9, 9, 11_000));
+        following.receive(fix("f", 9, 9, 11_500));
 
         assertThat(following.late()).hasSize(4);
         assertThat(following.lagging())
@@ -188,13 +189,13 @@ class TrackPresenceTest {
     @Test
     void setsAsideWhatComesBehindTheWatermarkAlsoAfterARestart() throws Exception {
         Following following = new Following(AT_ONCE, 2, List.of(FIELD.record(0)));
-        following.receive(Story.fix("d", 2, 2, 10_000));
-        following.receive(Story.fix("e", 2, 2, 10_000));
+        following.receive(fix("d", 2, 2, 10_000));
+        following.receive(fix("e", 2, 2, 10_000));
         assertThat(following.advance(12_000)).hasSize(2);
 
-        following.receive(Story.fix("d", 9, 9, 12_000));
+        following.receive(fix("d", 9, 9, 12_000));
         following.restart(1);
-        following.receive(Story.fix("d", 9, 9, 11_000));
+        following.receive(fix("d", 9, 9, 11_000));
 
         assertThat(following.late()).extracting(PositionFix::time).containsExactlyInAnyOrder(12_000L, 11_000L);
         following.stop();
@@ -203,10 +204,10 @@ class TrackPresenceTest {
     @Test
     void takesWhatWasOnItsWayToASubtaskThatWasBehind() throws Exception {
         Following following = new Following(AT_ONCE, 2, List.of(FIELD.record(0)));
-        PositionFix ahead = Story.fix("d", 9, 9, 11_000);
+        PositionFix ahead = fix("d", 9, 9, 11_000);
         PositionFix behind = null;
         for (int i = 0; behind == null || following.subtaskOf(behind) == following.subtaskOf(ahead); i++) {
-            behind = Story.fix("e" + i, 2, 2, 11_000);
+            behind = fix("e" + i, 2, 2, 11_000);
         }
         following.advance(following.subtaskOf(ahead), 12_000);
         following.advance(following.subtaskOf(behind), 10_000);
@@ -224,8 +225,8 @@ class TrackPresenceTest {
     void keepsOneTimerPerDevice() throws Exception {
         Following following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
         for (int step = 0; step < 50; step++) {
-            following.receive(Story.fix("d", step % 12, 2, 1000 + step));
-            following.receive(Story.fix("e", step % 12, 2, 1000 + step));
+            following.receive(fix("d", step % 12, 2, 1000 + step));
+            following.receive(fix("e", step % 12, 2, 1000 + step));
         }
         assertThat(following.timers()).isEqualTo(2);
         assertThat(following.advance(1020)).isNotEmpty();

@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -38,12 +39,12 @@ class ConnectionPublisherTest {
     private final DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
     private final String key = device.version().key();
     private final String user =
-            DesiredDeviceFixture.SECRET.device("hoeing", device.device()).user();
+            SECRET.device("hoeing", device.device()).user();
     private final Map<String, LoginReport> logins = new HashMap<>();
     private UnreadablePayload unreadable;
     private final ConnectionPublisher publisher = publisher(new ConnectionSources(
             List.of(() -> logins),
-            (apiKey, id) -> apiKey.equals(DesiredDeviceFixture.SECRET.apiKey("hoeing")) && id.equals(device.device())
+            (apiKey, id) -> apiKey.equals(SECRET.apiKey("hoeing")) && id.equals(device.device())
                     ? Optional.ofNullable(unreadable)
                     : Optional.empty()));
 
@@ -70,7 +71,7 @@ class ConnectionPublisherTest {
     /** After a rotation, or on another mission, it tries with what it has. */
     @Test
     void countsLoginsWithOldCredentialsForTheDevice() throws Exception {
-        String old = DesiredDeviceFixture.SECRET
+        String old = SECRET
                 .device("weeding", device.device(), 3)
                 .user();
         RefusedLogin refused = new RefusedLogin(7, START + 2, DeviceConnection.UNKNOWN_USER, old);
@@ -87,7 +88,7 @@ class ConnectionPublisherTest {
     @Test
     void takesTheLoginOfTheGatewayThatSpeaksForADevice() throws Exception {
         ForeignTopic foreign = new ForeignTopic(1, START, "/k/e/attrs");
-        logins.put(DesiredDeviceFixture.SECRET.gateway("hoeing").user(), new LoginReport(START + 1, null, foreign));
+        logins.put(SECRET.gateway("hoeing").user(), new LoginReport(START + 1, null, foreign));
 
         publish(Set.of(key));
 
@@ -144,7 +145,7 @@ class ConnectionPublisherTest {
         ProvisioningSettings settings = new ProvisioningSettings(
                 new Properties(),
                 DesiredDeviceFixture.SCOPE,
-                SecretSource.of(DesiredDeviceFixture.SECRET),
+                SecretSource.of(SECRET),
                 null,
                 List.of(),
                 true,

@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
@@ -32,9 +33,9 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class EmbeddedBrokerTest {
     private static final InMemoryAccounts ACCOUNTS = new InMemoryAccounts();
-    private static final String KEY = "/" + DesiredDeviceFixture.SECRET.apiKey("hoeing");
+    private static final String KEY = "/" + SECRET.apiKey("hoeing");
     private static final long TIMEOUT_MS = 20_000;
-    private static final FarmSecret.Login DEVICE = DesiredDeviceFixture.SECRET.device("hoeing", "d");
+    private static final FarmSecret.Login DEVICE = SECRET.device("hoeing", "d");
 
     @AutoClose
     private static EmbeddedMqtt mqtt;
@@ -71,8 +72,8 @@ class EmbeddedBrokerTest {
     void listen() throws MqttException {
         ACCOUNTS.replace(
                 List.of(
-                        MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d"),
-                        MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing")),
+                        MqttAccount.device(SECRET, "hoeing", "d"),
+                        MqttAccount.gateway(SECRET, "hoeing")),
                 Set.of());
         agent = connect(new FarmSecret.Login("agent", "plough"));
         agent.subscribe("#", 1, (topic, message) -> heard.put(topic, new String(message.getPayload(), UTF_8)));
@@ -126,9 +127,9 @@ class EmbeddedBrokerTest {
     @Test
     void closesTheConnectionOfAUserWhoseAccountIsRemoved() throws MqttException {
         MqttClient device = connect(DEVICE);
-        MqttClient gateway = connect(DesiredDeviceFixture.SECRET.gateway("hoeing"));
+        MqttClient gateway = connect(SECRET.gateway("hoeing"));
 
-        ACCOUNTS.replace(List.of(MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing")), Set.of());
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(SECRET, "hoeing")), Set.of());
 
         await().until(() -> !device.isConnected());
         assertThat(gateway.isConnected()).isTrue();
@@ -163,8 +164,8 @@ class EmbeddedBrokerTest {
 
     @Test
     void letsAMissionHaveTheNameOfAUserOfTheStart() throws MqttException {
-        ACCOUNTS.replace(List.of(MqttAccount.gateway(DesiredDeviceFixture.SECRET, "agent")), Set.of());
-        MqttClient gateway = connect(DesiredDeviceFixture.SECRET.gateway("agent"));
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(SECRET, "agent")), Set.of());
+        MqttClient gateway = connect(SECRET.gateway("agent"));
 
         assertThatThrownBy(() -> gateway.subscribe("#", 1)).isInstanceOf(MqttException.class);
         leave(gateway);

@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -50,11 +51,11 @@ class LostKafkaTest extends ProvisioningFixture {
     void retainsTheDevicesOfTheAgentWhereNoFileSaysForWhichKafkaTheyAre() throws Exception {
         provisionTen();
 
-        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), EMPTY);
+        provisioning = provisioning(settings(SecretSource.of(SECRET), false), EMPTY);
         assertThat(provisioning.step().retained().devices()).hasSize(10);
         assertThat(agent.deviceIds()).hasSize(10);
 
-        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), SAME);
+        provisioning = provisioning(settings(SecretSource.of(SECRET), false), SAME);
         assertThat(provisioning.step()).isEqualTo(DONE);
         assertThat(agent.deviceIds()).isEmpty();
     }
@@ -141,7 +142,7 @@ class LostKafkaTest extends ProvisioningFixture {
     void takesNoEmptyAnswerOfTheAgentForAllThatItHas() throws Exception {
         provisionTen();
         addDesired(DesiredDeviceFixture.thermometer("weeding", 1));
-        provisioning = provisioning(settings(SecretSource.of(DesiredDeviceFixture.SECRET), false), EMPTY);
+        provisioning = provisioning(settings(SecretSource.of(SECRET), false), EMPTY);
         agent.garbage = NOTHING;
         assertThat(provisioning.step()).isEqualTo(DONE);
 
@@ -199,7 +200,7 @@ class LostKafkaTest extends ProvisioningFixture {
     @Test
     void removesOnlyAccountsOfAKeyWhoseTimeIsOver() throws Exception {
         provisionTen();
-        FarmSecret rotated = DesiredDeviceFixture.SECRET
+        FarmSecret rotated = SECRET
                 .rotated(Instant.now(), Instant.EPOCH, false)
                 .at(Instant.now());
 
@@ -211,7 +212,7 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     private static String user(DesiredDevice device, int generation) {
-        return DesiredDeviceFixture.SECRET
+        return SECRET
                 .device("hoeing", device.device(), generation)
                 .user();
     }
@@ -234,7 +235,7 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     private ProvisioningSettings files(boolean forgets) {
-        return files(SecretSource.of(DesiredDeviceFixture.SECRET), forgets);
+        return files(SecretSource.of(SECRET), forgets);
     }
 
     private ProvisioningSettings files(SecretSource secret, boolean forgets) {

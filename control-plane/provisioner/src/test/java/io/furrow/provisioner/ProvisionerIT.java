@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.thermometer;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -64,8 +65,8 @@ class ProvisionerIT {
 
     @Test
     void followsTheTopicAndRemovesAfterARestartWhatWentInTheMeantime() {
-        DesiredDevice one = DesiredDeviceFixture.thermometer("hoeing", 1);
-        DesiredDevice two = DesiredDeviceFixture.thermometer("hoeing", 2);
+        DesiredDevice one = thermometer("hoeing", 1);
+        DesiredDevice two = thermometer("hoeing", 2);
         try (Provisioner provisioner = provisioner()) {
             put(one);
             put(two);
@@ -90,9 +91,9 @@ class ProvisionerIT {
 
     @Test
     void reportsWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() {
-        DesiredDevice before = DesiredDeviceFixture.thermometer("hoeing", 1);
-        DesiredDevice after = DesiredDeviceFixture.thermometer("hoeing", 2);
-        DesiredDevice disliked = DesiredDeviceFixture.thermometer("hoeing", 3);
+        DesiredDevice before = thermometer("hoeing", 1);
+        DesiredDevice after = thermometer("hoeing", 2);
+        DesiredDevice disliked = thermometer("hoeing", 3);
         agent.disliked.add(disliked.device());
         try (Provisioner provisioner = provisioner()) {
             put(before);
@@ -118,8 +119,8 @@ class ProvisionerIT {
 
     @Test
     void restoresWhatARestartedAgentHasLostAtTheNextInterval() {
-        put(DesiredDeviceFixture.thermometer("hoeing", 1));
-        put(DesiredDeviceFixture.thermometer("hoeing", 2));
+        put(thermometer("hoeing", 1));
+        put(thermometer("hoeing", 2));
         try (Provisioner provisioner = provisioner()) {
             await().until(() -> agent.deviceIds().size() == 2);
 
@@ -135,7 +136,7 @@ class ProvisionerIT {
     /** A Kafka that knows nothing of them says so on a topic until it is told to forget them. */
     @Test
     void retainsWhatAnotherKafkaHasProvisioned() throws Exception {
-        put(DesiredDeviceFixture.thermometer("hoeing", 1));
+        put(thermometer("hoeing", 1));
         try (Provisioner provisioner = provisioner()) {
             await().until(() -> agent.deviceIds().size() == 1);
             assertThat(provisioner).isNotNull();
@@ -167,13 +168,13 @@ class ProvisionerIT {
     @Test
     void leavesTheWorkToOneOfTwoInstancesAndThenToTheOther() {
         Provisioner first = provisioner();
-        put(DesiredDeviceFixture.thermometer("hoeing", 1));
+        put(thermometer("hoeing", 1));
         await().until(() -> agent.deviceIds().size() == 1);
         try (Provisioner second = provisioner()) {
-            put(DesiredDeviceFixture.thermometer("hoeing", 2));
+            put(thermometer("hoeing", 2));
             await().until(() -> agent.deviceIds().size() == 2);
             first.close();
-            put(DesiredDeviceFixture.thermometer("weeding", 1));
+            put(thermometer("weeding", 1));
             await().until(() -> agent.deviceIds().size() == 3);
             assertThat(second).isNotNull();
         } finally {

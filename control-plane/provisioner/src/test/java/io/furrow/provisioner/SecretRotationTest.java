@@ -1,5 +1,6 @@
 package io.furrow.provisioner;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.io.IOException;
 import java.time.Instant;
 
@@ -25,19 +26,19 @@ class SecretRotationTest extends ProvisioningFixture {
         assertThat(provisioning.isSecretChanged()).isFalse();
         agent.changes.clear();
         Instant until = Instant.parse("2026-03-01T08:00:00Z");
-        FarmSecret rotated = DesiredDeviceFixture.SECRET.rotated(until.minusSeconds(60), until, false);
+        FarmSecret rotated = SECRET.rotated(until.minusSeconds(60), until, false);
 
         secret.current = rotated.at(until.minusSeconds(1));
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", device.device())))
+        assertThat(authenticates(SECRET.device("hoeing", device.device())))
                 .isTrue();
         assertThat(authenticates(rotated.device("hoeing", device.device()))).isTrue();
 
         secret.current = rotated.at(until);
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", device.device())))
+        assertThat(authenticates(SECRET.device("hoeing", device.device())))
                 .isFalse();
         assertThat(authenticates(rotated.device("hoeing", device.device()))).isTrue();
         assertThat(agent.changes).isEmpty();
@@ -59,7 +60,7 @@ class SecretRotationTest extends ProvisioningFixture {
                         .put("apikey", "secret"));
         desired.clear();
         addDesired(device);
-        secret.current = DesiredDeviceFixture.SECRET
+        secret.current = SECRET
                 .rotated(Instant.now(), Instant.EPOCH, true)
                 .at(Instant.now());
 
@@ -86,18 +87,18 @@ class SecretRotationTest extends ProvisioningFixture {
         addDesired(stolen.withGeneration(1));
 
         assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("503");
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device())))
+        assertThat(authenticates(SECRET.device("hoeing", stolen.device())))
                 .isFalse();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", other.device())))
+        assertThat(authenticates(SECRET.device("hoeing", other.device())))
                 .isTrue();
 
         agent.unavailable = false;
         provisioning.step();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device(), 1)))
+        assertThat(authenticates(SECRET.device("hoeing", stolen.device(), 1)))
                 .isTrue();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", stolen.device())))
+        assertThat(authenticates(SECRET.device("hoeing", stolen.device())))
                 .isFalse();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", other.device())))
+        assertThat(authenticates(SECRET.device("hoeing", other.device())))
                 .isTrue();
         assertThat(agent.changes)
                 .filteredOn(change -> change.startsWith("DELETE"))
@@ -119,13 +120,13 @@ class SecretRotationTest extends ProvisioningFixture {
 
         assertThat(agent.changes).isEmpty();
         assertThat(counts).isEmpty();
-        assertThat(authenticates(DesiredDeviceFixture.SECRET.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")))
+        assertThat(authenticates(SECRET.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")))
                 .isTrue();
     }
 
     /** The farm's secret, as long as nobody says that it is not. */
     private static final class Secret implements SecretSource {
-        private FarmSecret current = DesiredDeviceFixture.SECRET;
+        private FarmSecret current = SECRET;
         private String foreign;
 
         @Override

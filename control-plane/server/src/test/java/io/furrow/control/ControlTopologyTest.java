@@ -1,5 +1,9 @@
 package io.furrow.control;
 
+import static io.furrow.control.ManagerFixture.REMEMBERED;
+import static io.furrow.control.ManagerFixture.error;
+import static io.furrow.control.ManagerFixture.response;
+import static io.furrow.control.ManagerFixture.text;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -37,7 +41,7 @@ class ControlTopologyTest {
         farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
 
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
-        assertThat(ManagerFixture.text(answer.value()))
+        assertThat(text(answer.value()))
                 .isEqualTo(
                         "{\"type\":\"response\",\"status\":\"created\",\"domain\":\"north\",\"topic\":\"data.north.realtime\"}");
         assertThat(answer.key()).isNull();
@@ -61,14 +65,14 @@ class ControlTopologyTest {
     @Test
     void rejectsAnotherRequestUnderTheSameId() {
         farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-1','user':'ann','domain':'north'");
-        assertThat(ManagerFixture.response(farm.only(Topics.DOMAIN_MANAGER)).status())
+        assertThat(response(farm.only(Topics.DOMAIN_MANAGER)).status())
                 .isEqualTo("created");
         for (String other : List.of(
                 "'user':'ann','domain':'south'",
                 "'user':'bob','domain':'north'",
                 "'user':'ann','command':'nonsense','domain':'north'")) {
             farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-1'," + other);
-            assertThat(ManagerFixture.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("request-id-reused");
+            assertThat(error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("request-id-reused");
         }
         farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-1','user':'ann','domain':'north'");
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).isEmpty();
@@ -101,10 +105,10 @@ class ControlTopologyTest {
         farm.request(Topics.DOMAIN_MANAGER, null, domain);
 
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
-        assertThat(ManagerFixture.error(answer)).isEqualTo("too-large");
-        assertThat(ManagerFixture.response(answer).json().path("domain").asText())
+        assertThat(error(answer)).isEqualTo("too-large");
+        assertThat(response(answer).json().path("domain").asText())
                 .isEqualTo("north");
-        assertThat(ManagerFixture.response(answer).json().path("reason").asText())
+        assertThat(response(answer).json().path("reason").asText())
                 .contains(Integer.toString(domain.length()), "524288");
         assertThat(farm.read(Topics.DOMAINS)).isEmpty();
         assertThat(farm.read(Topics.AUDIT)).hasSize(1);
@@ -119,7 +123,7 @@ class ControlTopologyTest {
 
         List<TestRecord<String, byte[]>> answers = farm.read(Topics.MISSION_MANAGER);
         assertThat(answers)
-                .extracting(answer -> ManagerFixture.error(answer))
+                .extracting(answer -> error(answer))
                 .containsExactly("unknown-command", "not-json");
         assertThat(answers).extracting(TestRecord::key).containsExactly("r-1", "mine");
     }
@@ -128,14 +132,14 @@ class ControlTopologyTest {
     void forgetsIdsOfRequestsAfterTheTimeForThat() {
         String request = "{'type':'request','requestId':'r-1','domain':'north'}";
         farm.request(Topics.DOMAIN_MANAGER, null, request);
-        farm.pass(ManagerFixture.REMEMBERED.minusSeconds(1));
+        farm.pass(REMEMBERED.minusSeconds(1));
         farm.request(Topics.DOMAIN_MANAGER, null, request);
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).hasSize(1);
-        farm.pass(ManagerFixture.REMEMBERED.dividedBy(4));
+        farm.pass(REMEMBERED.dividedBy(4));
         farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-2','domain':'south'");
         farm.read(Topics.DOMAIN_MANAGER);
         farm.request(Topics.DOMAIN_MANAGER, null, request);
-        assertThat(ManagerFixture.error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("domain-exists");
+        assertThat(error(farm.only(Topics.DOMAIN_MANAGER))).isEqualTo("domain-exists");
         assertThat(farm.remembered("domain-answers")).isEqualTo(2);
     }
 
@@ -161,9 +165,9 @@ class ControlTopologyTest {
         farm.request(Topics.MISSION_MANAGER, "'command':'stop','mission':'m'");
         farm.request(Topics.DOMAIN_MANAGER, "'command':'delete','domain':'north'");
         assertThat(farm.read(Topics.DOMAIN_MANAGER))
-                .extracting(record -> ManagerFixture.response(record)
+                .extracting(record -> response(record)
                         .error()
-                        .orElse(ManagerFixture.response(record).status()))
+                        .orElse(response(record).status()))
                 .containsExactly("created", "missions-running");
         assertThat(farm.state("m")).isEqualTo("stopping");
         assertThat(farm.hostAll(DeviceStatus.State.STOPPED)).isEqualTo(2);
@@ -209,8 +213,8 @@ class ControlTopologyTest {
         farm.pipe(Topics.DEVICES_STATUS, "farm|/|x", null);
 
         TestRecord<String, byte[]> dead = farm.only(Topics.dead(Topics.DEVICES_STATUS));
-        assertThat(ManagerFixture.text(dead.value())).isEqualTo("{\"sequence\":1}");
-        assertThat(ManagerFixture.text(
+        assertThat(text(dead.value())).isEqualTo("{\"sequence\":1}");
+        assertThat(text(
                         dead.headers().lastHeader(DeadLetter.REASON).value()))
                 .isEqualTo("not-an-event");
     }
@@ -218,7 +222,7 @@ class ControlTopologyTest {
     @Test
     void handsReplaysOnAndForgetsThemWhenTheyAreOver() throws Exception {
         farm.request(Topics.REPLAY_MANAGER, "'command':'start','mission':'m','speed':'max','from':1000,'devices':['urn:x']");
-        CommandResult created = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
+        CommandResult created = response(farm.only(Topics.REPLAY_MANAGER));
         String replay = created.json().path("replay").asText();
         assertThat(replay).matches("m\\.[0-9a-f]{8}");
         assertThat(created.json().path("topic").asText()).isEqualTo("data.m.replay." + replay.substring(2));
@@ -227,13 +231,13 @@ class ControlTopologyTest {
             farm.request(Topics.REPLAY_MANAGER, "'command':'" + command + "','to':5000,'replay':'" + replay + "'");
         }
         assertThat(farm.read(Topics.REPLAY_MANAGER))
-                .extracting(record -> ManagerFixture.response(record)
+                .extracting(record -> response(record)
                         .error()
-                        .orElse(ManagerFixture.response(record).status()))
+                        .orElse(response(record).status()))
                 .containsExactly("""
                                 wrong-state paused paused paused paused running wrong-state deleted wrong-state""".split("\\s+"));
         List<TestRecord<String, byte[]>> desired = farm.read(Topics.REPLAYS);
-        assertThat(ManagerFixture.text(desired.get(desired.size() - 1).value()))
+        assertThat(text(desired.get(desired.size() - 1).value()))
                 .contains("\"from\":1000,", "\"speed\":\"max\"", "\"wanted\":\"stopped\"")
                 .contains("\"seek\":{\"to\":5000,\"sequence\":5},\"step\":{\"total\":2,\"sequence\":4}")
                 .endsWith("\"sequence\":7}");
@@ -247,12 +251,12 @@ class ControlTopologyTest {
         farm.pipe(Topics.REPLAYS_STATUS, replay, "{\"sequence\":7,\"state\":\"stopped\"}".getBytes(UTF_8));
         assertThat(farm.only(Topics.REPLAYS).value()).isNull();
         farm.request(Topics.REPLAY_MANAGER, "'command':'stop','replay':'" + replay + "'");
-        assertThat(ManagerFixture.error(farm.only(Topics.REPLAY_MANAGER))).isEqualTo("unknown-replay");
+        assertThat(error(farm.only(Topics.REPLAY_MANAGER))).isEqualTo("unknown-replay");
     }
 
     private String startReplay(String members) {
         farm.request(Topics.REPLAY_MANAGER, "'command':'start','mission':'m'" + members);
-        String replay = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER))
+        String replay = response(farm.only(Topics.REPLAY_MANAGER))
                 .json()
                 .path("replay")
                 .asText();
@@ -262,7 +266,7 @@ class ControlTopologyTest {
 
     private CommandResult steer(String replay, String command) {
         farm.request(Topics.REPLAY_MANAGER, "'replay':'" + replay + "','command':" + command);
-        return ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
+        return response(farm.only(Topics.REPLAY_MANAGER));
     }
 
     /** Its recording lasts from 1 s to 9 s. */
@@ -280,7 +284,7 @@ class ControlTopologyTest {
         }
         String group = "{'type':'request','command':'start','missions':['a','b'],'from':1000,'to':9000}";
         farm.request(Topics.REPLAY_MANAGER, null, group);
-        CommandResult refused = ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER));
+        CommandResult refused = response(farm.only(Topics.REPLAY_MANAGER));
         assertThat(refused.error()).contains("quota-exceeded");
         assertThat(refused.json().path("reason").asText())
                 .isEqualTo(
@@ -289,7 +293,7 @@ class ControlTopologyTest {
         report(replays.get(0), 1, ReplayStatus.State.ENDED, false);
         farm.request(Topics.REPLAY_MANAGER, null, group);
 
-        assertThat(ManagerFixture.response(farm.only(Topics.REPLAY_MANAGER)).status())
+        assertThat(response(farm.only(Topics.REPLAY_MANAGER)).status())
                 .isEqualTo("created");
     }
 
@@ -304,7 +308,7 @@ class ControlTopologyTest {
         assertThat(farm.read(Topics.REPLAYS)).isEmpty();
 
         assertThat(steer(replay, "'seek','to':5000").status()).isEqualTo("running");
-        assertThat(ManagerFixture.text(farm.only(Topics.REPLAYS).value()))
+        assertThat(text(farm.only(Topics.REPLAYS).value()))
                 .contains("\"seek\":{\"to\":5000,\"sequence\":2}");
         farm.pass(Duration.ofMinutes(61));
         assertThat(farm.read(Topics.REPLAYS)).as("sought, and not played yet").isEmpty();
@@ -325,14 +329,14 @@ class ControlTopologyTest {
         String replay = startReplay("");
         report(replay, 1, ReplayStatus.State.ENDED, true);
         assertThat(steer(replay, "'step','count':-3").status()).isEqualTo("paused");
-        assertThat(ManagerFixture.text(farm.only(Topics.REPLAYS).value()))
+        assertThat(text(farm.only(Topics.REPLAYS).value()))
                 .contains("\"wanted\":\"paused\"", "\"step\":{\"total\":-3,\"sequence\":2}");
         assertThat(steer(replay, "'resume'").status()).isEqualTo("running");
         farm.read(Topics.REPLAYS);
 
         report(replay, 3, ReplayStatus.State.ENDED, true);
         assertThat(steer(replay, "'loop','from':2000,'to':3000").status()).isEqualTo("running");
-        assertThat(ManagerFixture.text(farm.only(Topics.REPLAYS).value()))
+        assertThat(text(farm.only(Topics.REPLAYS).value()))
                 .contains("\"seek\":{\"to\":2000,\"sequence\":4}", "\"range\":{\"from\":2000,\"to\":3000}");
     }
 
@@ -406,8 +410,8 @@ class ControlTopologyTest {
     @Test
     void hasANameForEveryStoreAndEveryTopicOfItsOwn() {
         assertThat(ControlTopology.of(
-                                ManagerFixture.REMEMBERED,
-                                new MissionSettings(ManagerFixture.REMEMBERED, FiwareScope.DEFAULT, false),
+                                REMEMBERED,
+                                new MissionSettings(REMEMBERED, FiwareScope.DEFAULT, false),
                                 ReplaySettings.DEFAULT)
                         .describe()
                         .toString())

@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision.encounter;
 
+import static io.furrow.analytics.collision.Fixes.east;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collections;
@@ -52,10 +53,10 @@ class ChangedRulesTest {
     @Test
     void endsWhatIsOpenAndBeginsAnewWithTheNextReports() throws Exception {
         Run run = new Run(rules(10), new Random(1), rules(9));
-        run.receive(Fixes.east("r1", 0, START), Fixes.east("r2", 8, START));
+        run.receive(east("r1", 0, START), east("r2", 8, START));
         run.advance(START);
         run.changeRules();
-        run.receive(Fixes.east("r1", 0, START + 1000), Fixes.east("r2", 8, START + 1000));
+        run.receive(east("r1", 0, START + 1000), east("r2", 8, START + 1000));
         run.end();
 
         assertThat(run.told)
@@ -70,7 +71,7 @@ class ChangedRulesTest {
     @Test
     void goesOnWhereNoPairIsJudgedOtherwise() throws Exception {
         Run run = new Run(rules(10), new Random(1), rules(10).with(new DebounceRules(1, Duration.ofSeconds(3))));
-        run.receive(Fixes.east("r1", 0, START), Fixes.east("r2", 8, START));
+        run.receive(east("r1", 0, START), east("r2", 8, START));
         run.advance(START);
         run.changeRules();
         run.end();

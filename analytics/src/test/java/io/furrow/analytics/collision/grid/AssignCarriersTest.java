@@ -1,5 +1,7 @@
 package io.furrow.analytics.collision.grid;
 
+import static io.furrow.analytics.collision.Fixes.of;
+import static io.furrow.analytics.collision.Fixes.east;
 import java.util.List;
 import java.util.Map;
 
@@ -52,30 +54,30 @@ class AssignCarriersTest {
     void letsTheGroundCarryWhatDoesNotMove() throws Exception {
         change(1, stationary("thermometer", "/"));
         change(2, stationary("station", "/north"));
-        PositionFix thermometer = assigned(Fixes.east("thermometer", 0, 1500));
-        PositionFix station = assigned(Fixes.of("farm|/north|station", "station", "m", 0, 10, 1500));
+        PositionFix thermometer = assigned(east("thermometer", 0, 1500));
+        PositionFix station = assigned(of("farm|/north|station", "station", "m", 0, 10, 1500));
 
         assertThat(thermometer.sharesAggregateWith(station)).isTrue();
-        assertThat(thermometer.sharesAggregateWith(assigned(Fixes.east("robot", 0, 1500))))
+        assertThat(thermometer.sharesAggregateWith(assigned(east("robot", 0, 1500))))
                 .isFalse();
     }
 
     /** Whether or not the identity names the type. */
     @Test
     void takesEntitiesOfOneIdForOneThing() {
-        PositionFix tractor = Fixes.of("farm|/|Tractor|e-12", "e-12", "m", 0, 10, 1500);
+        PositionFix tractor = of("farm|/|Tractor|e-12", "e-12", "m", 0, 10, 1500);
 
-        assertThat(tractor.sharesAggregateWith(Fixes.of("farm|/|Thermometer|e-12", "e-12", "m", 0, 10, 1500)))
+        assertThat(tractor.sharesAggregateWith(of("farm|/|Thermometer|e-12", "e-12", "m", 0, 10, 1500)))
                 .isTrue();
-        assertThat(tractor.sharesAggregateWith(Fixes.of("farm|/|e-12", "e-12", "m", 0, 10, 1500)))
+        assertThat(tractor.sharesAggregateWith(of("farm|/|e-12", "e-12", "m", 0, 10, 1500)))
                 .isTrue();
-        assertThat(tractor.sharesAggregateWith(Fixes.of("other|/|Tractor|e-12", "e-12", "m", 0, 10, 1500)))
+        assertThat(tractor.sharesAggregateWith(of("other|/|Tractor|e-12", "e-12", "m", 0, 10, 1500)))
                 .isFalse();
     }
 
     @Test
     void leavesTheCarrierThatTheEntityNames() throws Exception {
-        PositionFix named = Fixes.carriedBy("drone", Fixes.east("camera", 0, 1500));
+        PositionFix named = Fixes.carriedBy("drone", east("camera", 0, 1500));
         assertThat(assigned(named)).isEqualTo(named);
     }
 
@@ -119,7 +121,7 @@ class AssignCarriersTest {
     }
 
     private String carrierOfCamera(long time) throws Exception {
-        return assigned(Fixes.east("camera", 0, time)).carrier();
+        return assigned(east("camera", 0, time)).carrier();
     }
 
     private PositionFix assigned(PositionFix fix) throws Exception {

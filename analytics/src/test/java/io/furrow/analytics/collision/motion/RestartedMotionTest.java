@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision.motion;
 
+import static io.furrow.analytics.collision.motion.Courses.START;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
@@ -26,7 +27,7 @@ class RestartedMotionTest {
         for (int i = 0; i < 12; i++) {
             MotionRules rules = Courses.rules(20);
             Courses courses = new Courses(300 + i);
-            List<PositionFix> fixes = courses.world(Courses.CENTRES[i % Courses.CENTRES.length], Courses.START);
+            List<PositionFix> fixes = courses.world(Courses.CENTRES[i % Courses.CENTRES.length], START);
             List<Approach> expected =
                     MotionSimulationTest.sorted(MotionSimulation.approaches(fixes, rules, new Random(i)));
 
@@ -42,14 +43,14 @@ class RestartedMotionTest {
     void leavesOutWhatComesBehindTheWatermarkAlsoAfterARestart() throws Exception {
         MotionRules rules = Courses.rules(20);
         var track = track(rules);
-        track.receive(List.of(Courses.fix("a", new double[] {40, 3}, 1, 90, Courses.START)));
-        assertThat(track.advance(Courses.START + 10)).isNotEmpty();
+        track.receive(List.of(Courses.fix("a", new double[] {40, 3}, 1, 90, START)));
+        assertThat(track.advance(START + 10)).isNotEmpty();
         track.restart();
 
-        track.receive(List.of(Courses.fix("b", new double[] {40, 3}, 1, 90, Courses.START + 10)));
-        track.receive(List.of(Courses.fix("c", new double[] {40, 3}, 1, 90, Courses.START + 11)));
+        track.receive(List.of(Courses.fix("b", new double[] {40, 3}, 1, 90, START + 10)));
+        track.receive(List.of(Courses.fix("c", new double[] {40, 3}, 1, 90, START + 11)));
 
-        assertThat(track.advance(Courses.START + 20))
+        assertThat(track.advance(START + 20))
                 .isNotEmpty()
                 .extracting(update -> update.leg().fix().id())
                 .containsOnly("c");

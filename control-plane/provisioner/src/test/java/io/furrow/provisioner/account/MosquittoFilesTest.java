@@ -1,5 +1,6 @@
 package io.furrow.provisioner.account;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -22,14 +23,14 @@ class MosquittoFilesTest {
     @TempDir
     Path directory;
 
-    private final MqttAccount device = MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d");
-    private final MqttAccount gateway = MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing");
+    private final MqttAccount device = MqttAccount.device(SECRET, "hoeing", "d");
+    private final MqttAccount gateway = MqttAccount.gateway(SECRET, "hoeing");
 
     @Test
     void writesAPasswordAndRulesForEachAccount() throws IOException {
         files(null).replace(List.of(gateway, device), Set.of());
 
-        String key = DesiredDeviceFixture.SECRET.apiKey("hoeing");
+        String key = SECRET.apiKey("hoeing");
         assertThat(Files.readAllLines(rules()))
                 .contains(
                         "user furrow.m.hoeing.1",
@@ -199,7 +200,7 @@ class MosquittoFilesTest {
     }
 
     private static MqttAccount other() {
-        return MqttAccount.device(DesiredDeviceFixture.SECRET, "weeding", "d");
+        return MqttAccount.device(SECRET, "weeding", "d");
     }
 
     private MosquittoFiles files(String reload) {

@@ -1,5 +1,6 @@
 package io.furrow.provisioner.account;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.util.List;
 
 import org.junit.jupiter.api.Test;
@@ -11,10 +12,10 @@ import io.furrow.provisioner.DesiredDeviceFixture;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MqttAccountTest {
-    private static final String KEY = "/" + DesiredDeviceFixture.SECRET.apiKey("hoeing");
+    private static final String KEY = "/" + SECRET.apiKey("hoeing");
 
-    private final MqttAccount device = MqttAccount.device(DesiredDeviceFixture.SECRET, "hoeing", "d");
-    private final MqttAccount gateway = MqttAccount.gateway(DesiredDeviceFixture.SECRET, "hoeing");
+    private final MqttAccount device = MqttAccount.device(SECRET, "hoeing", "d");
+    private final MqttAccount gateway = MqttAccount.gateway(SECRET, "hoeing");
 
     @Test
     void letsADeviceSpeakForItselfAndReceiveItsCommands() {
@@ -33,7 +34,7 @@ class MqttAccountTest {
         assertThat(gateway.mayRead(KEY + "/+/cmd")).isTrue();
         assertThat(gateway.mayRead(KEY + "/d/cmd")).isTrue();
 
-        assertThat(gateway.mayWrite("/" + DesiredDeviceFixture.SECRET.apiKey("weeding") + "/d/attrs"))
+        assertThat(gateway.mayWrite("/" + SECRET.apiKey("weeding") + "/d/attrs"))
                 .isFalse();
     }
 

@@ -1,5 +1,6 @@
 package io.furrow.simulators.host;
 
+import static io.furrow.simulators.host.HostFixture.SECRET;
 import java.nio.file.Path;
 import java.time.Instant;
 import java.util.List;
@@ -196,8 +197,8 @@ class DeviceHostIT {
     @Test
     void connectsAgainWithTheNewCredentialsOfADevice() throws Exception {
         String device = run("stolen", 1);
-        bench.passwords.remove(HostFixture.SECRET.device("stolen", device).user());
-        FarmSecret.Login login = HostFixture.SECRET.device("stolen", device, 1);
+        bench.passwords.remove(SECRET.device("stolen", device).user());
+        FarmSecret.Login login = SECRET.device("stolen", device, 1);
         bench.passwords.put(login.user(), login.password());
 
         long sequence = bench.addRotated("stolen", device, YARD, 1);
@@ -212,9 +213,9 @@ class DeviceHostIT {
     @Test
     void takesUpASecretThatIsRotatedWhileItsDevicesGoOn() throws Exception {
         String device = run("rotated", 1);
-        bench.putFingerprints(HostFixture.SECRET);
+        bench.putFingerprints(SECRET);
         Instant now = Instant.now();
-        FarmSecret rotated = HostFixture.SECRET.rotated(now, now.plusSeconds(60), false);
+        FarmSecret rotated = SECRET.rotated(now, now.plusSeconds(60), false);
         FarmSecret.Login login = rotated.device("rotated", device);
         bench.passwords.put(login.user(), login.password());
 
@@ -227,10 +228,10 @@ class DeviceHostIT {
 
         await().untilAsserted(() ->
                 assertThat(bench.status(second)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        bench.passwords.remove(HostFixture.SECRET.device("rotated", device).user());
+        bench.passwords.remove(SECRET.device("rotated", device).user());
         int before = received("rotated", device);
         await().until(() -> received("rotated", device) > before + 10);
-        bench.secret = HostFixture.SECRET;
+        bench.secret = SECRET;
         bench.delete(device);
         bench.delete(second);
     }
