@@ -29,10 +29,10 @@ final class WorkersFarm implements AutoCloseable {
 
     private final EmbeddedKafka kafka;
     private final FiwareStandIn contextBroker;
-    private final NotificationTap tap;
-    private final EntityChanges changes;
-    private final SourceGroup group;
-    private final ChangesOnTopic topic;
+    final NotificationTap tap;
+    final EntityChanges changes;
+    final SourceGroup group;
+    final ChangesOnTopic topic;
 
     private WorkersFarm(Path folder, int perSecond, boolean exactlyOnce) throws IOException {
         kafka = EmbeddedKafka.start(folder.resolve("kafka"));
@@ -63,22 +63,6 @@ final class WorkersFarm implements AutoCloseable {
                 "each task has its subscription",
                 TIMEOUT,
                 () -> Http.get(subscriptions).body().size() == SourceGroup.TASKS);
-    }
-
-    NotificationTap tap() {
-        return tap;
-    }
-
-    EntityChanges changes() {
-        return changes;
-    }
-
-    SourceGroup group() {
-        return group;
-    }
-
-    ChangesOnTopic topic() {
-        return topic;
     }
 
     /** For a while; then the gauges are printed. Changes go on. @return the most that was left */

@@ -29,7 +29,7 @@ final class WorkersRun implements AutoCloseable {
 
     private WorkersRun(WorkersFarm farm, boolean exactlyOnce, PlantedFault fault) {
         this.farm = farm;
-        this.group = farm.group();
+        this.group = farm.group;
         this.exactlyOnce = exactlyOnce;
         this.fault = fault;
     }
@@ -52,7 +52,7 @@ final class WorkersRun implements AutoCloseable {
         farm.subscribe();
         load("two workers");
         if (fault == PlantedFault.LOSE || fault == PlantedFault.REPEAT) {
-            farm.tap().plant(fault);
+            farm.tap.plant(fault);
         }
     }
 
@@ -104,7 +104,7 @@ final class WorkersRun implements AutoCloseable {
             return shown > 0;
         });
         compareReported("a third worker joined", held);
-        farm.changes().goOn();
+        farm.changes.goOn();
         group.resume();
         group.awaitTasks();
         load("a third worker joined and took a task");
@@ -116,7 +116,7 @@ final class WorkersRun implements AutoCloseable {
     }
 
     private void killAndRestart() throws IOException, InterruptedException {
-        farm.changes().goOn();
+        farm.changes.goOn();
         group.kill(second);
         group.restart(second);
         group.awaitTasks();
@@ -131,7 +131,7 @@ final class WorkersRun implements AutoCloseable {
         compareReported("before a worker is removed", held(group.departed()));
         long shown = second.gauges().read().onDisk();
         group.kill(second);
-        farm.changes().goOn();
+        farm.changes.goOn();
         group.resume();
         group.awaitTasks();
         load("the second worker removed");
@@ -144,7 +144,7 @@ final class WorkersRun implements AutoCloseable {
     }
 
     private void comeBack(Away removed, String name) throws IOException {
-        farm.changes().goOn();
+        farm.changes.goOn();
         second = group.join(name, "disk-2");
         group.awaitTasks();
         load("another worker came, with the disk of the removed one");
@@ -154,7 +154,7 @@ final class WorkersRun implements AutoCloseable {
     /** Acknowledged changes that are on the disks of the workers that run, and not in Kafka; nothing changes any more. */
     private long held(List<Member> departed) {
         farm.awaitAnswers();
-        farm.topic().read();
+        farm.topic.read();
         return farm.missing().stream()
                 .filter(change -> departed.stream().noneMatch(member -> farm.isAt(member, change)))
                 .count();
@@ -192,7 +192,7 @@ final class WorkersRun implements AutoCloseable {
         farm.quiet();
         long recovered = worker.gauges().read().recovered();
         long came = removed.missing().stream()
-                .filter(change -> farm.topic().notified(change) > 0)
+                .filter(change -> farm.topic.notified(change) > 0)
                 .count();
         boolean wrong = exactlyOnce ? recovered != removed.shown() : recovered < removed.shown();
         unshown += wrong ? Math.abs(recovered - removed.shown()) : 0;
@@ -206,24 +206,24 @@ final class WorkersRun implements AutoCloseable {
         farm.quiet();
         int doubled = 0;
         int acknowledged = 0;
-        for (NumberedChange change : farm.tap().changes()) {
-            List<Try> tries = farm.tap().tries(change);
-            doubled += Math.max(0, farm.topic().notified(change) - tries.size());
+        for (NumberedChange change : farm.tap.changes()) {
+            List<Try> tries = farm.tap.tries(change);
+            doubled += Math.max(0, farm.topic.notified(change) - tries.size());
             acknowledged += tries.stream().anyMatch(Try::isAcknowledged) ? 1 : 0;
         }
         System.out.printf(
                 "%d of %d entities have an older record behind their newest; offsets of %d journals%n",
-                farm.topic().lastIsOlder(), WorkersFarm.ENTITIES, group.journalsInOffsets());
+                farm.topic.lastIsOlder(), WorkersFarm.ENTITIES, group.journalsInOffsets());
         return new Outcome(
                 acknowledged,
                 farm.missing().size(),
                 doubled,
-                farm.topic().differentIds(),
-                farm.topic().notNewest(farm.changes().newest()).size(),
+                farm.topic.differentIds(),
+                farm.topic.notNewest(farm.changes.newest()).size(),
                 unshown,
                 left,
                 unavailable,
-                farm.topic().repaired());
+                farm.topic.repaired());
     }
 
     @Override

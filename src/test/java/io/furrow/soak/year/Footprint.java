@@ -26,7 +26,7 @@ final class Footprint {
     static Map<String, Double> of(YearFarm farm, double startSeconds)
             throws IOException, InterruptedException, ExecutionException {
         Map<String, Double> all = new LinkedHashMap<>();
-        try (Admin admin = Admin.create(Map.of("bootstrap.servers", farm.up().kafka()))) {
+        try (Admin admin = Admin.create(Map.of("bootstrap.servers", farm.up.kafka()))) {
             Map<String, TopicDescription> topics = admin.describeTopics(
                             admin.listTopics().names().get())
                     .allTopicNames()
@@ -46,9 +46,9 @@ final class Footprint {
             all.put("collections", collections);
         }
         all.put("alarms", (double)
-                farm.up().get("/api/alarms?state=open&limit=10000").size());
-        all.put("files", files(farm.data()));
-        long pid = farm.up().javaProcess().pid();
+                farm.up.get("/api/alarms?state=open&limit=10000").size());
+        all.put("files", files(farm.data));
+        long pid = farm.up.javaProcess().pid();
         all.put("threads", (double)
                 Files.list(Path.of("/proc", Long.toString(pid), "task")).count());
         all.put("heap MB", heapMegabytes(pid));
