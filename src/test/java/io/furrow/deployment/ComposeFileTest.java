@@ -157,7 +157,7 @@ class ComposeFileTest {
         Map<String, JsonNode> services = compose.services();
         services.forEach((name, service) -> {
             if (!name.matches(ONE_SHOT) && !UNPROBED.contains(name)) {
-                assertThat(service.path("healthcheck").path("test")).as(name).isNotEmpty();
+                assertThat(service.at("/healthcheck/test")).as(name).isNotEmpty();
             }
             service.path("depends_on").properties().forEach(need -> {
                 assertThat(services).as(name).containsKey(need.getKey());

@@ -72,7 +72,7 @@ class RealDevicesIT {
         JsonNode logins = running.get("/api/missions/first/credentials");
         assertThat(logins).hasSize(2);
 
-        String example = logins.path(0).path("example").asText();
+        String example = logins.at("/0/example").asText();
         Command.run("sh", "-c", example);
 
         running.awaitState("first", "running");
@@ -80,7 +80,7 @@ class RealDevicesIT {
                 .at("/status/missing/0/reason")
                 .asText()
                 .startsWith("it has not connected to the MQTT broker since "));
-        JsonNode entity = running.ngsi().entity(logins.path(0).path("device").asText());
+        JsonNode entity = running.ngsi().entity(logins.at("/0/device").asText());
         assertThat(entity.at("/Temperature/value").asInt()).isEqualTo(21);
         assertThat(entity.at("/Temperature/metadata/unitCode/value").asText()).isEqualTo("CEL");
         assertThat(entity.at("/Latitude/value").asDouble()).isEqualTo(40.3134);

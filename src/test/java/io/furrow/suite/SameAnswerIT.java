@@ -108,7 +108,7 @@ class SameAnswerIT {
 
     private static List<String> phases(TopicLog collisions) {
         return collisions.records().stream()
-                .map(record -> entity(record).path("phase").path("value").asText())
+                .map(record -> entity(record).at("/phase/value").asText())
                 .toList();
     }
 

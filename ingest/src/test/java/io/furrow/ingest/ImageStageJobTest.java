@@ -135,7 +135,7 @@ class ImageStageJobTest {
         assertThat(last.path("events").asInt()).isEqualTo(60);
         assertThat(last.path("images").asInt()).isEqualTo(60);
         assertThat(last.path("imageBytes").asInt()).isEqualTo(60 * image.length);
-        assertThat(last.path("attributes").path("Image").path("kind").textValue())
+        assertThat(last.at("/attributes/Image/kind").textValue())
                 .isEqualTo("image");
     }
 

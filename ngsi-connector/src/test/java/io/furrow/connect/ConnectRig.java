@@ -178,7 +178,7 @@ public final class ConnectRig implements AutoCloseable {
     private void awaitState(String name, String state) {
         await().untilAsserted(() -> {
             JsonNode status = get("/connectors/" + name + "/status");
-            assertThat(status.path("tasks").path(0).path("state").asText())
+            assertThat(status.at("/tasks/0/state").asText())
                     .as(status.toString())
                     .isEqualTo(state);
         });

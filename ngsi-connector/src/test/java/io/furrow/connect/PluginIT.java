@@ -74,8 +74,8 @@ class PluginIT {
 
         Set<String> wrong = new TreeSet<>();
         for (JsonNode each : answer.path("configs")) {
-            if (!each.path("value").path("errors").isEmpty()) {
-                wrong.add(each.path("value").path("name").asText());
+            if (!each.at("/value/errors").isEmpty()) {
+                wrong.add(each.at("/value/name").asText());
             }
         }
         assertThat(wrong).as(answer.toString()).containsExactly(option);
@@ -104,7 +104,7 @@ class PluginIT {
 
     private static JsonNode value(JsonNode answer, String option) {
         for (JsonNode each : answer.path("configs")) {
-            if (each.path("value").path("name").asText().equals(option)) {
+            if (each.at("/value/name").asText().equals(option)) {
                 return each.path("value");
             }
         }

@@ -41,7 +41,7 @@ class PluginZipIT {
     void saysInItsManifestWhatItIs() throws Exception {
         JsonNode manifest = NgsiJson.read(read("manifest.json"));
 
-        String owner = manifest.path("owner").path("username").textValue();
+        String owner = manifest.at("/owner/username").textValue();
         String version = manifest.path("version").textValue();
         assertThat(owner + "-" + manifest.path("name").textValue() + "-" + version)
                 .isEqualTo(folder);

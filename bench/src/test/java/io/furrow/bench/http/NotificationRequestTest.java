@@ -40,7 +40,7 @@ class NotificationRequestTest {
         JsonNode entity = entity(request.with(1_234_567L, NOW));
 
         assertThat(entity.path("id").asText()).isEqualTo("urn:ngsi-ld:SoilProbe:000007");
-        assertThat(entity.path("sequence").path("value").asLong()).isEqualTo(100_000_001_234_567L);
+        assertThat(entity.at("/sequence/value").asLong()).isEqualTo(100_000_001_234_567L);
         assertThat(entity.at("/location/value/coordinates")).hasToString("[-3.7007,40.4]");
         assertThat(entity.findValues("TimeInstant"))
                 .hasSizeGreaterThan(3)
@@ -69,7 +69,7 @@ class NotificationRequestTest {
     }
 
     private static JsonNode entity(ByteBuffer request) throws Exception {
-        return new ObjectMapper().readTree(body(text(request))).path("data").path(0);
+        return new ObjectMapper().readTree(body(text(request))).at("/data/0");
     }
 
     private static String body(String request) {

@@ -44,7 +44,7 @@ class ContextEntitiesTest {
         Entity entity = Entity.parse(record.value());
         assertThat(entity.type()).isEqualTo("Domain");
         assertThat(entity.text("description")).hasValue("Behind the \"barn\"");
-        assertThat(entity.json().path("description").path("type").asText()).isEqualTo("TextUnrestricted");
+        assertThat(entity.json().at("/description/type").asText()).isEqualTo("TextUnrestricted");
         assertThat(entity.number("averageTemperature")).hasValue(19.0);
         assertThat(entity.number("suspectCount")).hasValue(1.0);
         assertThat(entity.number("missionCount")).hasValue(1.0);

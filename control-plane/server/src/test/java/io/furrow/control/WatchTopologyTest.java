@@ -80,7 +80,7 @@ class WatchTopologyTest {
         farm.encounter("predicted", 3.2);
         JsonNode predicted = farm.newest(Topics.ALARMS);
         assertThat(predicted.path("kind").asText()).isEqualTo("predicted-encounter");
-        assertThat(predicted.path("devices").path(0).path("type").asText()).isEqualTo("ROBOT");
+        assertThat(predicted.at("/devices/0/type").asText()).isEqualTo("ROBOT");
         farm.encounter("predicted", 3.2);
         assertThat(farm.read(Topics.ALARMS)).isEmpty();
         farm.encounter("started", 3.2);

@@ -208,10 +208,10 @@ class SubscriptionOptionsTest {
     /** The number of the step; a deletion is the fourth, an update without a change the second. */
     private static String step(NotificationReceiver.ReceivedNotification one) {
         JsonNode entity = one.json().path("data").get(0);
-        return switch (entity.path("alterationType").path("value").asText()) {
+        return switch (entity.at("/alterationType/value").asText()) {
             case "entityDelete" -> "4";
             case "entityUpdate" -> "2";
-            default -> entity.path("step").path("value").asText();
+            default -> entity.at("/step/value").asText();
         };
     }
 

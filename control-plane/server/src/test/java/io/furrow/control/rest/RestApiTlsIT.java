@@ -112,8 +112,7 @@ class RestApiTlsIT {
 
         Files.copy(second.certificate(), certificate, StandardCopyOption.REPLACE_EXISTING);
         await().untilAsserted(() -> assertThat(NgsiJson.read(health(first).body())
-                        .path("warnings")
-                        .path(0)
+                        .at("/warnings/0")
                         .asText())
                 .startsWith("the files of the certificate cannot be used"));
         assertThat(subject()).isEqualTo("CN=first");

@@ -83,17 +83,14 @@ class IotAgentTest {
             await().until(() -> !receiver.received().isEmpty());
             JsonNode notified = receiver.received().get(0).json().path("data").get(0);
             assertThat(notified.path("id").asText()).isEqualTo("urn:ngsi-ld:Thermometer:1");
-            assertThat(notified.path("Temperature").path("type").asText()).isEqualTo("Float");
-            assertThat(notified.path("Temperature").path("value").asDouble()).isEqualTo(21.5);
-            assertThat(notified.path("Time").path("value").asLong()).isEqualTo(1795222800000L);
-            assertThat(notified.path("Domain").path("value").asText()).isEqualTo("canary");
-            assertThat(notified.path("extra").path("value").asText()).isEqualTo("x");
-            JsonNode instant = notified.path("TimeInstant").path("value");
+            assertThat(notified.at("/Temperature/type").asText()).isEqualTo("Float");
+            assertThat(notified.at("/Temperature/value").asDouble()).isEqualTo(21.5);
+            assertThat(notified.at("/Time/value").asLong()).isEqualTo(1795222800000L);
+            assertThat(notified.at("/Domain/value").asText()).isEqualTo("canary");
+            assertThat(notified.at("/extra/value").asText()).isEqualTo("x");
+            JsonNode instant = notified.at("/TimeInstant/value");
             assertThat(NgsiTime.parse(instant.asText())).isPresent();
-            assertThat(notified.path("Temperature")
-                            .path("metadata")
-                            .path("TimeInstant")
-                            .path("value"))
+            assertThat(notified.at("/Temperature/metadata/TimeInstant/value"))
                     .isEqualTo(instant);
         }
     }
@@ -194,7 +191,7 @@ class IotAgentTest {
 
         report();
 
-        assertThat(broker.get(THERMOMETER).json().path("Domain").path("value").asText())
+        assertThat(broker.get(THERMOMETER).json().at("/Domain/value").asText())
                 .isEqualTo("canary");
         assertThat(broker.patch(THERMOMETER + "/attrs", command).status()).isEqualTo(204);
         await().until(() -> commands.size() == 1);

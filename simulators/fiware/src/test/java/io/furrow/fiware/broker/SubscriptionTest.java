@@ -104,7 +104,7 @@ class SubscriptionTest {
         await().until(() -> standIn.counters().notificationsFailed() == 2);
 
         JsonNode subscription = client.get(location).json();
-        assertThat(subscription.path("notification").path("failsCounter").asInt())
+        assertThat(subscription.at("/notification/failsCounter").asInt())
                 .isEqualTo(2);
         assertThat(subscription.path("notification").has("lastFailure")).isTrue();
         assertThat(subscription.path("notification").has("lastSuccess")).isFalse();
@@ -190,8 +190,8 @@ class SubscriptionTest {
         JsonNode patched = client.get(location).json();
         assertThat(patched.path("status").asText()).isEqualTo("inactive");
         assertThat(patched.path("description").asText()).isEqualTo("rests");
-        assertThat(patched.path("notification").path("attrsFormat").asText()).isEqualTo("normalized");
-        assertThat(patched.path("subject").path("condition").path("attrs")).isEmpty();
+        assertThat(patched.at("/notification/attrsFormat").asText()).isEqualTo("normalized");
+        assertThat(patched.at("/subject/condition/attrs")).isEmpty();
 
         assertThat(client.delete(location).status()).isEqualTo(204);
         assertThat(client.get(location).status()).isEqualTo(404);

@@ -79,7 +79,7 @@ class SuiteFieldsIT {
                     .orElseThrow();
             JsonNode features = NgsiJson.read(Files.readAllBytes(zones)).path("features");
             assertThat(features).hasSize(1);
-            assertThat(features.path(0).path("geometry")).isEqualTo(yard.geometry());
+            assertThat(features.at("/0/geometry")).isEqualTo(yard.geometry());
 
             topic.write(List.of(new FieldVersion(yard.id(), 1_000, null, yard.properties())));
             assertThat(fields.zones(directory)).isEmpty();
