@@ -1,5 +1,6 @@
 package io.furrow.analytics.presence;
 
+import io.furrow.analytics.collision.EachEvent;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
@@ -64,7 +65,7 @@ final class PresenceRun {
     static WatermarkStrategy<TopicRecord> watermarks(PresenceOptions options) {
         return options.inputTopics().replay().isPresent()
                 ? Replayed.watermarks(options)
-                : WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachRecord())
+                : WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachEvent<>(Story.BOUND))
                         .withTimestampAssigner((record, ignored) -> record.timestamp());
     }
 
@@ -72,20 +73,6 @@ final class PresenceRun {
         List<TopicRecord> records = new ArrayList<>();
         plots.forEach(plot -> records.add(plot.record(records.size())));
         return records;
-    }
-
-    /** A watermark after every record, so that a short job has as many as a long one. */
-    private static final class EachRecord implements WatermarkGenerator<TopicRecord> {
-        private long newest = Long.MIN_VALUE + Story.BOUND + 1;
-
-        @Override
-        public void onEvent(TopicRecord event, long time, WatermarkOutput output) {
-            newest = Math.max(newest, time);
-            output.emitWatermark(new Watermark(newest - Story.BOUND - 1));
-        }
-
-        @Override
-        public void onPeriodicEmit(WatermarkOutput output) {}
     }
 
     private static final class NoHindrance implements WatermarkGenerator<TopicRecord> {
