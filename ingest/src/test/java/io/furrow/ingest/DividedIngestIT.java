@@ -1,10 +1,8 @@
 package io.furrow.ingest;
 
 import java.nio.file.Path;
-import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
-import java.util.Set;
 
 import com.mongodb.MongoCommandException;
 import com.mongodb.client.MongoClient;
@@ -65,7 +63,8 @@ class DividedIngestIT {
         await().until(() -> suite.status(missions) == JobStatus.RESTARTING);
         report("in-away", 100, 200, "away");
 
-        assertThat(KafkaSuite.ids(suite.awaitRecords("data.away.realtime.m", 200))).hasSize(200);
+        assertThat(KafkaSuite.ids(suite.awaitRecords("data.away.realtime.m", 200)))
+                .hasSize(200);
         await().until(() -> newest("away").size() >= 200);
         assertThat(suite.status(others)).isEqualTo(JobStatus.RUNNING);
         try (EmbeddedMongo server = EmbeddedMongo.start(directory.resolve("mongo"), port);

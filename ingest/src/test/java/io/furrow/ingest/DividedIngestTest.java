@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import io.furrow.flink.TestClusters;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -11,7 +10,6 @@ import java.util.Map;
 import java.util.TreeMap;
 import java.util.stream.Stream;
 
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -20,6 +18,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine.ParameterException;
 
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.image.Pictures;

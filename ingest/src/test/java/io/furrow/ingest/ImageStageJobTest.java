@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import io.furrow.flink.TestClusters;
 import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
 import java.nio.file.Files;
@@ -16,26 +15,18 @@ import java.util.stream.Stream;
 import javax.imageio.ImageIO;
 import javax.imageio.stream.MemoryCacheImageOutputStream;
 
-import org.apache.flink.api.common.eventtime.WatermarkStrategy;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
-import org.apache.flink.streaming.api.datastream.DataStream;
-import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.ParameterException;
 
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
-import io.furrow.flink.job.JobEnvironment;
-import io.furrow.flink.kafka.KafkaConnectors;
-import io.furrow.flink.kafka.TopicNames;
-import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -135,8 +126,7 @@ class ImageStageJobTest {
         assertThat(last.path("events").asInt()).isEqualTo(60);
         assertThat(last.path("images").asInt()).isEqualTo(60);
         assertThat(last.path("imageBytes").asInt()).isEqualTo(60 * image.length);
-        assertThat(last.at("/attributes/Image/kind").textValue())
-                .isEqualTo("image");
+        assertThat(last.at("/attributes/Image/kind").textValue()).isEqualTo("image");
     }
 
     @Test

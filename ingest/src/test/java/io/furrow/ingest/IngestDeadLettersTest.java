@@ -1,14 +1,13 @@
 package io.furrow.ingest;
 
-import io.furrow.flink.TestClusters;
 import java.time.Duration;
 import java.util.List;
 
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 

@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import io.furrow.flink.TestClusters;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.HashMap;
@@ -15,7 +14,6 @@ import java.util.stream.Collectors;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -23,6 +21,7 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;

@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import io.furrow.flink.TestClusters;
 import java.nio.file.Path;
 import java.util.Base64;
 import java.util.HashMap;
@@ -13,12 +12,12 @@ import org.apache.flink.metrics.Histogram;
 import org.apache.flink.metrics.Metric;
 import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.image.Pictures;

@@ -1,10 +1,8 @@
 package io.furrow.ingest;
 
 import java.nio.file.Path;
-import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
-import java.util.Set;
 
 import org.apache.flink.api.common.JobID;
 import org.apache.kafka.clients.admin.Config;

@@ -1,8 +1,5 @@
 package io.furrow.ingest;
 
-import io.furrow.model.event.HeaderNames;
-import java.util.stream.Collectors;
-import java.util.Set;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -10,8 +7,10 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Set;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Predicate;
+import java.util.stream.Collectors;
 
 import org.apache.flink.api.common.JobID;
 import org.apache.flink.api.common.JobStatus;
@@ -34,6 +33,7 @@ import org.awaitility.core.ConditionTimeoutException;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.job.JobCommandLine;
+import io.furrow.model.event.HeaderNames;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -123,7 +123,7 @@ final class KafkaSuite implements AutoCloseable {
 
     void cancel(JobID job) throws Exception {
         flink.cluster().cancelJob(job).get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
-        await().until(() -> flink.status(job).isGloballyTerminalState());
+        await().atMost(TIMEOUT).until(() -> flink.status(job).isGloballyTerminalState());
     }
 
     /** The committed records of a topic, as soon as there are so many. */
@@ -143,7 +143,7 @@ final class KafkaSuite implements AutoCloseable {
                 "allow.auto.create.topics", "false",
                 "isolation.level", "read_committed");
         try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
-            await().until(() -> {
+            await().atMost(TIMEOUT).until(() -> {
                 List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
                         .map(info -> new TopicPartition(topic, info.partition()))
                         .toList();
@@ -175,7 +175,9 @@ final class KafkaSuite implements AutoCloseable {
 
     /** The ids of the events. */
     static Set<String> ids(List<ConsumerRecord<byte[], byte[]>> records) {
-        return records.stream().map(record -> headers(record).get(HeaderNames.CE_ID)).collect(Collectors.toSet());
+        return records.stream()
+                .map(record -> headers(record).get(HeaderNames.CE_ID))
+                .collect(Collectors.toSet());
     }
 
     static Map<String, String> headers(ConsumerRecord<byte[], byte[]> record) {

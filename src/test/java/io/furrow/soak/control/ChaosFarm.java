@@ -32,6 +32,7 @@ final class ChaosFarm implements AutoCloseable {
     final FaultProxy iotAgent;
     /** Behind {@link #webhook}. */
     final AlarmReceiver receiver;
+
     final FaultProxy webhook;
     final FarmSecret secret;
     final List<ControlProcess> controls = new ArrayList<>();

@@ -54,9 +54,7 @@ public final class ControlChaos {
         sender = new RequestSender(bootstrapServers);
         answers = new AnswerLog(bootstrapServers);
         requester = new Requester(
-                sender,
-                answers,
-                farm.controls.stream().map(ControlProcess::api).toList());
+                sender, answers, farm.controls.stream().map(ControlProcess::api).toList());
         for (int i = 0; i < MISSIONS; i++) {
             Random own = new Random(random.nextLong());
             missions.add(new MissionActor("m" + i, "d" + i % 2, requester, own, faults));

@@ -39,6 +39,7 @@ final class YearFarm implements AutoCloseable {
 
     /** Of the suite. */
     final Path data;
+
     private final MosquittoProcess mosquitto;
     final StandInProcess standIn;
     final UpProcess up;

@@ -1,11 +1,8 @@
 package io.furrow.analytics.collision;
 
-import static io.furrow.analytics.collision.Fixes.east;
-import io.furrow.flink.TestClusters;
 import java.util.ArrayList;
 import java.util.List;
 
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -20,7 +17,9 @@ import io.furrow.analytics.collision.matching.CellOverflow;
 import io.furrow.analytics.collision.rules.CellRules;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.TestClusters;
 
+import static io.furrow.analytics.collision.Fixes.east;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**
@@ -105,10 +104,8 @@ class CollisionDetectionTest {
 
     @Test
     void setsLatePositionsAsideAndDetectsAmongTheRest() throws Exception {
-        List<PositionFix> fixes = new ArrayList<>(List.of(
-                east("a", 0, START),
-                east("b", 1, START),
-                east("c", 1000, START + DetectionRun.BOUND + 10)));
+        List<PositionFix> fixes = new ArrayList<>(
+                List.of(east("a", 0, START), east("b", 1, START), east("c", 1000, START + DetectionRun.BOUND + 10)));
         PositionFix late = east("d", 2, START);
         List<Encounter> expected = CollisionOracle.encounters(fixes, CollisionRules.DEFAULT);
         fixes.add(late);

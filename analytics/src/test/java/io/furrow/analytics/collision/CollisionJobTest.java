@@ -1,15 +1,11 @@
 package io.furrow.analytics.collision;
 
-import io.furrow.flink.TestClusters;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.Comparator;
 import java.util.List;
 
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
-import org.apache.flink.streaming.api.graph.StreamNode;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -19,6 +15,7 @@ import picocli.CommandLine.ParameterException;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.JobUids;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;

@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision;
 
-import io.furrow.flink.TestClusters;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.HashMap;
@@ -8,7 +7,6 @@ import java.util.List;
 import java.util.Map;
 import java.util.Random;
 
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -18,6 +16,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.Seeds;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 
 import static io.furrow.analytics.collision.ReportedRun.START;

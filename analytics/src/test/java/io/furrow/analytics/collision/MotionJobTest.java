@@ -1,36 +1,22 @@
 package io.furrow.analytics.collision;
 
-import io.furrow.flink.TestClusters;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
-import java.util.Map;
 
-import org.apache.flink.api.common.eventtime.WatermarkStrategy;
-import org.apache.flink.api.common.typeinfo.TypeInformation;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
-import org.apache.flink.streaming.api.datastream.DataStream;
-import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.analytics.TestEnvironment;
-import io.furrow.analytics.position.PositionFix;
-import io.furrow.flink.device.DeviceInput;
-import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.EntityBuilder;
-import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.model.topic.Topics;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import static io.furrow.analytics.collision.ReportedRun.START;
 import static io.furrow.analytics.collision.ReportedRun.entity;
 import static io.furrow.analytics.collision.ReportedRun.options;
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision;
 
-import io.furrow.flink.TestClusters;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -28,7 +27,6 @@ import org.apache.flink.core.execution.JobClient;
 import org.apache.flink.core.execution.SavepointFormatType;
 import org.apache.flink.runtime.minicluster.MiniCluster;
 import org.apache.flink.runtime.testutils.CommonTestUtils;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.streaming.api.functions.sink.v2.DiscardingSink;
@@ -41,12 +39,14 @@ import org.junit.jupiter.api.io.TempDir;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.analytics.EachEvent;
 import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.collision.rules.DebounceRules;
 import io.furrow.analytics.eventtime.HasEventTime;
 import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.TestClusters;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

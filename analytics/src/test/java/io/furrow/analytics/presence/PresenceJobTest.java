@@ -1,7 +1,5 @@
 package io.furrow.analytics.presence;
 
-import static io.furrow.analytics.presence.Story.fix;
-import io.furrow.flink.TestClusters;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Predicate;
@@ -9,7 +7,6 @@ import java.util.stream.LongStream;
 
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -22,6 +19,7 @@ import picocli.CommandLine.ParameterException;
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.presence.Plot.Box;
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
@@ -32,6 +30,7 @@ import static io.furrow.analytics.presence.PresenceRun.options;
 import static io.furrow.analytics.presence.PresenceRun.record;
 import static io.furrow.analytics.presence.PresenceRun.report;
 import static io.furrow.analytics.presence.PresenceRun.run;
+import static io.furrow.analytics.presence.Story.fix;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -73,8 +72,8 @@ class PresenceJobTest {
 
     @Test
     void writesEntitiesOfDeviceAndField() throws Exception {
-        List<TopicRecord> written = run(
-                options(), List.of(FIELD), report(fix("r1", 2, 3, 1000)), report(fix("r1", 9, 3, 4000)));
+        List<TopicRecord> written =
+                run(options(), List.of(FIELD), report(fix("r1", 2, 3, 1000)), report(fix("r1", 9, 3, 4000)));
 
         assertThat(written).extracting(TopicRecord::topic).containsOnly("data.presence");
         Entity entered = entity(written.get(0));

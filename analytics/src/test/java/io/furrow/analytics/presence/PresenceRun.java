@@ -1,6 +1,5 @@
 package io.furrow.analytics.presence;
 
-import io.furrow.analytics.collision.EachEvent;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
@@ -17,6 +16,7 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import io.furrow.analytics.AfterBroadcast;
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.TestEnvironment;
+import io.furrow.analytics.EachEvent;
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.job.JobCommandLine;

@@ -1,12 +1,11 @@
 package io.furrow.analytics.presence;
 
-import org.junit.jupiter.api.AutoClose;
-import static io.furrow.analytics.presence.Story.fix;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -16,6 +15,7 @@ import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.presence.Plot.Box;
 import io.furrow.flink.record.TopicRecord;
 
+import static io.furrow.analytics.presence.Story.fix;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 

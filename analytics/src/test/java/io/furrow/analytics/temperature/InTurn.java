@@ -1,6 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import io.furrow.flink.TestClusters;
 import java.io.Serializable;
 import java.time.Duration;
 import java.util.Collection;
@@ -19,11 +18,11 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.Gauge;
 import org.apache.flink.metrics.Metric;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.awaitility.Awaitility;
 import org.awaitility.core.ConditionTimeoutException;
 
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.record.TopicRecord;
 
 /**

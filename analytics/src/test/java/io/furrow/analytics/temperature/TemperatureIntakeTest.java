@@ -1,6 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import static io.furrow.analytics.temperature.Farm.north;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -15,6 +14,7 @@ import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
+import static io.furrow.analytics.temperature.Farm.north;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -36,8 +36,7 @@ class TemperatureIntakeTest {
         TopicRecord first = north("t1", 10, 1_000);
         TopicRecord last = north("t1", 30, 3_000);
 
-        assertThat(JobRun.over(List.of(first, north("t1", 11, 2_000), last))
-                        .averages())
+        assertThat(JobRun.over(List.of(first, north("t1", 11, 2_000), last)).averages())
                 .containsEntry("north", 11.0);
         JobRun repeated = JobRun.over(List.of(first, north("t1", 11, 2_000), last, first, first, first));
         assertThat(repeated.averages()).containsExactly(Map.entry("north", 11.0));

@@ -1,7 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import static io.furrow.analytics.temperature.Farm.reading;
-import static io.furrow.analytics.temperature.Farm.north;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
@@ -21,6 +19,8 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static io.furrow.analytics.temperature.Farm.north;
+import static io.furrow.analytics.temperature.Farm.reading;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
@@ -174,9 +174,7 @@ class TemperatureJobTest {
     @Test
     void slidesItsWindowsWhenAsked() throws Exception {
         JobRun run = JobRun.over(
-                List.of(north("t1", 10, 10_000), north("t1", 20, 40_000), north("t1", 30, 70_000)),
-                "--slide",
-                "30s");
+                List.of(north("t1", 10, 10_000), north("t1", 20, 40_000), north("t1", 30, 70_000)), "--slide", "30s");
 
         assertThat(run.results(Topics.TEMPERATURE).stream()
                         .map(result -> List.of(
@@ -190,8 +188,8 @@ class TemperatureJobTest {
     @Test
     void neverMixesTheDevicesOfTwoTenants() throws Exception {
         Entity warm = JobRun.entity(north("t1", 30, 1_000));
-        JobRun run = JobRun.over(
-                List.of(north("t1", 10, 1_000), Farm.changed(new FiwareScope("other", "/"), 1_000, warm)));
+        JobRun run =
+                JobRun.over(List.of(north("t1", 10, 1_000), Farm.changed(new FiwareScope("other", "/"), 1_000, warm)));
 
         assertThat(run.to(Topics.TEMPERATURE))
                 .extracting(

@@ -1,7 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import static io.furrow.analytics.temperature.Farm.FIELDS;
-import static io.furrow.analytics.temperature.Farm.options;
 import java.nio.file.Path;
 import java.time.Duration;
 
@@ -11,6 +9,8 @@ import picocli.CommandLine.ParameterException;
 import io.furrow.flink.JobUids;
 import io.furrow.flink.job.JobCommandLine;
 
+import static io.furrow.analytics.temperature.Farm.FIELDS;
+import static io.furrow.analytics.temperature.Farm.options;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -34,8 +34,7 @@ class TemperatureOptionsTest {
         TemperatureOptions options = options(FIELDS, "--window", "5min", "--allowed-lateness", "1min");
 
         assertThat(options.repeatWindow()).isEqualTo(Duration.ofMinutes(6));
-        assertThat(options(FIELDS, "--repeat-window", "1h").repeatWindow())
-                .isEqualTo(Duration.ofHours(1));
+        assertThat(options(FIELDS, "--repeat-window", "1h").repeatWindow()).isEqualTo(Duration.ofHours(1));
     }
 
     @Test
@@ -44,11 +43,9 @@ class TemperatureOptionsTest {
         assertThatThrownBy(() -> options(FIELDS, "--slide", "25s").slide())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--slide must be a whole part of --window");
-        assertThat(options(FIELDS, "--window", "1d", "--slide", "1min")
-                        .slide())
-                .isEqualTo(Duration.ofMinutes(1));
-        assertThatThrownBy(() -> options(FIELDS, "--window", "1d", "--slide", "1ms")
-                        .slide())
+        assertThat(options(FIELDS, "--window", "1d", "--slide", "1min").slide()).isEqualTo(Duration.ofMinutes(1));
+        assertThatThrownBy(() ->
+                        options(FIELDS, "--window", "1d", "--slide", "1ms").slide())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--slide puts each reading into more than 1440 windows");
     }
@@ -58,8 +55,7 @@ class TemperatureOptionsTest {
         assertThatThrownBy(() -> options(FIELDS, "--window", "0s").window())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--window must be longer than 0");
-        assertThatThrownBy(
-                        () -> options(FIELDS, "--suspect-floor", "-1").suspectFloor())
+        assertThatThrownBy(() -> options(FIELDS, "--suspect-floor", "-1").suspectFloor())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--suspect-floor must be 0 or");
     }
@@ -75,20 +71,16 @@ class TemperatureOptionsTest {
 
     @Test
     void nameTheJobAfterAnyOtherAttribute() {
-        assertThat(options(FIELDS, "--attribute", "soilMoisture").jobName())
-                .isEqualTo("temperature-soilMoisture");
-        assertThat(options(FIELDS, "--attribute", "soil:moisture").jobName())
-                .isEqualTo("temperature-soil.moisture");
-        assertThatThrownBy(() -> options(FIELDS, "--attribute", "soil moisture")
-                        .attribute())
+        assertThat(options(FIELDS, "--attribute", "soilMoisture").jobName()).isEqualTo("temperature-soilMoisture");
+        assertThat(options(FIELDS, "--attribute", "soil:moisture").jobName()).isEqualTo("temperature-soil.moisture");
+        assertThatThrownBy(() -> options(FIELDS, "--attribute", "soil moisture").attribute())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--attribute must be 1 to 40 of");
     }
 
     @Test
     void knowHowMuchSoundDevicesDifferOfATemperatureOnly() {
-        assertThat(options(FIELDS, "--suspect-floor", "0.9").suspectFloor())
-                .isEqualTo(0.9);
+        assertThat(options(FIELDS, "--suspect-floor", "0.9").suspectFloor()).isEqualTo(0.9);
         assertThat(options(FIELDS, "--attribute", "soilMoisture", "--suspect-floor", "0")
                         .suspectFloor())
                 .isZero();

@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -25,6 +24,7 @@ import io.furrow.model.device.DeviceConnection.UnreadablePayload;
 import io.furrow.model.topic.Topics;
 import io.furrow.provisioner.account.LoginReport;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 
@@ -38,8 +38,7 @@ class ConnectionPublisherTest {
     private final DesiredDeviceTable desired = new DesiredDeviceTable(DesiredDeviceFixture.SCOPE);
     private final DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
     private final String key = device.version().key();
-    private final String user =
-            SECRET.device("hoeing", device.device()).user();
+    private final String user = SECRET.device("hoeing", device.device()).user();
     private final Map<String, LoginReport> logins = new HashMap<>();
     private UnreadablePayload unreadable;
     private final ConnectionPublisher publisher = publisher(new ConnectionSources(
@@ -71,9 +70,7 @@ class ConnectionPublisherTest {
     /** After a rotation, or on another mission, it tries with what it has. */
     @Test
     void countsLoginsWithOldCredentialsForTheDevice() throws Exception {
-        String old = SECRET
-                .device("weeding", device.device(), 3)
-                .user();
+        String old = SECRET.device("weeding", device.device(), 3).user();
         RefusedLogin refused = new RefusedLogin(7, START + 2, DeviceConnection.UNKNOWN_USER, old);
         logins.put(old, new LoginReport(null, refused, null));
         logins.put(user, new LoginReport(START + 1, null, null));

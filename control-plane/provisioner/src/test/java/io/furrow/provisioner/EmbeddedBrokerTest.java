@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
@@ -24,6 +23,7 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.provisioner.account.InMemoryAccounts;
 import io.furrow.provisioner.account.MqttAccount;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -71,10 +71,7 @@ class EmbeddedBrokerTest {
     @BeforeEach
     void listen() throws MqttException {
         ACCOUNTS.replace(
-                List.of(
-                        MqttAccount.device(SECRET, "hoeing", "d"),
-                        MqttAccount.gateway(SECRET, "hoeing")),
-                Set.of());
+                List.of(MqttAccount.device(SECRET, "hoeing", "d"), MqttAccount.gateway(SECRET, "hoeing")), Set.of());
         agent = connect(new FarmSecret.Login("agent", "plough"));
         agent.subscribe("#", 1, (topic, message) -> heard.put(topic, new String(message.getPayload(), UTF_8)));
     }

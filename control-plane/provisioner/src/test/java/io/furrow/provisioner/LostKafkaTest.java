@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -19,6 +18,7 @@ import io.furrow.provisioner.RemovalGuard.Origin;
 import io.furrow.provisioner.account.MosquittoFiles;
 import io.furrow.provisioner.account.MqttAccounts;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A Kafka that is empty, or not the one for which devices were provisioned. */
@@ -200,9 +200,7 @@ class LostKafkaTest extends ProvisioningFixture {
     @Test
     void removesOnlyAccountsOfAKeyWhoseTimeIsOver() throws Exception {
         provisionTen();
-        FarmSecret rotated = SECRET
-                .rotated(Instant.now(), Instant.EPOCH, false)
-                .at(Instant.now());
+        FarmSecret rotated = SECRET.rotated(Instant.now(), Instant.EPOCH, false).at(Instant.now());
 
         Outcome outcome =
                 provisioning(files(SecretSource.of(rotated), false), EMPTY).step();
@@ -212,9 +210,7 @@ class LostKafkaTest extends ProvisioningFixture {
     }
 
     private static String user(DesiredDevice device, int generation) {
-        return SECRET
-                .device("hoeing", device.device(), generation)
-                .user();
+        return SECRET.device("hoeing", device.device(), generation).user();
     }
 
     private void addTenDesired() {

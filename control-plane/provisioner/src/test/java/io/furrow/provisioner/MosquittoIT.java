@@ -61,8 +61,7 @@ class MosquittoIT {
         Login right = SECRET.device("hoeing", DEVICE);
         try (MqttPeer device = broker.comesIn(right)) {
             device.publish(KEY + "/" + DEVICE + "/attrs", "1");
-            await()
-                    .until(() -> agent.newest(KEY + "/" + DEVICE + "/attrs").equals("1"));
+            await().until(() -> agent.newest(KEY + "/" + DEVICE + "/attrs").equals("1"));
         }
         Login guessed = new Login(right.user(), SECRET.device("hoeing", "d").password());
         assertThatThrownBy(() -> broker.connect(guessed, "guess"))
@@ -84,9 +83,8 @@ class MosquittoIT {
             device.publish("/json" + KEY + "/" + DEVICE + "/attrs", "2");
 
             // One connection keeps its order: what was forged would have come before.
-            await()
-                    .until(() -> agent.newest("/json" + KEY + "/" + DEVICE + "/attrs")
-                            .equals("2"));
+            await().until(() ->
+                    agent.newest("/json" + KEY + "/" + DEVICE + "/attrs").equals("2"));
             assertThat(foreign)
                     .allSatisfy(topic -> assertThat(agent.newest(topic)).isEmpty());
         }
@@ -101,8 +99,7 @@ class MosquittoIT {
             agent.publish(KEY + "/" + DEVICE + "/attrs", "3");
             agent.publish(KEY + "/" + DEVICE + "/cmd", "off");
 
-            await()
-                    .until(() -> device.newest(KEY + "/" + DEVICE + "/cmd").equals("off"));
+            await().until(() -> device.newest(KEY + "/" + DEVICE + "/cmd").equals("off"));
             assertThat(device.topics()).containsOnly(KEY + "/" + DEVICE + "/cmd");
         }
     }

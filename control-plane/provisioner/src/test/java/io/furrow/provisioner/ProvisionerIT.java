@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import static io.furrow.provisioner.DesiredDeviceFixture.thermometer;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -35,6 +34,7 @@ import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.topic.Topics;
 import io.furrow.provisioner.account.InMemoryAccounts;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.thermometer;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 

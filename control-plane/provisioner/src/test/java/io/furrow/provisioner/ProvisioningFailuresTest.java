@@ -4,12 +4,8 @@ import java.io.IOException;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Map;
-import java.util.Properties;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-import org.junit.jupiter.api.AutoClose;
-import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -19,7 +15,6 @@ import org.junit.jupiter.params.provider.ValueSource;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.provisioner.ProvisioningReconciler.Outcome;
-import io.furrow.provisioner.account.InMemoryAccounts;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -160,7 +155,8 @@ class ProvisioningFailuresTest extends ProvisioningFixture {
             long before = passed.get();
             done = provisioning.step().done();
             steps++;
-            assertThat(Duration.ofNanos(passed.get() - before)).isLessThanOrEqualTo(ProvisioningReconciler.STEP.plusSeconds(3));
+            assertThat(Duration.ofNanos(passed.get() - before))
+                    .isLessThanOrEqualTo(ProvisioningReconciler.STEP.plusSeconds(3));
         }
 
         assertThat(steps).isBetween(20, 101);

@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import java.util.function.LongSupplier;
 import java.io.IOException;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -10,6 +9,7 @@ import java.util.Map;
 import java.util.Properties;
 import java.util.Set;
 import java.util.concurrent.atomic.AtomicLong;
+import java.util.function.LongSupplier;
 import java.util.function.Predicate;
 import java.util.stream.Collectors;
 
@@ -42,6 +42,7 @@ abstract class ProvisioningFixture {
     final Map<String, String> refused = new HashMap<>();
     /** How much later it is than by the clock. */
     final AtomicLong passed = new AtomicLong();
+
     LongSupplier clock = () -> System.nanoTime() + passed.get();
 
     @AutoClose
@@ -60,8 +61,7 @@ abstract class ProvisioningFixture {
     }
 
     ProvisioningReconciler provisioning(ProvisioningSettings settings, RemovalGuard.Origin origin) {
-        ProvisioningReconciler begun =
-                new ProvisioningReconciler(settings, desired, () -> clock.getAsLong());
+        ProvisioningReconciler begun = new ProvisioningReconciler(settings, desired, () -> clock.getAsLong());
         begun.startAnew(origin);
         return begun;
     }

@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.io.IOException;
 import java.util.Map;
 
@@ -16,6 +15,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.provisioner.ProvisioningReconciler.Outcome;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -112,10 +112,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         assertThat(agent.deviceIds()).containsExactly(second.device());
         assertThat(agent.apiKeys()).containsExactly(SECRET.apiKey("weeding"));
         assertThat(accounts.mayRead(
-                        SECRET
-                                .device("hoeing", first.device())
-                                .user(),
-                        "/" + KEY + "/" + first.device() + "/cmd"))
+                        SECRET.device("hoeing", first.device()).user(), "/" + KEY + "/" + first.device() + "/cmd"))
                 .isFalse();
 
         desired.take(second.version().key(), null);
@@ -222,8 +219,7 @@ class ProvisioningReconcilerTest extends ProvisioningFixture {
         DesiredDevice device = DesiredDeviceFixture.thermometer("hoeing", 1);
         addDesired(device);
         addDesired(DesiredDeviceFixture.thermometer("hoeing", 2));
-        refused.put(
-                SECRET.device("hoeing", device.device()).user(), "somebody else's");
+        refused.put(SECRET.device("hoeing", device.device()).user(), "somebody else's");
 
         assertThat(provisioning.step().refused())
                 .containsExactly(Map.entry(device.version().key(), "somebody else's"));

@@ -131,9 +131,8 @@ class RotationIT {
     void retainsEverythingAsItIsWhereTheFileIsReplacedByAnothersSecret() throws Exception {
         MqttPeer device = open(broker.comesIn(old.device("hoeing", first.device())));
         Files.writeString(file, FarmSecretCodec.write(FarmSecret.generate()));
-        await()
-                .untilAsserted(() -> assertThat(secret.problem())
-                        .hasValueSatisfying(why -> assertThat(why).contains("this farm has another secret")));
+        await().untilAsserted(() -> assertThat(secret.problem())
+                .hasValueSatisfying(why -> assertThat(why).contains("this farm has another secret")));
         DesiredDevice third = DesiredDeviceFixture.thermometer("hoeing", 3);
         put(third);
 

@@ -1,6 +1,5 @@
 package io.furrow.provisioner;
 
-import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.io.IOException;
 import java.time.Instant;
 
@@ -11,6 +10,7 @@ import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.DesiredDevice;
 import io.furrow.model.device.FarmSecret;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -31,15 +31,13 @@ class SecretRotationTest extends ProvisioningFixture {
         secret.current = rotated.at(until.minusSeconds(1));
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(authenticates(SECRET.device("hoeing", device.device())))
-                .isTrue();
+        assertThat(authenticates(SECRET.device("hoeing", device.device()))).isTrue();
         assertThat(authenticates(rotated.device("hoeing", device.device()))).isTrue();
 
         secret.current = rotated.at(until);
         assertThat(provisioning.isSecretChanged()).isTrue();
         provisioning.step();
-        assertThat(authenticates(SECRET.device("hoeing", device.device())))
-                .isFalse();
+        assertThat(authenticates(SECRET.device("hoeing", device.device()))).isFalse();
         assertThat(authenticates(rotated.device("hoeing", device.device()))).isTrue();
         assertThat(agent.changes).isEmpty();
         assertThat(counts).containsExactly(1, 2, 1);
@@ -60,9 +58,7 @@ class SecretRotationTest extends ProvisioningFixture {
                         .put("apikey", "secret"));
         desired.clear();
         addDesired(device);
-        secret.current = SECRET
-                .rotated(Instant.now(), Instant.EPOCH, true)
-                .at(Instant.now());
+        secret.current = SECRET.rotated(Instant.now(), Instant.EPOCH, true).at(Instant.now());
 
         assertThat(provisioning(settings(secret, false), SAME).step()).isEqualTo(DONE);
 
@@ -87,19 +83,14 @@ class SecretRotationTest extends ProvisioningFixture {
         addDesired(stolen.withGeneration(1));
 
         assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("503");
-        assertThat(authenticates(SECRET.device("hoeing", stolen.device())))
-                .isFalse();
-        assertThat(authenticates(SECRET.device("hoeing", other.device())))
-                .isTrue();
+        assertThat(authenticates(SECRET.device("hoeing", stolen.device()))).isFalse();
+        assertThat(authenticates(SECRET.device("hoeing", other.device()))).isTrue();
 
         agent.unavailable = false;
         provisioning.step();
-        assertThat(authenticates(SECRET.device("hoeing", stolen.device(), 1)))
-                .isTrue();
-        assertThat(authenticates(SECRET.device("hoeing", stolen.device())))
-                .isFalse();
-        assertThat(authenticates(SECRET.device("hoeing", other.device())))
-                .isTrue();
+        assertThat(authenticates(SECRET.device("hoeing", stolen.device(), 1))).isTrue();
+        assertThat(authenticates(SECRET.device("hoeing", stolen.device()))).isFalse();
+        assertThat(authenticates(SECRET.device("hoeing", other.device()))).isTrue();
         assertThat(agent.changes)
                 .filteredOn(change -> change.startsWith("DELETE"))
                 .isEmpty();

@@ -1,9 +1,5 @@
 package io.furrow.control;
 
-import static io.furrow.control.ManagerFixture.REMEMBERED;
-import static io.furrow.control.ManagerFixture.error;
-import static io.furrow.control.ManagerFixture.response;
-import static io.furrow.control.ManagerFixture.text;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -28,6 +24,10 @@ import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static io.furrow.control.ManagerFixture.REMEMBERED;
+import static io.furrow.control.ManagerFixture.error;
+import static io.furrow.control.ManagerFixture.response;
+import static io.furrow.control.ManagerFixture.text;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -65,8 +65,7 @@ class ControlTopologyTest {
     @Test
     void rejectsAnotherRequestUnderTheSameId() {
         farm.request(Topics.DOMAIN_MANAGER, "'requestId':'r-1','user':'ann','domain':'north'");
-        assertThat(response(farm.only(Topics.DOMAIN_MANAGER)).status())
-                .isEqualTo("created");
+        assertThat(response(farm.only(Topics.DOMAIN_MANAGER)).status()).isEqualTo("created");
         for (String other : List.of(
                 "'user':'ann','domain':'south'",
                 "'user':'bob','domain':'north'",
@@ -106,8 +105,7 @@ class ControlTopologyTest {
 
         TestRecord<String, byte[]> answer = farm.only(Topics.DOMAIN_MANAGER);
         assertThat(error(answer)).isEqualTo("too-large");
-        assertThat(response(answer).json().path("domain").asText())
-                .isEqualTo("north");
+        assertThat(response(answer).json().path("domain").asText()).isEqualTo("north");
         assertThat(response(answer).json().path("reason").asText())
                 .contains(Integer.toString(domain.length()), "524288");
         assertThat(farm.read(Topics.DOMAINS)).isEmpty();
@@ -122,9 +120,7 @@ class ControlTopologyTest {
         farm.request(Topics.MISSION_MANAGER, "mine", "{'type':'request',");
 
         List<TestRecord<String, byte[]>> answers = farm.read(Topics.MISSION_MANAGER);
-        assertThat(answers)
-                .extracting(answer -> error(answer))
-                .containsExactly("unknown-command", "not-json");
+        assertThat(answers).extracting(answer -> error(answer)).containsExactly("unknown-command", "not-json");
         assertThat(answers).extracting(TestRecord::key).containsExactly("r-1", "mine");
     }
 
@@ -157,7 +153,9 @@ class ControlTopologyTest {
     @Test
     void takesAMissionThroughItsLifeAsHostsReport() throws Exception {
         farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
-        farm.request(Topics.MISSION_MANAGER, "'command':'start','mission':'m','domain':'north','devices':[{'type':'Camera','count':2,'simulated':true}]");
+        farm.request(
+                Topics.MISSION_MANAGER,
+                "'command':'start','mission':'m','domain':'north','devices':[{'type':'Camera','count':2,'simulated':true}]");
         assertThat(farm.state("m")).isEqualTo("starting");
         assertThat(farm.hostAll(DeviceStatus.State.RUNNING)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("running");
@@ -165,9 +163,8 @@ class ControlTopologyTest {
         farm.request(Topics.MISSION_MANAGER, "'command':'stop','mission':'m'");
         farm.request(Topics.DOMAIN_MANAGER, "'command':'delete','domain':'north'");
         assertThat(farm.read(Topics.DOMAIN_MANAGER))
-                .extracting(record -> response(record)
-                        .error()
-                        .orElse(response(record).status()))
+                .extracting(record ->
+                        response(record).error().orElse(response(record).status()))
                 .containsExactly("created", "missions-running");
         assertThat(farm.state("m")).isEqualTo("stopping");
         assertThat(farm.hostAll(DeviceStatus.State.STOPPED)).isEqualTo(2);
@@ -181,7 +178,9 @@ class ControlTopologyTest {
     @Test
     void countsARealDeviceByTheReportThatTheFarmWatchSaw() throws Exception {
         farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
-        farm.request(Topics.MISSION_MANAGER, "'command':'start','mission':'m','domain':'north','devices':[{'type':'Camera'}]");
+        farm.request(
+                Topics.MISSION_MANAGER,
+                "'command':'start','mission':'m','domain':'north','devices':[{'type':'Camera'}]");
         farm.hostAll(DeviceStatus.State.RUNNING);
         farm.pass(Duration.ofHours(1));
         assertThat(farm.state("m")).isEqualTo("starting");
@@ -197,7 +196,9 @@ class ControlTopologyTest {
     @Test
     void startsAMissionAtItsDateAndHasTheMissionOfTheThesisAtHand() throws Exception {
         farm.request(Topics.DOMAIN_MANAGER, "'domain':'north'");
-        farm.request(Topics.MISSION_MANAGER, "'command':'start','mission':'m','domain':'north','template':'thesis-demo','start':'2026-03-01T08:01:00Z'");
+        farm.request(
+                Topics.MISSION_MANAGER,
+                "'command':'start','mission':'m','domain':'north','template':'thesis-demo','start':'2026-03-01T08:01:00Z'");
         assertThat(farm.state("m")).isEqualTo("created");
         assertThat(farm.only(Topics.TEMPLATES).key()).isEqualTo("thesis-demo@1");
         farm.pass(Duration.ofSeconds(59));
@@ -214,14 +215,13 @@ class ControlTopologyTest {
 
         TestRecord<String, byte[]> dead = farm.only(Topics.dead(Topics.DEVICES_STATUS));
         assertThat(text(dead.value())).isEqualTo("{\"sequence\":1}");
-        assertThat(text(
-                        dead.headers().lastHeader(DeadLetter.REASON).value()))
-                .isEqualTo("not-an-event");
+        assertThat(text(dead.headers().lastHeader(DeadLetter.REASON).value())).isEqualTo("not-an-event");
     }
 
     @Test
     void handsReplaysOnAndForgetsThemWhenTheyAreOver() throws Exception {
-        farm.request(Topics.REPLAY_MANAGER, "'command':'start','mission':'m','speed':'max','from':1000,'devices':['urn:x']");
+        farm.request(
+                Topics.REPLAY_MANAGER, "'command':'start','mission':'m','speed':'max','from':1000,'devices':['urn:x']");
         CommandResult created = response(farm.only(Topics.REPLAY_MANAGER));
         String replay = created.json().path("replay").asText();
         assertThat(replay).matches("m\\.[0-9a-f]{8}");
@@ -231,9 +231,8 @@ class ControlTopologyTest {
             farm.request(Topics.REPLAY_MANAGER, "'command':'" + command + "','to':5000,'replay':'" + replay + "'");
         }
         assertThat(farm.read(Topics.REPLAY_MANAGER))
-                .extracting(record -> response(record)
-                        .error()
-                        .orElse(response(record).status()))
+                .extracting(record ->
+                        response(record).error().orElse(response(record).status()))
                 .containsExactly("""
                                 wrong-state paused paused paused paused running wrong-state deleted wrong-state""".split("\\s+"));
         List<TestRecord<String, byte[]>> desired = farm.read(Topics.REPLAYS);
@@ -256,10 +255,8 @@ class ControlTopologyTest {
 
     private String startReplay(String members) {
         farm.request(Topics.REPLAY_MANAGER, "'command':'start','mission':'m'" + members);
-        String replay = response(farm.only(Topics.REPLAY_MANAGER))
-                .json()
-                .path("replay")
-                .asText();
+        String replay =
+                response(farm.only(Topics.REPLAY_MANAGER)).json().path("replay").asText();
         farm.read(Topics.REPLAYS);
         return replay;
     }
@@ -293,8 +290,7 @@ class ControlTopologyTest {
         report(replays.get(0), 1, ReplayStatus.State.ENDED, false);
         farm.request(Topics.REPLAY_MANAGER, null, group);
 
-        assertThat(response(farm.only(Topics.REPLAY_MANAGER)).status())
-                .isEqualTo("created");
+        assertThat(response(farm.only(Topics.REPLAY_MANAGER)).status()).isEqualTo("created");
     }
 
     @Test
@@ -308,8 +304,7 @@ class ControlTopologyTest {
         assertThat(farm.read(Topics.REPLAYS)).isEmpty();
 
         assertThat(steer(replay, "'seek','to':5000").status()).isEqualTo("running");
-        assertThat(text(farm.only(Topics.REPLAYS).value()))
-                .contains("\"seek\":{\"to\":5000,\"sequence\":2}");
+        assertThat(text(farm.only(Topics.REPLAYS).value())).contains("\"seek\":{\"to\":5000,\"sequence\":2}");
         farm.pass(Duration.ofMinutes(61));
         assertThat(farm.read(Topics.REPLAYS)).as("sought, and not played yet").isEmpty();
         report(replay, 2, ReplayStatus.State.RUNNING, false);

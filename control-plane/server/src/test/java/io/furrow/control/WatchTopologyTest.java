@@ -367,8 +367,10 @@ class WatchTopologyTest {
     void answersWhatIsRequestedOfAlarms() throws Exception {
         farm.encounter("started", 3.2);
         farm.newest(Topics.ALARMS);
-        farm.request(Topics.ALARM_MANAGER, "'requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'");
-        farm.request(Topics.ALARM_MANAGER, "'requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'");
+        farm.request(
+                Topics.ALARM_MANAGER, "'requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'");
+        farm.request(
+                Topics.ALARM_MANAGER, "'requestId':'r','command':'acknowledge','alarm':'collision-1','user':'ann'");
         farm.request(Topics.ALARM_MANAGER, "'command':'mute','kind':'collision','for':'PT1H'");
         farm.request(Topics.ALARM_MANAGER, "'command':'close','alarm':'collision-9'");
 

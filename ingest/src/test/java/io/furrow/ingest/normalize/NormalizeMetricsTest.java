@@ -1,6 +1,5 @@
 package io.furrow.ingest.normalize;
 
-import io.furrow.flink.TestClusters;
 import java.time.Duration;
 import java.util.HashMap;
 import java.util.List;
@@ -12,13 +11,13 @@ import org.apache.flink.configuration.Configuration;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.Metric;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 
+import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.record.TopicRecord;

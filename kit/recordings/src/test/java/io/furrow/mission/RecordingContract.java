@@ -1,6 +1,5 @@
 package io.furrow.mission;
 
-import static io.furrow.mission.RandomEvents.event;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
@@ -9,6 +8,7 @@ import java.util.function.Predicate;
 
 import org.junit.jupiter.api.Test;
 
+import static io.furrow.mission.RandomEvents.event;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -156,11 +156,8 @@ public abstract class RecordingContract {
 
     @Test
     void stopsBeforeTheEventThatPassesTheByteLimitAndGivesOneThatIsLargerAlone() throws Exception {
-        List<StoredEvent> events = List.of(
-                event("a", 1, 10),
-                event("b", 2, 10),
-                event("c", 3, 5_000),
-                event("d", 4, 10));
+        List<StoredEvent> events =
+                List.of(event("a", 1, 10), event("b", 2, 10), event("c", 3, 5_000), event("d", 4, 10));
         int small = bytes(events.get(0));
         try (Recording recording = recorded(events)) {
             PageLimits two = new PageLimits(10, 2 * small);
@@ -181,8 +178,7 @@ public abstract class RecordingContract {
 
     @Test
     void tellsItsSpan() throws Exception {
-        try (Recording recording = recorded(List.of(
-                event("a", 7, 0), event("b", -3, 0), event("c", 5, 0)))) {
+        try (Recording recording = recorded(List.of(event("a", 7, 0), event("b", -3, 0), event("c", 5, 0)))) {
             assertThat(recording.span()).contains(new RecordingExtent(-3, 7));
         }
         try (Recording recording = recorded(List.of())) {

@@ -74,8 +74,7 @@ class BrokerClientTest {
             assertThat(done.headers().totalCount()).hasValue(7);
             assertThat(done.headers().createdId()).contains("51c0");
         });
-        assertThat(((Outcome.Done) outcome).json().at("/0/id").textValue())
-                .isEqualTo("a");
+        assertThat(((Outcome.Done) outcome).json().at("/0/id").textValue()).isEqualTo("a");
     }
 
     @Test

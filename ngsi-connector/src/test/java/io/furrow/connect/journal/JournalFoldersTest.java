@@ -1,6 +1,5 @@
 package io.furrow.connect.journal;
 
-import static io.furrow.connect.journal.JournalTest.append;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -11,6 +10,7 @@ import java.util.concurrent.atomic.AtomicBoolean;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import static io.furrow.connect.journal.JournalTest.append;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class JournalFoldersTest {

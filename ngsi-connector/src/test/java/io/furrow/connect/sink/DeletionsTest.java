@@ -1,27 +1,20 @@
 package io.furrow.connect.sink;
 
-import java.util.stream.IntStream;
-import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
+import java.util.stream.IntStream;
 
-import org.apache.kafka.common.record.TimestampType;
 import org.apache.kafka.connect.sink.SinkRecord;
-import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.connect.sink.FakeContextBroker.Reply;
-import io.furrow.model.ngsi.Entity;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Deletions go to the context broker in batches; those of a batch are deleted, absent or refused each for itself. */
 class DeletionsTest extends SinkFixture {
     private static final int MANY = 250;
-
 
     @ParameterizedTest
     @ValueSource(strings = {"ngsi-v2", "ngsi-ld"})

@@ -1,9 +1,6 @@
 package io.furrow.connect.sink;
 
-import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
 import java.util.concurrent.CopyOnWriteArrayList;
 
 import org.apache.kafka.common.record.TimestampType;
@@ -17,8 +14,6 @@ import org.apache.logging.log4j.core.config.Property;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
-
-import io.furrow.model.ngsi.Entity;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

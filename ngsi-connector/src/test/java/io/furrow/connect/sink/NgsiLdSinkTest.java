@@ -1,12 +1,9 @@
 package io.furrow.connect.sink;
 
-import org.junit.jupiter.api.BeforeEach;
 import java.util.List;
-import java.util.Map;
 
-import org.apache.kafka.common.record.TimestampType;
 import org.apache.kafka.connect.sink.SinkRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.sink.FakeContextBroker.Reply;

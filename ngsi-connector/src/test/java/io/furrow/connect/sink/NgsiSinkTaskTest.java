@@ -1,7 +1,5 @@
 package io.furrow.connect.sink;
 
-import org.junit.jupiter.api.BeforeEach;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 
@@ -9,14 +7,13 @@ import org.apache.kafka.common.record.TimestampType;
 import org.apache.kafka.connect.errors.ConnectException;
 import org.apache.kafka.connect.errors.RetriableException;
 import org.apache.kafka.connect.sink.SinkRecord;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.connect.sink.FakeContextBroker.Reply;
 import io.furrow.connect.sink.FakeContextBroker.Update;
-import io.furrow.model.ngsi.Entity;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -61,7 +58,8 @@ class NgsiSinkTaskTest extends SinkFixture {
     void readsBytesTextAndSchemalessJson() {
         Object map = Map.of("id", "c", "type", "T", "x", Map.of("type", "Number", "value", 3L, "metadata", Map.of()));
 
-        task.put(List.of(record("a", entity("a", "x", 1)), record("b", new String(entity("b", "x", 1))), record("c", map)));
+        task.put(List.of(
+                record("a", entity("a", "x", 1)), record("b", new String(entity("b", "x", 1))), record("c", map)));
 
         assertThat(broker.entities).containsOnlyKeys("a", "b", "c");
     }
@@ -80,7 +78,8 @@ class NgsiSinkTaskTest extends SinkFixture {
         SinkRecord badScope = record("c", entity("c", "x", 1));
         badScope.headers().addString("fiware-service", "a\nb");
 
-        task.put(List.of(record("a", "no json".getBytes()), record("b", entity("b", "x", 1)), badScope, record("d", 5)));
+        task.put(
+                List.of(record("a", "no json".getBytes()), record("b", entity("b", "x", 1)), badScope, record("d", 5)));
 
         assertThat(broker.entities).containsOnlyKeys("b");
         assertThat(context.reported)
@@ -175,7 +174,8 @@ class NgsiSinkTaskTest extends SinkFixture {
     void keepsAnInterruptSet() {
         Thread.currentThread().interrupt();
 
-        assertThatThrownBy(() -> task.put(List.of(record("a", entity("a", "x", 1))))).isInstanceOf(RetriableException.class);
+        assertThatThrownBy(() -> task.put(List.of(record("a", entity("a", "x", 1)))))
+                .isInstanceOf(RetriableException.class);
         assertThat(Thread.interrupted()).isTrue();
     }
 

@@ -52,8 +52,8 @@ abstract class SinkFixture {
 
     /** Lets the context broker refuse what has a text in its path or body. */
     void poison(String what, int status, String words) {
-        broker.behaviour = update ->
-                (update.path() + update.body()).contains(what) ? new Reply(status, words) : Reply.WRITTEN;
+        broker.behaviour =
+                update -> (update.path() + update.body()).contains(what) ? new Reply(status, words) : Reply.WRITTEN;
     }
 
     static byte[] entity(String id, String attribute, long value) {

@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision.encounter;
 
-import static io.furrow.analytics.collision.Fixes.east;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collections;
@@ -16,7 +15,6 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.collision.CollisionOracle;
-import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.collision.Worlds;
 import io.furrow.analytics.collision.grid.CellUpdate;
 import io.furrow.analytics.collision.rules.CellRules;
@@ -28,6 +26,7 @@ import io.furrow.analytics.collision.rules.Thresholds;
 import io.furrow.analytics.position.Device;
 import io.furrow.analytics.position.PositionFix;
 
+import static io.furrow.analytics.collision.Fixes.east;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
 

@@ -1,7 +1,5 @@
 package io.furrow.analytics.collision.grid;
 
-import static io.furrow.analytics.collision.Fixes.of;
-import static io.furrow.analytics.collision.Fixes.east;
 import java.util.List;
 import java.util.Map;
 
@@ -21,6 +19,8 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
+import static io.furrow.analytics.collision.Fixes.east;
+import static io.furrow.analytics.collision.Fixes.of;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** At the start {@code service.devices} says that the robot carries the camera from 1000 on. */

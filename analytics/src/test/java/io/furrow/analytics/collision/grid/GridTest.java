@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision.grid;
 
-import static io.furrow.analytics.collision.Worlds.rules;
 import java.util.Arrays;
 import java.util.HashSet;
 import java.util.Random;
@@ -15,6 +14,7 @@ import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.collision.Worlds;
 import io.furrow.analytics.collision.rules.CollisionRules;
 
+import static io.furrow.analytics.collision.Worlds.rules;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class GridTest {

@@ -1,8 +1,5 @@
 package io.furrow.analytics.collision.matching;
 
-import static io.furrow.analytics.collision.Fixes.carriedBy;
-import static io.furrow.analytics.collision.Fixes.east;
-import static io.furrow.analytics.collision.Fixes.at;
 import java.time.Duration;
 import java.util.Random;
 
@@ -10,12 +7,14 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
-import io.furrow.analytics.collision.Fixes;
 import io.furrow.analytics.collision.Worlds;
 import io.furrow.analytics.collision.grid.Geodesy;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
+import static io.furrow.analytics.collision.Fixes.at;
+import static io.furrow.analytics.collision.Fixes.carriedBy;
+import static io.furrow.analytics.collision.Fixes.east;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 

@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision.motion;
 
-import static io.furrow.analytics.collision.motion.Courses.rules;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
@@ -14,6 +13,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.position.PositionFix;
 
+import static io.furrow.analytics.collision.motion.Courses.rules;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.fail;
 

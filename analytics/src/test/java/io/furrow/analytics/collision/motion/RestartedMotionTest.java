@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision.motion;
 
-import static io.furrow.analytics.collision.motion.Courses.START;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
@@ -14,6 +13,7 @@ import io.furrow.analytics.collision.encounter.Stage;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.time.KeyedLatenessOperator;
 
+import static io.furrow.analytics.collision.motion.Courses.START;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RestartedMotionTest {

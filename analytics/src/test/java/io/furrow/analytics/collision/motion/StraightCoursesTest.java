@@ -1,9 +1,5 @@
 package io.furrow.analytics.collision.motion;
 
-import static io.furrow.analytics.collision.motion.Courses.place;
-import static io.furrow.analytics.collision.motion.Courses.CENTRES;
-import static io.furrow.analytics.collision.motion.Courses.START;
-import static io.furrow.analytics.collision.motion.Courses.fix;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -16,6 +12,10 @@ import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
+import static io.furrow.analytics.collision.motion.Courses.CENTRES;
+import static io.furrow.analytics.collision.motion.Courses.START;
+import static io.furrow.analytics.collision.motion.Courses.fix;
+import static io.furrow.analytics.collision.Worlds.place;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Machines on great circles at a steady speed, stepped through in small steps, against what was notified of their reports. */
@@ -50,8 +50,7 @@ class StraightCoursesTest {
                 CartesianPoint there = at(elapsed);
                 double[] place = {there.latitude(), there.longitude()};
                 double speed = tells ? 1000 * metersPerMilli : Double.NaN;
-                fixes.add(
-                        fix(id, place, speed, tells ? heading(elapsed) : Double.NaN, START + elapsed));
+                fixes.add(fix(id, place, speed, tells ? heading(elapsed) : Double.NaN, START + elapsed));
             }
             return fixes;
         }
@@ -91,8 +90,7 @@ class StraightCoursesTest {
                 long latest = Math.max(3000, first - HORIZON + 2000);
                 assertThat(predictions)
                         .as("case %d: %s and %s meet after %d ms", i, a, b, first)
-                        .anyMatch(told ->
-                                told.time() - START <= latest && told.time() - START >= first - HORIZON)
+                        .anyMatch(told -> told.time() - START <= latest && told.time() - START >= first - HORIZON)
                         .anyMatch(told -> told.time() + 1000 * told.tcpa() - START >= first - STEP);
                 met++;
             }

@@ -1,6 +1,5 @@
 package io.furrow.provisioner.account;
 
-import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -14,8 +13,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.model.device.FarmSecret;
-import io.furrow.provisioner.DesiredDeviceFixture;
 
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

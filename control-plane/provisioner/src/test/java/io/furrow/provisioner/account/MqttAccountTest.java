@@ -1,14 +1,12 @@
 package io.furrow.provisioner.account;
 
-import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import java.util.List;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
-import io.furrow.provisioner.DesiredDeviceFixture;
-
+import static io.furrow.provisioner.DesiredDeviceFixture.SECRET;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MqttAccountTest {

@@ -1,6 +1,5 @@
 package io.furrow.control.mission;
 
-import static io.furrow.control.mission.FarmFixture.group;
 import java.time.Duration;
 import java.util.List;
 
@@ -20,6 +19,7 @@ import io.furrow.model.control.RejectedException;
 import io.furrow.model.topic.Topics;
 
 import static com.fasterxml.jackson.databind.node.JsonNodeFactory.instance;
+import static io.furrow.control.mission.FarmFixture.group;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 

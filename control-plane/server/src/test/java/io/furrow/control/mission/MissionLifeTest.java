@@ -1,7 +1,5 @@
 package io.furrow.control.mission;
 
-import static io.furrow.control.mission.FarmFixture.TIMEOUT;
-import static io.furrow.control.mission.FarmFixture.group;
 import java.time.Duration;
 import java.time.Instant;
 
@@ -24,6 +22,8 @@ import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
+import static io.furrow.control.mission.FarmFixture.TIMEOUT;
+import static io.furrow.control.mission.FarmFixture.group;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MissionLifeTest {
@@ -36,9 +36,7 @@ class MissionLifeTest {
 
     @Test
     void goesFromStartingToStoppedAsItsDevicesComeUpAndGo() throws Exception {
-        assertThat(farm.start("m", "north", group("Thermometer", 2))
-                        .json()
-                        .toString())
+        assertThat(farm.start("m", "north", group("Thermometer", 2)).json().toString())
                 .isEqualTo("{\"type\":\"response\",\"status\":\"created\",\"mission\":\"m\",\"domain\":\"north\","
                         + "\"domain_topic\":\"data.north.realtime\",\"mission_topic\":\"data.north.realtime.m\"}");
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
@@ -229,8 +227,7 @@ class MissionLifeTest {
     @Test
     void doesNotStartWhereTheStartWasTakenBack() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
-        farm.request(new MissionCommand.Start(
-                "m", "north", FarmFixture.devices(group("Camera", 1)), date, null));
+        farm.request(new MissionCommand.Start("m", "north", FarmFixture.devices(group("Camera", 1)), date, null));
         farm.request(new MissionCommand.Stop("m"));
         farm.pass(20_000);
 
@@ -263,10 +260,7 @@ class MissionLifeTest {
         farm.refused(
                 ErrorCode.DEVICE_TAKEN,
                 () -> farm.start(
-                        "other",
-                        "south",
-                        group("Camera", 1),
-                        DeviceGroup.entity("urn:ngsi-ld:Camera:other-1")));
+                        "other", "south", group("Camera", 1), DeviceGroup.entity("urn:ngsi-ld:Camera:other-1")));
         farm.refused(
                 ErrorCode.UNKNOWN_TEMPLATE,
                 () -> farm.request(new MissionCommand.Start(

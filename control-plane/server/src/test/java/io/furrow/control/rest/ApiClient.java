@@ -51,15 +51,15 @@ public final class ApiClient {
         return send(request(method, path, body), described);
     }
 
-    int status(String method, String path, String body, String... header) throws Exception {
+    public int status(String method, String path, String body, String... header) throws Exception {
         return send(method, path, body, header).statusCode();
     }
 
-    JsonNode get(String path) throws Exception {
+    public JsonNode get(String path) throws Exception {
         return ask("GET", path, null);
     }
 
-    JsonNode ask(String method, String path, String body, String... header) throws Exception {
+    public JsonNode ask(String method, String path, String body, String... header) throws Exception {
         return json(send(method, path, body, header));
     }
 

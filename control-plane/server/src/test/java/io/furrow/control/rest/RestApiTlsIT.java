@@ -111,9 +111,8 @@ class RestApiTlsIT {
         assertThat(subject()).isEqualTo("CN=first");
 
         Files.copy(second.certificate(), certificate, StandardCopyOption.REPLACE_EXISTING);
-        await().untilAsserted(() -> assertThat(NgsiJson.read(health(first).body())
-                        .at("/warnings/0")
-                        .asText())
+        await().untilAsserted(() -> assertThat(
+                        NgsiJson.read(health(first).body()).at("/warnings/0").asText())
                 .startsWith("the files of the certificate cannot be used"));
         assertThat(subject()).isEqualTo("CN=first");
 

@@ -63,7 +63,8 @@ class DeadLetterSinkIT {
 
     /** Messages by key. */
     private static Map<String, String> written(EmbeddedKafka kafka, int letters) {
-        Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers(), "auto.offset.reset", "earliest");
+        Map<String, Object> settings =
+                Map.of("bootstrap.servers", kafka.bootstrapServers(), "auto.offset.reset", "earliest");
         Map<String, String> messages = new HashMap<>();
         try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
             consumer.assign(consumer.partitionsFor("data.raw.dead").stream()

@@ -190,7 +190,8 @@ class KafkaConnectorsIT {
     }
 
     private static void write(String topic, List<Copied> records) {
-        Map<String, Object> settings = Map.of("bootstrap.servers", bootstrapServers, "max.in.flight.requests.per.connection", 1);
+        Map<String, Object> settings =
+                Map.of("bootstrap.servers", bootstrapServers, "max.in.flight.requests.per.connection", 1);
         try (KafkaProducer<byte[], byte[]> producer =
                 new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
             for (Copied each : records) {

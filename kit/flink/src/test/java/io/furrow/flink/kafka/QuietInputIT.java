@@ -1,6 +1,5 @@
 package io.furrow.flink.kafka;
 
-import io.furrow.flink.time.TellEventTime;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -9,8 +8,6 @@ import java.util.Map;
 
 import org.apache.flink.core.execution.JobClient;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
-import org.apache.flink.streaming.api.functions.co.CoProcessFunction;
-import org.apache.flink.util.Collector;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
@@ -26,7 +23,7 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TestJob;
-import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.TellEventTime;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;

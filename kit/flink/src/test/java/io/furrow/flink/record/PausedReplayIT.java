@@ -1,6 +1,5 @@
 package io.furrow.flink.record;
 
-import io.furrow.flink.time.TellEventTime;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -10,8 +9,6 @@ import java.util.Optional;
 
 import org.apache.flink.core.execution.JobClient;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
-import org.apache.flink.streaming.api.functions.co.CoProcessFunction;
-import org.apache.flink.util.Collector;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
@@ -30,6 +27,7 @@ import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TestJob;
 import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.flink.kafka.KafkaInput;
+import io.furrow.flink.time.TellEventTime;
 import io.furrow.model.event.HeaderNames;
 
 import static java.nio.charset.StandardCharsets.UTF_8;

@@ -52,7 +52,8 @@ class TopicRecordTest {
         TypeSerializerSnapshot.writeVersionedSnapshot(savepoint, now);
         byte[] said = savepoint.getCopyOfBuffer();
 
-        TypeSerializerSnapshot<TopicRecord> stored = TypeSerializerSnapshot.readVersionedSnapshot(new DataInputDeserializer(said), loader());
+        TypeSerializerSnapshot<TopicRecord> stored =
+                TypeSerializerSnapshot.readVersionedSnapshot(new DataInputDeserializer(said), loader());
 
         assertThat(now.resolveSchemaCompatibility(stored).isCompatibleAsIs()).isTrue();
         assertThat(now.resolveSchemaCompatibility(new PojoSerializerSnapshot<>())

@@ -1,7 +1,7 @@
 package io.furrow.flink.time;
 
-import java.util.List;
 import java.time.Duration;
+import java.util.List;
 import java.util.Map;
 
 import org.apache.flink.api.common.eventtime.Watermark;
@@ -175,7 +175,8 @@ class ReplayWatermarksTest {
     }
 
     private static void end(TestPartition partition, long epoch, long time) {
-        Map<String, String> headers = Map.of(HeaderNames.REPLAY_EPOCH, Long.toString(epoch), HeaderNames.REPLAY_KIND, "end");
+        Map<String, String> headers =
+                Map.of(HeaderNames.REPLAY_EPOCH, Long.toString(epoch), HeaderNames.REPLAY_KIND, "end");
         partition.read(record(time, headers), epoch * Epochs.SPAN + time);
     }
 

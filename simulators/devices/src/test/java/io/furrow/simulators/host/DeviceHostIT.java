@@ -1,6 +1,5 @@
 package io.furrow.simulators.host;
 
-import static io.furrow.simulators.host.HostFixture.SECRET;
 import java.nio.file.Path;
 import java.time.Instant;
 import java.util.List;
@@ -19,6 +18,7 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.MqttTestClient;
 
+import static io.furrow.simulators.host.HostFixture.SECRET;
 import static io.furrow.simulators.host.HostFixture.entity;
 import static io.furrow.simulators.host.HostFixture.topic;
 import static org.assertj.core.api.Assertions.assertThat;

@@ -90,8 +90,7 @@ class IotAgentTest {
             assertThat(notified.at("/extra/value").asText()).isEqualTo("x");
             JsonNode instant = notified.at("/TimeInstant/value");
             assertThat(NgsiTime.parse(instant.asText())).isPresent();
-            assertThat(notified.at("/Temperature/metadata/TimeInstant/value"))
-                    .isEqualTo(instant);
+            assertThat(notified.at("/Temperature/metadata/TimeInstant/value")).isEqualTo(instant);
         }
     }
 
@@ -191,8 +190,7 @@ class IotAgentTest {
 
         report();
 
-        assertThat(broker.get(THERMOMETER).json().at("/Domain/value").asText())
-                .isEqualTo("canary");
+        assertThat(broker.get(THERMOMETER).json().at("/Domain/value").asText()).isEqualTo("canary");
         assertThat(broker.patch(THERMOMETER + "/attrs", command).status()).isEqualTo(204);
         await().until(() -> commands.size() == 1);
     }

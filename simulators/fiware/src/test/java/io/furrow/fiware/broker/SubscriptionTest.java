@@ -104,8 +104,7 @@ class SubscriptionTest {
         await().until(() -> standIn.counters().notificationsFailed() == 2);
 
         JsonNode subscription = client.get(location).json();
-        assertThat(subscription.at("/notification/failsCounter").asInt())
-                .isEqualTo(2);
+        assertThat(subscription.at("/notification/failsCounter").asInt()).isEqualTo(2);
         assertThat(subscription.path("notification").has("lastFailure")).isTrue();
         assertThat(subscription.path("notification").has("lastSuccess")).isFalse();
         assertThat(subscription.path("status").asText()).isEqualTo("inactive");
