@@ -14,9 +14,9 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.AfterBroadcast;
+import io.furrow.analytics.EachEvent;
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.TestEnvironment;
-import io.furrow.analytics.EachEvent;
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.job.JobCommandLine;

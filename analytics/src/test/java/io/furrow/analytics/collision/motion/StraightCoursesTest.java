@@ -12,10 +12,10 @@ import io.furrow.analytics.collision.encounter.Phase;
 import io.furrow.analytics.collision.rules.CollisionRules;
 import io.furrow.analytics.position.PositionFix;
 
+import static io.furrow.analytics.collision.Worlds.place;
 import static io.furrow.analytics.collision.motion.Courses.CENTRES;
 import static io.furrow.analytics.collision.motion.Courses.START;
 import static io.furrow.analytics.collision.motion.Courses.fix;
-import static io.furrow.analytics.collision.Worlds.place;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Machines on great circles at a steady speed, stepped through in small steps, against what was notified of their reports. */
