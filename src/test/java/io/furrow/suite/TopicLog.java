@@ -12,35 +12,25 @@ import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
+import io.furrow.kafka.CommittedReader;
 import io.furrow.launcher.suite.Suite;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
 /** Reads a topic from its beginning, again and again: each call returns all that is there by then. */
 final class TopicLog implements AutoCloseable {
-    private final KafkaConsumer<byte[], byte[]> consumer;
+    private final CommittedReader<byte[]> reader;
     private final String topic;
     private final List<ConsumerRecord<byte[], byte[]>> seen = new ArrayList<>();
 
     TopicLog(Suite suite, String topic) {
-        Properties properties = suite.kafka().clientProperties();
-        properties.setProperty("isolation.level", "read_committed");
-        properties.setProperty("auto.offset.reset", "earliest");
-        this.consumer = new KafkaConsumer<>(properties, new ByteArrayDeserializer(), new ByteArrayDeserializer());
+        this.reader = CommittedReader.openBytes(suite.kafka().clientProperties(), topic);
         this.topic = topic;
     }
 
     List<ConsumerRecord<byte[], byte[]>> records() {
-        List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
-                .map(info -> new TopicPartition(topic, info.partition()))
-                .toList();
-        if (!consumer.assignment().containsAll(partitions)) {
-            consumer.assign(partitions);
-        }
-        Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
-        while (ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
-            consumer.poll(Duration.ofMillis(100)).forEach(seen::add);
-        }
+        reader.assign(List.of(topic));
+        reader.readToEnd(seen::add);
         return List.copyOf(seen);
     }
 
@@ -59,6 +49,6 @@ final class TopicLog implements AutoCloseable {
 
     @Override
     public void close() {
-        consumer.close();
+        reader.close();
     }
 }

@@ -130,7 +130,7 @@ class DashboardCommandsIT extends DashboardFixture {
 
     private static ConsumerRecord<String, String> last(String topic) {
         try (KafkaConsumer<String, String> consumer =
-                new KafkaConsumer<>(client(), new StringDeserializer(), new StringDeserializer())) {
+                new KafkaConsumer<>(kafka.client(), new StringDeserializer(), new StringDeserializer())) {
             List<TopicPartition> all = consumer.partitionsFor(topic).stream()
                     .map(each -> new TopicPartition(each.topic(), each.partition()))
                     .toList();

@@ -95,8 +95,7 @@ class LongEventStreamIT {
         Path tokens = directory.resolve("tokens");
         Files.writeString(tokens, "vera %s viewer%nolga %s operator%n".formatted(VERA, OLGA));
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory.resolve("kafka"))) {
-            Properties client = new Properties();
-            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            Properties client = kafka.client();
             kafka.createTopics(List.of(new NewTopic(TOPIC, Optional.of(1), Optional.empty())));
 
             try (RestApi api = RestApi.start(

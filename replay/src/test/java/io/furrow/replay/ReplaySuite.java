@@ -30,6 +30,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.bson.RawBsonDocument;
 
+import io.furrow.kafka.CommittedReader;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMongo;
@@ -66,7 +67,7 @@ final class ReplaySuite implements AutoCloseable {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
         flink = EmbeddedFlink.start(SLOTS, 0);
         documents = directory.resolve("mongo");
-        producer = new KafkaProducer<>(client(), new ByteArraySerializer(), new ByteArraySerializer());
+        producer = new KafkaProducer<>(kafka.client(), new ByteArraySerializer(), new ByteArraySerializer());
         startMongo();
         NewTopic topic = new NewTopic(Topics.REPLAYS, Optional.of(1), Optional.empty())
                 .configs(Map.of("cleanup.policy", "compact"));
@@ -75,10 +76,6 @@ final class ReplaySuite implements AutoCloseable {
 
     static ReplaySuite start(Path directory) throws Exception {
         return new ReplaySuite(directory);
-    }
-
-    private Map<String, Object> client() {
-        return Map.of("bootstrap.servers", kafka.bootstrapServers());
     }
 
     void startMongo() {
@@ -138,7 +135,7 @@ final class ReplaySuite implements AutoCloseable {
     }
 
     void delete(String topic) throws Exception {
-        try (Admin admin = Admin.create(client())) {
+        try (Admin admin = Admin.create(kafka.client())) {
             admin.deleteTopics(List.of(topic)).all().get();
         }
     }
@@ -155,19 +152,9 @@ final class ReplaySuite implements AutoCloseable {
 
     /** The committed records of a topic that is there, in the order of each partition. */
     List<ConsumerRecord<byte[], byte[]>> records(String topic) {
-        Map<String, Object> settings = new HashMap<>(client());
-        settings.putAll(Map.of("allow.auto.create.topics", "false", "isolation.level", "read_committed"));
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
-        try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
-            List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
-                    .map(info -> new TopicPartition(topic, info.partition()))
-                    .toList();
-            consumer.assign(partitions);
-            consumer.seekToBeginning(partitions);
-            Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
-            while (ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
-                consumer.poll(Duration.ofMillis(100)).forEach(records::add);
-            }
+        try (CommittedReader<byte[]> reader = CommittedReader.openBytes(kafka.client(), topic)) {
+            reader.readToEnd(records::add);
         }
         return records;
     }

@@ -6,7 +6,6 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
-import java.util.Properties;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
@@ -52,7 +51,7 @@ class ProvisionerIT {
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
         agent = FakeAgent.start();
-        producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+        producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
         createTopics();
     }
 
@@ -146,7 +145,7 @@ class ProvisionerIT {
         createTopics();
         int changes = agent.changes.size();
         try (Provisioner provisioner = provisioner();
-                CommittedReader<String> faults = CommittedReader.open(client(), Topics.FAULTS)) {
+                CommittedReader<String> faults = CommittedReader.open(kafka.client(), Topics.FAULTS)) {
             List<ConsumerRecord<String, byte[]>> records = new ArrayList<>();
             await().until(() -> {
                 faults.poll(Duration.ofMillis(100)).forEach(records::add);
@@ -187,7 +186,7 @@ class ProvisionerIT {
 
     /** It notes with its offset that the devices of this Kafka are those of the agent. */
     private void awaitThatRemovalIsAllowed() {
-        try (Admin admin = Admin.create(client())) {
+        try (Admin admin = Admin.create(kafka.client())) {
             await().until(() -> !admin.listConsumerGroupOffsets(ProvisioningWorker.GROUP)
                     .partitionsToOffsetAndMetadata()
                     .get()
@@ -201,7 +200,7 @@ class ProvisionerIT {
 
     private ProvisioningSettings settings(boolean forgets) {
         return new ProvisioningSettings(
-                client(),
+                kafka.client(),
                 DesiredDeviceFixture.SCOPE,
                 SecretSource.of(DesiredDeviceFixture.SECRET),
                 AgentSettings.at(agent.uri()).withInterval(Duration.ofSeconds(1)),
@@ -224,36 +223,15 @@ class ProvisionerIT {
         producer.flush();
     }
 
-    private Map<String, DeviceStatus> statuses() {
-        Map<String, DeviceStatus> statuses = new java.util.HashMap<>();
-        List<Exception> unreadable = new ArrayList<>();
-        try (KafkaConsumer<String, byte[]> consumer =
-                new KafkaConsumer<>(client(), new StringDeserializer(), new ByteArrayDeserializer())) {
-            TopicPartition all = new TopicPartition(Topics.DEVICES_STATUS, 0);
-            consumer.assign(List.of(all));
-            consumer.seekToBeginning(List.of(all));
-            long end = consumer.endOffsets(List.of(all)).get(all);
-            while (consumer.position(all) < end) {
-                consumer.poll(Duration.ofMillis(100)).forEach(record -> {
-                    try {
-                        statuses.put(record.key(), DeviceStatus.read(record.value()));
-                    } catch (Exception e) {
-                        unreadable.add(e);
-                    }
-                });
-            }
+    private Map<String, DeviceStatus> statuses() throws Exception {
+        Map<String, DeviceStatus> statuses = new HashMap<>();
+        try (CommittedReader<String> reader = CommittedReader.open(kafka.client(), Topics.DEVICES_STATUS)) {
+            reader.readToEnd(record -> statuses.put(record.key(), DeviceStatus.read(record.value())));
         }
-        assertThat(unreadable).isEmpty();
         return statuses;
     }
 
     private static NewTopic topic(String name) {
         return new NewTopic(name, Optional.of(1), Optional.empty()).configs(Map.of("cleanup.policy", "compact"));
-    }
-
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
     }
 }

@@ -9,7 +9,6 @@ import java.time.ZoneId;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.NewTopic;
@@ -66,9 +65,9 @@ class RotationIT {
         agent = open(broker.connect(AGENT, "agent").subscribe("#"));
         old = FarmSecret.generate();
         file = Files.writeString(directory.resolve("secret"), FarmSecretCodec.write(old));
-        secret = SecretFile.open(file, new SecretTopic(client(), null), clock);
+        secret = SecretFile.open(file, new SecretTopic(kafka.client(), null), clock);
         open(Provisioner.start(new ProvisioningSettings(
-                client(),
+                kafka.client(),
                 DesiredDeviceFixture.SCOPE,
                 secret,
                 AgentSettings.at(iotAgent.uri()),
@@ -151,18 +150,12 @@ class RotationIT {
 
     private void put(DesiredDevice... devices) {
         try (KafkaProducer<String, byte[]> producer =
-                new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer())) {
+                new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer())) {
             for (DesiredDevice device : devices) {
                 producer.send(
                         new ProducerRecord<>(Topics.DEVICES, device.version().key(), device.toBytes()));
             }
         }
-    }
-
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
     }
 
     private <T extends AutoCloseable> T open(T part) {

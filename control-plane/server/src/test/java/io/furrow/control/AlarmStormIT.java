@@ -9,7 +9,6 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
@@ -69,7 +68,7 @@ class AlarmStormIT {
     @BeforeEach
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
-        producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+        producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
         hook = server();
         hook.createContext("/", exchange -> {
             JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
@@ -132,7 +131,7 @@ class AlarmStormIT {
                     report("urn:ngsi-ld:Thermometer:m-" + i, "Thermometer");
                 }
                 producer.flush();
-                return new TopicContent(client(), Topics.DEVICES_HEALTH)
+                return new TopicContent(kafka.client(), Topics.DEVICES_HEALTH)
                                 .newest()
                                 .size()
                         > DEVICES;
@@ -155,7 +154,7 @@ class AlarmStormIT {
     }
 
     private long silent() {
-        return new TopicContent(client(), Topics.DEVICES_HEALTH)
+        return new TopicContent(kafka.client(), Topics.DEVICES_HEALTH)
                 .newest().values().stream()
                         .filter(health -> new String(health, UTF_8).contains("\"silent\":true"))
                         .count();
@@ -212,11 +211,5 @@ class AlarmStormIT {
                 .number("distance", 12)
                 .number("dcpa", 0.5);
         producer.send(new ProducerRecord<>(Topics.COLLISION, first + "-" + second, entity.toBytes()));
-    }
-
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
     }
 }

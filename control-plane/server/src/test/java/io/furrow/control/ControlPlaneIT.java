@@ -261,7 +261,7 @@ class ControlPlaneIT {
                 await().atMost(TIMEOUT)
                         .until(() -> answers(Topics.DOMAIN_MANAGER).size() == 2);
             }
-            try (Admin admin = Admin.create(client())) {
+            try (Admin admin = Admin.create(kafka.client())) {
                 await().atMost(TIMEOUT)
                         .ignoreExceptions()
                         .until(() -> admin.deleteConsumerGroups(List.of(ControlSettings.APPLICATION))
@@ -325,7 +325,7 @@ class ControlPlaneIT {
     }
 
     private KafkaProducer<String, byte[]> producer() {
-        return new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+        return new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
     }
 
     private List<CommandResult> answers() throws Exception {
@@ -344,29 +344,13 @@ class ControlPlaneIT {
         return answers;
     }
 
-    /** All that is committed. */
     private List<ConsumerRecord<String, byte[]>> records(String topic) {
-        Properties settings = client();
-        settings.setProperty("isolation.level", "read_committed");
-        try (KafkaConsumer<String, byte[]> consumer =
-                new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
-            List<TopicPartition> all = consumer.partitionsFor(topic).stream()
-                    .map(each -> new TopicPartition(each.topic(), each.partition()))
-                    .toList();
-            consumer.assign(all);
-            consumer.seekToBeginning(all);
-            Map<TopicPartition, Long> ends = consumer.endOffsets(all);
-            List<ConsumerRecord<String, byte[]>> records = new ArrayList<>();
-            while (all.stream().anyMatch(one -> consumer.position(one) < ends.get(one))) {
-                consumer.poll(Duration.ofMillis(100)).forEach(records::add);
-            }
-            return records;
-        }
+        return new TopicContent(kafka.client(), topic).records();
     }
 
     private String policy(String topic) throws Exception {
         ConfigResource resource = new ConfigResource(ConfigResource.Type.TOPIC, topic);
-        try (Admin admin = Admin.create(client())) {
+        try (Admin admin = Admin.create(kafka.client())) {
             return admin.describeConfigs(List.of(resource))
                     .all()
                     .get()
@@ -374,11 +358,5 @@ class ControlPlaneIT {
                     .get("cleanup.policy")
                     .value();
         }
-    }
-
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
     }
 }

@@ -8,7 +8,6 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
-import java.util.Properties;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpServer;
@@ -60,7 +59,7 @@ class FarmWatchIT {
     @BeforeEach
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
-        producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+        producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
         hook = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
         hook.createContext("/", exchange -> {
             JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
@@ -269,12 +268,6 @@ class FarmWatchIT {
     }
 
     private List<ConsumerRecord<String, byte[]>> records(String topic) {
-        return new TopicContent(client(), topic).records();
-    }
-
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
+        return new TopicContent(kafka.client(), topic).records();
     }
 }

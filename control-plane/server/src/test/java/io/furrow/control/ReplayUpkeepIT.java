@@ -79,8 +79,7 @@ class ReplayUpkeepIT {
                 Map.of(
                         "authorizer.class.name", "org.apache.kafka.metadata.authorizer.StandardAuthorizer",
                         "allow.everyone.if.no.acl.found", "true")));
-        client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        client = kafka.client();
         client.setProperty("state.dir", directory.resolve("state").toString());
         ServiceTopics.prepare(ControlSettings.of(client));
         producer = opened(new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer()));

@@ -36,8 +36,7 @@ class StreamsApplicationIT {
     @Test
     void startsAgainAfterAClientHasEnded(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory.resolve("kafka"))) {
-            Properties client = new Properties();
-            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            Properties client = kafka.client();
             client.setProperty("state.dir", directory.resolve("state").toString());
             ControlSettings settings = ControlSettings.of(client);
             ServiceTopics.prepare(settings);

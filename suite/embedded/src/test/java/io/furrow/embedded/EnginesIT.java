@@ -43,7 +43,7 @@ class EnginesIT {
     }
 
     private static Admin admin(EmbeddedKafka kafka) {
-        return Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()));
+        return Admin.create(kafka.client());
     }
 
     private static String get(URI uri) throws Exception {

@@ -143,8 +143,7 @@ class RestApiPartsIT {
     }
 
     private ControlSettings settings() {
-        Properties settings = new Properties();
-        settings.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties settings = kafka.client();
         settings.setProperty("state.dir", directory.resolve("state").toString());
         return ControlSettings.of(settings);
     }

@@ -134,8 +134,7 @@ class RestApiTlsIT {
     }
 
     private void start(CertificateFiles files) throws IOException {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties client = kafka.client();
         api = RestApi.start(
                 ControlSettings.of(client),
                 RestSettings.on(0).withCertificate(files),

@@ -84,8 +84,7 @@ public final class RunningApi implements AutoCloseable {
     }
 
     public ControlSettings settings() {
-        Properties settings = new Properties();
-        settings.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties settings = kafka.client();
         settings.setProperty("state.dir", directory.resolve("state").toString());
         return ControlSettings.of(settings);
     }

@@ -35,7 +35,7 @@ class DeadLetterSinkIT {
     @Test
     void makesTheTopicAsTheJobMakesItsTopicsAndShortensWhatItDoesNotTake(@TempDir Path directory) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory);
-                Admin admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()))) {
+                Admin admin = Admin.create(kafka.client())) {
             AtomicReference<JobOptions> options = new AtomicReference<>();
             TestJob.run(options::set, "copy", "--bootstrap-servers", kafka.bootstrapServers());
             Map<String, String> reasons = Map.of(DeadLetter.REASON, "refused", DeadLetter.MESSAGE, "why");

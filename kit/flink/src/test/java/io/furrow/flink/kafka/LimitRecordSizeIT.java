@@ -58,7 +58,7 @@ class LimitRecordSizeIT {
     @BeforeAll
     static void start() {
         kafka = EmbeddedKafka.start(directory);
-        admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()));
+        admin = Admin.create(kafka.client());
     }
 
     @Test
@@ -262,8 +262,7 @@ class LimitRecordSizeIT {
     }
 
     private static LimitRecordSize writable(Properties producer, LongSupplier nanoTime) {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties client = kafka.client();
         Properties all = new Properties();
         all.setProperty("max.request.size", Integer.toString(KafkaConnectors.MAX_REQUEST_BYTES));
         all.putAll(producer);

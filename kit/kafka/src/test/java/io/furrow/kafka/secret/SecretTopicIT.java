@@ -6,7 +6,6 @@ import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
-import java.util.Properties;
 import java.util.concurrent.CyclicBarrier;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
@@ -48,7 +47,7 @@ class SecretTopicIT {
 
     @BeforeEach
     void makeAFarmWithoutASecret() throws Exception {
-        try (Admin admin = Admin.create(client())) {
+        try (Admin admin = Admin.create(kafka.client())) {
             if (admin.listTopics().names().get().contains(Topics.SECRETS)) {
                 admin.deleteTopics(List.of(Topics.SECRETS)).all().get();
                 await().until(() -> !admin.listTopics().names().get().contains(Topics.SECRETS));
@@ -163,12 +162,6 @@ class SecretTopicIT {
     }
 
     private SecretTopic topic(String replaced) {
-        return new SecretTopic(client(), replaced);
-    }
-
-    private Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
+        return new SecretTopic(kafka.client(), replaced);
     }
 }

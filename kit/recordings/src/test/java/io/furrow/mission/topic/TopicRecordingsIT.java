@@ -60,7 +60,7 @@ class TopicRecordingsIT {
     @BeforeAll
     static void start() {
         kafka = EmbeddedKafka.start(log);
-        admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()));
+        admin = Admin.create(kafka.client());
     }
 
     @Test

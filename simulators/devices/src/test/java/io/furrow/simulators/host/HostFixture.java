@@ -7,7 +7,6 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
-import java.util.Properties;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.atomic.AtomicLong;
 
@@ -24,6 +23,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 
+import io.furrow.kafka.CommittedReader;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMqtt;
 import io.furrow.fiware.FiwareSettings;
@@ -51,7 +51,7 @@ final class HostFixture implements AutoCloseable {
 
     final Map<String, String> passwords = new ConcurrentHashMap<>(Map.of("farmer", "plough"));
     final FiwareStandIn fiware;
-    private final EmbeddedKafka kafka;
+    final EmbeddedKafka kafka;
     private final EmbeddedMqtt mqtt;
     private final KafkaProducer<String, byte[]> producer;
     private final AtomicLong sequence = new AtomicLong();
@@ -60,21 +60,15 @@ final class HostFixture implements AutoCloseable {
         kafka = EmbeddedKafka.start(directory);
         mqtt = EmbeddedMqtt.start(passwords);
         fiware = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "farmer", "plough"));
-        producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+        producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
         kafka.createTopics(List.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS, Topics.SECRETS).stream()
                 .map(topic -> new NewTopic(topic, 1, (short) 1).configs(Map.of("cleanup.policy", "compact")))
                 .toList());
     }
 
-    Properties client() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-        return client;
-    }
-
     HostSettings settings() {
         return HostSettings.of(
-                client(),
+                kafka.client(),
                 new MqttAccess(mqtt.uri(), null, 1),
                 URI.create(fiware.contextBroker().toString()),
                 () -> secret);
@@ -153,17 +147,9 @@ final class HostFixture implements AutoCloseable {
     /** As the topic has them at its end. */
     Map<String, DeviceStatus> statuses() throws Exception {
         Map<String, DeviceStatus> newest = new HashMap<>();
-        TopicPartition partition = new TopicPartition(Topics.DEVICES_STATUS, 0);
-        try (KafkaConsumer<String, byte[]> consumer =
-                new KafkaConsumer<>(client(), new StringDeserializer(), new ByteArrayDeserializer())) {
-            consumer.assign(List.of(partition));
-            consumer.seekToBeginning(List.of(partition));
-            long end = consumer.endOffsets(List.of(partition)).get(partition);
-            while (consumer.position(partition) < end) {
-                for (ConsumerRecord<String, byte[]> each : consumer.poll(Duration.ofMillis(100))) {
-                    newest.put(each.key(), each.value() == null ? null : DeviceStatus.read(each.value()));
-                }
-            }
+        try (CommittedReader<String> reader = CommittedReader.openExisting(kafka.client(), Topics.DEVICES_STATUS)) {
+            reader.readToEnd(
+                    each -> newest.put(each.key(), each.value() == null ? null : DeviceStatus.read(each.value())));
         }
         return newest;
     }

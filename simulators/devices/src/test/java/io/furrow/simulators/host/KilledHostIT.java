@@ -132,7 +132,7 @@ class KilledHostIT {
                 bench.settings().mqtt().broker().toString(),
                 "--farm-secret",
                 secret.toString());
-        builder.environment().put("FURROW_KAFKA", bench.client().getProperty("bootstrap.servers"));
+        builder.environment().put("FURROW_KAFKA", bench.kafka.bootstrapServers());
         builder.environment()
                 .put("FURROW_CONTEXT_BROKER", bench.fiware.contextBroker().toString());
         Process process = builder.redirectErrorStream(true)

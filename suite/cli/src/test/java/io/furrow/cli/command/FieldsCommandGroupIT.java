@@ -57,8 +57,7 @@ class FieldsCommandGroupIT {
     }
 
     private static FieldsTopic topic() {
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties client = kafka.client();
         return new FieldsTopic(client);
     }
 

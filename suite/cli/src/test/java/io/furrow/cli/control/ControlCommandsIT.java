@@ -56,8 +56,7 @@ class ControlCommandsIT {
     @BeforeAll
     static void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
-        Properties client = new Properties();
-        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        Properties client = kafka.client();
         ControlSettings settings = ControlSettings.of(client);
         plane = ControlPlane.start(settings);
         Path tokens = Files.writeString(directory.resolve("tokens"), "ann a-token-of-some-length admin\n");

@@ -235,8 +235,7 @@ class ReplayWatchTest {
     @Test
     void requestsNoPlaceBeforeAReplayHasReportedWhereItIs() throws Exception {
         ReplayKeys keys = new ReplayKeys();
-        JsonNode requested =
-                read("{\"replay\":\"m.0a1b2c3d\",\"speed\":1,\"wanted\":\"running\"}");
+        JsonNode requested = read("{\"replay\":\"m.0a1b2c3d\",\"speed\":1,\"wanted\":\"running\"}");
 
         for (String key : List.of("left", "]", "l", "m")) {
             assertThat(keys.press(key, requested)).as(key).isEmpty();
@@ -298,8 +297,8 @@ class ReplayWatchTest {
         assertThat(keys.press("l", json("running")).orElseThrow().body())
                 .containsEntry("from", 1_777_600_030_000L)
                 .containsEntry("to", 1_777_600_045_000L);
-        JsonNode looping = read(replay("running")
-                .replace("\"mission\"", "\"range\":{\"from\":1,\"to\":2},\"mission\""));
+        JsonNode looping =
+                read(replay("running").replace("\"mission\"", "\"range\":{\"from\":1,\"to\":2},\"mission\""));
         assertRequest(keys.press("l", looping), "loop, body={}");
     }
 

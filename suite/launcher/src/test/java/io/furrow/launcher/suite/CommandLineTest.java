@@ -71,7 +71,8 @@ class CommandLineTest {
         try (ServerSocket taken = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
             String port = Integer.toString(taken.getLocalPort());
 
-            assertThat(refusal("up", "--kafka-port", "0", "--connect-port", "0", "--flink-port", port).trim())
+            assertThat(refusal("up", "--kafka-port", "0", "--connect-port", "0", "--flink-port", port)
+                            .trim())
                     .isEqualTo("Port " + port
                             + " of 127.0.0.1, meant for Flink's web UI, is in use. Stop what listens there, "
                             + "or choose another with --flink-port.");
@@ -96,7 +97,8 @@ class CommandLineTest {
     void rejectsOnePortForTwoParts() {
         String port = Integer.toString(FreePort.orFree(0));
 
-        assertThat(refusal(upOnPorts(port, port))).startsWith("Port " + port + " of 127.0.0.1, meant for the MQTT broker");
+        assertThat(refusal(upOnPorts(port, port)))
+                .startsWith("Port " + port + " of 127.0.0.1, meant for the MQTT broker");
     }
 
     @Test
@@ -104,17 +106,18 @@ class CommandLineTest {
         String silent = "127.0.0.1:" + FreePort.orFree(0);
 
         assertThat(refusal(with(
-                        upOnFreePorts(directory.resolve("data")),
-                        "--orion",
-                        "http://" + silent,
-                        "--iot-agent",
-                        "http://no-such-host.invalid:4041",
-                        "--mqtt",
-                        "tcp://" + silent,
-                        "--mongo",
-                        "mongodb://me:s3cret@" + silent,
-                        "--kafka",
-                        silent)).lines())
+                                upOnFreePorts(directory.resolve("data")),
+                                "--orion",
+                                "http://" + silent,
+                                "--iot-agent",
+                                "http://no-such-host.invalid:4041",
+                                "--mqtt",
+                                "tcp://" + silent,
+                                "--mongo",
+                                "mongodb://me:s3cret@" + silent,
+                                "--kafka",
+                                silent))
+                        .lines())
                 .containsExactly(
                         "--orion http://%s: the context broker does not answer there (Connection refused). Start it, or name another address."
                                 .formatted(silent),
@@ -146,7 +149,9 @@ class CommandLineTest {
                 "--mongo x|--mongo: ",
             })
     void rejectsWhatCannotWorkOrIsOpenToAnybody(String options, String sentence) {
-        assertThat(refusal(with(upOnFreePorts(directory), options.split(" ")))).startsWith(sentence).hasLineCount(1);
+        assertThat(refusal(with(upOnFreePorts(directory), options.split(" "))))
+                .startsWith(sentence)
+                .hasLineCount(1);
     }
 
     @Test
@@ -188,7 +193,13 @@ class CommandLineTest {
     })
     void namesItOfAPartThatRunsAloneToo(String command, String option) throws Exception {
         try (ServerSocket taken = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
-            assertThat(refusal(with(command.split(" "), "--kafka", "127.0.0.1:1", option, Integer.toString(taken.getLocalPort()))).trim())
+            assertThat(refusal(with(
+                                    command.split(" "),
+                                    "--kafka",
+                                    "127.0.0.1:1",
+                                    option,
+                                    Integer.toString(taken.getLocalPort())))
+                            .trim())
                     .startsWith("Port %d of 127.0.0.1, meant for ".formatted(taken.getLocalPort()))
                     .endsWith("or choose another with %s.".formatted(option))
                     .hasLineCount(1);
@@ -209,13 +220,17 @@ class CommandLineTest {
     void rejectsSettingsOfAnIotAgentThatCannotBeRight(String first, String second, String sentence) {
         for (String command :
                 List.of("up", "control-plane --kafka 127.0.0.1:1 --farm-secret x --log " + directory.resolve("log"))) {
-            assertThat(refusal(with(command.split(" "), first, second))).contains(sentence).hasLineCount(1);
+            assertThat(refusal(with(command.split(" "), first, second)))
+                    .contains(sentence)
+                    .hasLineCount(1);
         }
     }
 
     @Test
     void rejectsAnIotAgentWithoutItsContextBroker() {
-        assertThat(refusal("up", "--iot-agent=http://127.0.0.1:4041")).startsWith("--iot-agent needs --orion").hasLineCount(1);
+        assertThat(refusal("up", "--iot-agent=http://127.0.0.1:4041"))
+                .startsWith("--iot-agent needs --orion")
+                .hasLineCount(1);
     }
 
     @ParameterizedTest
@@ -286,7 +301,9 @@ class CommandLineTest {
 
     @Test
     void rejectsAnUnknownOptionInOneSentence() {
-        assertThat(refusal("demo", "--orin", "x")).contains("Unknown options: '--orin', 'x'").contains("furrow demo --help");
+        assertThat(refusal("demo", "--orin", "x"))
+                .contains("Unknown options: '--orin', 'x'")
+                .contains("furrow demo --help");
     }
 
     @ParameterizedTest
@@ -307,14 +324,16 @@ class CommandLineTest {
     void refusesToStartWithAWebhookSecretThatIsNone() throws Exception {
         Path tooShort = Files.writeString(directory.resolve("short"), "short\n");
         String[] common = {"control-plane", "--kafka", "127.0.0.1:1"};
-        assertThat(refusal(with(common, "--webhook-secret", tooShort.toString()))).contains("name that too");
-        assertThat(refusal(
-                        with(common, "--webhook", "https://example.com/x", "--webhook-secret", tooShort.toString()))).contains("--webhook-secret: " + tooShort, "holds no secret", "openssl rand");
+        assertThat(refusal(with(common, "--webhook-secret", tooShort.toString())))
+                .contains("name that too");
+        assertThat(refusal(with(common, "--webhook", "https://example.com/x", "--webhook-secret", tooShort.toString())))
+                .contains("--webhook-secret: " + tooShort, "holds no secret", "openssl rand");
     }
 
     @Test
     void rejectsShareOfSilentDevicesThatIsNone() {
-        assertThat(refusal("control-plane", "--kafka", "127.0.0.1:1", "--silent-share", "0")).contains("--silent-share", "0.0");
+        assertThat(refusal("control-plane", "--kafka", "127.0.0.1:1", "--silent-share", "0"))
+                .contains("--silent-share", "0.0");
     }
 
     /** What it says of a command line that it does not carry out. */
