@@ -47,8 +47,7 @@ class MissionsIT {
                     .createTopics(List.of(new NewTopic(Topics.realtime("north"), Optional.empty(), Optional.empty())))
                     .all()
                     .get();
-            try (MissionStart start =
-                    new MissionStart(suite.control(), suite.kafka().clientProperties(), "north")) {
+            try (var start = new MissionStart(suite.control(), suite.kafka().clientProperties(), "north")) {
                 MissionStart.Delays delays =
                         start.run(new MissionStart.Plan("hoeing", DEVICES, Duration.ofSeconds(1)), TIMEOUT);
                 reporter.publishEntry("mission of 100 devices", delays.toString());

@@ -23,6 +23,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.kafka.CommittedReader;
 import io.furrow.analytics.collision.CollisionJob;
 import io.furrow.analytics.collision.CollisionOptions;
 import io.furrow.analytics.presence.PresenceJob;
@@ -153,21 +154,11 @@ class LargeRecordsIT {
 
     /** All records of a topic, as soon as it is there with so many. */
     private static List<ConsumerRecord<byte[], byte[]>> awaitRecords(EmbeddedKafka kafka, String topic, int atLeast) {
-        Map<String, Object> settings = Map.of(
-                "bootstrap.servers", kafka.bootstrapServers(),
-                "auto.offset.reset", "earliest",
-                "allow.auto.create.topics", "false");
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
-        try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
-            await().alias(topic).pollInSameThread().until(() -> {
-                List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
-                        .map(info -> new TopicPartition(topic, info.partition()))
-                        .toList();
-                if (consumer.assignment().size() != partitions.size()) {
-                    consumer.assign(partitions);
-                }
-                if (!partitions.isEmpty()) {
-                    consumer.poll(Duration.ofMillis(100)).forEach(records::add);
+        try (CommittedReader<byte[]> reader = CommittedReader.openBytes(kafka.client(), topic)) {
+            await().alias(topic).until(() -> {
+                if (reader.assign(List.of(topic))) {
+                    reader.poll(Duration.ofMillis(100)).forEach(records::add);
                 }
                 return records.size() >= atLeast;
             });

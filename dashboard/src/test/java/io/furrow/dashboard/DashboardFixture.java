@@ -192,8 +192,7 @@ abstract class DashboardFixture {
     }
 
     static long ends(String topic) {
-        try (KafkaConsumer<String, String> consumer =
-                new KafkaConsumer<>(kafka.client(), new StringDeserializer(), new StringDeserializer())) {
+        try (var consumer = new KafkaConsumer<>(kafka.client(), new StringDeserializer(), new StringDeserializer())) {
             List<TopicPartition> all = consumer.partitionsFor(topic).stream()
                     .map(each -> new TopicPartition(each.topic(), each.partition()))
                     .toList();

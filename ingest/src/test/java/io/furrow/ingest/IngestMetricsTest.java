@@ -42,8 +42,7 @@ class IngestMetricsTest {
         JobCommandLine.of(options).parseArgs("--images", images.toUri().toString());
         TopicRecord weeding = report("a", 0, "weeding");
         TopicRecord sowing = report("b", 0, "sowing");
-        TopicRecord garbage =
-                new TopicRecord("data.raw", 0, 7, TIME, new byte[] {1}, new byte[] {'{'}, new HashMap<>());
+        var garbage = new TopicRecord("data.raw", 0, 7, TIME, new byte[] {1}, new byte[] {'{'}, new HashMap<>());
 
         TopicRecord broken = camera("c", "sowing", "no picture");
         TopicRecord whole = camera("d", "weeding", Base64.getEncoder().encodeToString(Pictures.png(1)));

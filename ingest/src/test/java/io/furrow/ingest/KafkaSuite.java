@@ -30,6 +30,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.awaitility.core.ConditionTimeoutException;
 
+import io.furrow.kafka.CommittedReader;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.job.JobCommandLine;
@@ -54,10 +55,9 @@ final class KafkaSuite implements AutoCloseable {
     private KafkaSuite(EmbeddedKafka kafka, EmbeddedFlink flink) {
         this.kafka = kafka;
         this.flink = flink;
-        Map<String, Object> client = Map.of("bootstrap.servers", kafka.bootstrapServers());
         this.producer =
                 new KafkaProducer<>(kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer());
-        this.admin = Admin.create(client);
+        this.admin = Admin.create(kafka.client());
     }
 
     static KafkaSuite start(Path directory) {
@@ -137,25 +137,13 @@ final class KafkaSuite implements AutoCloseable {
         producer.flush();
         assertThat(unwritten).as("a record that was not written").isNull();
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
-        Map<String, Object> settings = Map.of(
-                "bootstrap.servers", kafka.bootstrapServers(),
-                "auto.offset.reset", "earliest",
-                "allow.auto.create.topics", "false",
-                "isolation.level", "read_committed");
-        try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
+        try (CommittedReader<byte[]> reader = CommittedReader.openBytes(kafka.client(), topic)) {
             await().atMost(TIMEOUT).until(() -> {
-                List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
-                        .map(info -> new TopicPartition(topic, info.partition()))
-                        .toList();
-                if (partitions.isEmpty()) {
-                    return false;
-                }
-                if (consumer.assignment().size() != partitions.size()) {
-                    consumer.assign(partitions);
-                }
-                for (ConsumerRecord<byte[], byte[]> record : consumer.poll(Duration.ofMillis(100))) {
-                    if (counts.test(record)) {
-                        records.add(record);
+                if (reader.assign(List.of(topic))) {
+                    for (ConsumerRecord<byte[], byte[]> record : reader.poll(Duration.ofMillis(100))) {
+                        if (counts.test(record)) {
+                            records.add(record);
+                        }
                     }
                 }
                 return records.size() >= atLeast;

@@ -61,8 +61,7 @@ final class Marks {
         farm.page().getByPlaceholder("Find a device, field or alarm").fill("thermometer mark");
         Properties properties = suite.running().suite().kafka().clientProperties();
         List<Long> sent = new ArrayList<>();
-        try (KafkaProducer<byte[], byte[]> producer =
-                new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
+        try (var producer = new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
             produce(producer, 0);
             assertThat(farm.card(ID)).containsText("0 °C");
             farm.run(WATCH, List.of(ID, PLACES));

@@ -62,8 +62,7 @@ final class PageSuite implements AutoCloseable {
     void produce(String topic, String key, byte[] value, Instant time) throws Exception {
         Properties properties = running.suite().kafka().clientProperties();
         properties.setProperty("max.request.size", "10000000");
-        try (KafkaProducer<byte[], byte[]> producer =
-                new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
+        try (var producer = new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
             producer.send(new ProducerRecord<>(topic, null, time.toEpochMilli(), key.getBytes(UTF_8), value))
                     .get();
         }

@@ -67,8 +67,7 @@ class CollisionRestartTest extends RestartContract {
         @Override
         public DataStream<TopicRecord> define(
                 StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) {
-            TopicRecord nobody =
-                    new TopicRecord(Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of());
+            var nobody = new TopicRecord(Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(UTF_8), null, Map.of());
             DataStream<TopicRecord> devices = env.fromData(List.of(nobody), TypeInformation.of(TopicRecord.class))
                     .uid("read-devices")
                     .setParallelism(1);

@@ -149,8 +149,7 @@ class RotationIT {
     }
 
     private void put(DesiredDevice... devices) {
-        try (KafkaProducer<String, byte[]> producer =
-                new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer())) {
+        try (var producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer())) {
             for (DesiredDevice device : devices) {
                 producer.send(
                         new ProducerRecord<>(Topics.DEVICES, device.version().key(), device.toBytes()));

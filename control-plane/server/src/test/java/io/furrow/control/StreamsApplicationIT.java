@@ -42,8 +42,7 @@ class StreamsApplicationIT {
             ServiceTopics.prepare(settings);
             try (StreamsApplication application =
                             StreamsApplication.start("application", this::topology, settings.streams());
-                    KafkaProducer<String, byte[]> producer =
-                            new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
+                    var producer = new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
                 await().atMost(TIMEOUT).until(application::isHealthy);
                 producer.send(new ProducerRecord<>(Topics.DOMAINS, "north", new byte[1]));
 

@@ -41,8 +41,7 @@ class AccessTest {
 
     @Test
     void refusesOtherHostsAndPagesCountsThemAndSaysWhatToSet() throws IOException {
-        try (NotificationRig rig =
-                new NotificationRig("public.url", PUBLIC_URL, "allowed.origins", "https://map.example.org")) {
+        try (var rig = new NotificationRig("public.url", PUBLIC_URL, "allowed.origins", "https://map.example.org")) {
             assertThat(post(rig, "Host: evil.example:8090"))
                     .startsWith("HTTP/1.1 403 ")
                     .endsWith(

@@ -158,8 +158,7 @@ class RestAccessIT {
     private static String request(Api api, String requestLine, String headers, String body) throws IOException {
         String length = body.isEmpty() ? "" : "Content-Length: " + body.length() + "\r\n";
         String request = requestLine + " HTTP/1.1\r\nConnection: close\r\n" + headers + "\r\n" + length + "\r\n" + body;
-        try (Socket socket =
-                new Socket(InetAddress.getLoopbackAddress(), api.uri().getPort())) {
+        try (var socket = new Socket(InetAddress.getLoopbackAddress(), api.uri().getPort())) {
             socket.setSoTimeout(TIMEOUT_MS);
             socket.getOutputStream().write(request.getBytes(US_ASCII));
             return new String(socket.getInputStream().readAllBytes(), UTF_8);

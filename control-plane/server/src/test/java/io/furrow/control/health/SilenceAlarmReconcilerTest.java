@@ -55,8 +55,7 @@ class SilenceAlarmReconcilerTest {
     }
 
     private SilenceAlarmReconciler silent() {
-        SilenceAlarmReconciler silence =
-                new SilenceAlarmReconciler(HealthOptions.DEFAULT, alarms, key -> Optional.empty());
+        var silence = new SilenceAlarmReconciler(HealthOptions.DEFAULT, alarms, key -> Optional.empty());
         for (int i = 0; i < 5; i++) {
             String id = "urn:t:" + i;
             silence.put(

@@ -51,8 +51,7 @@ class TimelineIT {
         }
         Properties producing = new Properties();
         producing.putAll(running.settings().client());
-        try (KafkaProducer<String, byte[]> producer =
-                new KafkaProducer<>(producing, new StringSerializer(), new ByteArraySerializer())) {
+        try (var producer = new KafkaProducer<>(producing, new StringSerializer(), new ByteArraySerializer())) {
             for (String mission : List.of("hoeing", "deleted")) {
                 producer.send(new ProducerRecord<>(
                         Topics.RECORDINGS, mission, new RecordedMission(mission, TIME, TIME + 9_999).toBytes()));

@@ -64,8 +64,7 @@ class AlignedInputIT {
         long begin = System.currentTimeMillis() - 10 * HOUR;
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
             Map<String, Object> client = Map.of("bootstrap.servers", kafka.bootstrapServers());
-            try (KafkaConsumer<String, String> consumer =
-                    new KafkaConsumer<>(client, new StringDeserializer(), new StringDeserializer())) {
+            try (var consumer = new KafkaConsumer<>(client, new StringDeserializer(), new StringDeserializer())) {
                 producer = new KafkaProducer<>(
                         kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer());
                 kafka.createTopics(List.of(new NewTopic("in", 2, (short) 1), new NewTopic("out", 1, (short) 1)));

@@ -192,8 +192,7 @@ class KafkaConnectorsIT {
     private static void write(String topic, List<Copied> records) {
         Map<String, Object> settings =
                 Map.of("bootstrap.servers", bootstrapServers, "max.in.flight.requests.per.connection", 1);
-        try (KafkaProducer<byte[], byte[]> producer =
-                new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
+        try (var producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
             for (Copied each : records) {
                 var record = new ProducerRecord<>(topic, null, each.timestamp(), utf8(each.key()), utf8(each.value()));
                 each.headers().forEach((name, text) -> record.headers().add(name, utf8(text)));
@@ -209,8 +208,7 @@ class KafkaConnectorsIT {
                 "auto.offset.reset", "earliest",
                 "metadata.max.age.ms", "500",
                 "isolation.level", "read_committed");
-        KafkaConsumer<byte[], byte[]> consumer =
-                new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer());
+        var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer());
         consumer.subscribe(List.of(topic));
         return consumer;
     }

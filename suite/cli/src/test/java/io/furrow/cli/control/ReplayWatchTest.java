@@ -187,8 +187,7 @@ class ReplayWatchTest {
     /** What happens while a replay is watched there, until q ends it. */
     private void inATerminal(String replay, ThrowingConsumer<ExternalTerminal> typing) throws Exception {
         ControlApi api = new ControlApi(api(), null);
-        try (ExternalTerminal terminal =
-                        new ExternalTerminal("test", "ansi", new PipedInputStream(keyboard), screen, UTF_8);
+        try (var terminal = new ExternalTerminal("test", "ansi", new PipedInputStream(keyboard), screen, UTF_8);
                 ReplayEvents status = new ReplayEvents(api, PATH, read(replay))) {
             terminal.setSize(new Size(60, 20));
             status.start();
