@@ -3,6 +3,7 @@ package io.furrow.analytics.temperature;
 import java.nio.file.Path;
 import java.time.Duration;
 
+import org.assertj.core.api.ThrowableAssert.ThrowingCallable;
 import org.junit.jupiter.api.Test;
 import picocli.CommandLine.ParameterException;
 
@@ -40,24 +41,15 @@ class TemperatureOptionsTest {
     @Test
     void refuseWindowsThatDoNotFitTheirSlide() {
         assertThat(options(FIELDS, "--slide", "20s").slide()).isEqualTo(Duration.ofSeconds(20));
-        assertThatThrownBy(() -> options(FIELDS, "--slide", "25s").slide())
-                .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--slide must be a whole part of --window");
+        assertRefused(() -> options(FIELDS, "--slide", "25s").slide(), "--slide must be a whole part of --window");
         assertThat(options(FIELDS, "--window", "1d", "--slide", "1min").slide()).isEqualTo(Duration.ofMinutes(1));
-        assertThatThrownBy(() ->
-                        options(FIELDS, "--window", "1d", "--slide", "1ms").slide())
-                .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--slide puts each reading into more than 1440 windows");
+        assertRefused(() -> options(FIELDS, "--window", "1d", "--slide", "1ms").slide(), "--slide puts each reading into more than 1440 windows");
     }
 
     @Test
     void refuseWhatIsNoLengthOfTime() {
-        assertThatThrownBy(() -> options(FIELDS, "--window", "0s").window())
-                .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--window must be longer than 0");
-        assertThatThrownBy(() -> options(FIELDS, "--suspect-floor", "-1").suspectFloor())
-                .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--suspect-floor must be 0 or");
+        assertRefused(() -> options(FIELDS, "--window", "0s").window(), "--window must be longer than 0");
+        assertRefused(() -> options(FIELDS, "--suspect-floor", "-1").suspectFloor(), "--suspect-floor must be 0 or");
     }
 
     @Test
@@ -73,9 +65,7 @@ class TemperatureOptionsTest {
     void nameTheJobAfterAnyOtherAttribute() {
         assertThat(options(FIELDS, "--attribute", "soilMoisture").jobName()).isEqualTo("temperature-soilMoisture");
         assertThat(options(FIELDS, "--attribute", "soil:moisture").jobName()).isEqualTo("temperature-soil.moisture");
-        assertThatThrownBy(() -> options(FIELDS, "--attribute", "soil moisture").attribute())
-                .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--attribute must be 1 to 40 of");
+        assertRefused(() -> options(FIELDS, "--attribute", "soil moisture").attribute(), "--attribute must be 1 to 40 of");
     }
 
     @Test
@@ -95,5 +85,9 @@ class TemperatureOptionsTest {
         assertThatThrownBy(() -> TemperatureJob.assemble(options(Path.of("no.geojson"))))
                 .isInstanceOf(ParameterException.class)
                 .hasMessage("--fields no.geojson: cannot be read; name a readable GeoJSON file");
+    }
+
+    private static void assertRefused(ThrowingCallable option, String reason) {
+        assertThatThrownBy(option).isInstanceOf(ParameterException.class).hasMessageContaining(reason);
     }
 }
