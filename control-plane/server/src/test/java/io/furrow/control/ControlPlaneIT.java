@@ -12,6 +12,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.Properties;
 import java.util.Set;
+import java.util.concurrent.Callable;
 import java.util.stream.Collectors;
 
 import org.apache.kafka.clients.admin.Admin;
@@ -25,6 +26,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
+import org.awaitility.Awaitility;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
@@ -47,7 +49,6 @@ import io.furrow.model.topic.Topics;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
-import static org.awaitility.Awaitility.await;
 
 class ControlPlaneIT {
     private static final int GROUPS = 10;
@@ -85,8 +86,7 @@ class ControlPlaneIT {
                 create(producer, i); // as a client does that has heard nothing
                 if (i == ANSWERED_BEFORE_THE_KILL) {
                     producer.flush();
-                    await().atMost(TIMEOUT)
-                            .until(() -> answers(Topics.DOMAIN_MANAGER).size() > ANSWERED_BEFORE_THE_KILL);
+                    await(() -> answers(Topics.DOMAIN_MANAGER).size() > ANSWERED_BEFORE_THE_KILL);
                 } else if (i == SENT_BEFORE_THE_KILL) {
                     producer.flush();
                     first.destroyForcibly().waitFor(); // with requests under way
@@ -95,13 +95,13 @@ class ControlPlaneIT {
             }
             producer.flush();
             run("second", 0); // knows nothing but what is in Kafka
-            await().atMost(TIMEOUT).until(() -> answers(Topics.DOMAIN_MANAGER).size() >= REQUESTS);
+            await(() -> answers(Topics.DOMAIN_MANAGER).size() >= REQUESTS);
 
             // Whatever was answered twice would be answered by then.
             producer.send(new ProducerRecord<>(
                     Topics.DOMAIN_MANAGER, Requests.write("last", new DomainCommand.Delete("nosuch", false))));
             producer.flush();
-            await().atMost(TIMEOUT).until(() -> answers(Topics.DOMAIN_MANAGER).size() > REQUESTS);
+            await(() -> answers(Topics.DOMAIN_MANAGER).size() > REQUESTS);
         }
 
         List<CommandResult> answers = answers(Topics.DOMAIN_MANAGER);
@@ -126,14 +126,14 @@ class ControlPlaneIT {
                 replay(producer, i);
                 if (i == ANSWERED_BEFORE_THE_KILL / 2) {
                     producer.flush();
-                    await().atMost(TIMEOUT).until(() -> answers().size() == 2 * (ANSWERED_BEFORE_THE_KILL / 2 + 1));
+                    await(() -> answers().size() == 2 * (ANSWERED_BEFORE_THE_KILL / 2 + 1));
                 } else if (i == SENT_BEFORE_THE_KILL / 2) {
                     producer.flush();
                     first.destroyForcibly().waitFor();
                 }
             }
             producer.flush();
-            await().atMost(TIMEOUT).until(() -> answers().size() >= REQUESTS);
+            await(() -> answers().size() >= REQUESTS);
         }
 
         Set<String> ids = new HashSet<>();
@@ -157,7 +157,7 @@ class ControlPlaneIT {
                 group(producer, i);
             }
             producer.flush();
-            await().atMost(TIMEOUT).until(() -> answers(Topics.REPLAY_MANAGER).size() == GROUPS);
+            await(() -> answers(Topics.REPLAY_MANAGER).size() == GROUPS);
             for (CommandResult answer : answers(Topics.REPLAY_MANAGER)) {
                 groups.add(answer.json().path("group").asText());
             }
@@ -174,7 +174,7 @@ class ControlPlaneIT {
             }
             producer.flush();
             int requested = GROUPS + commands;
-            await().atMost(TIMEOUT).until(() -> answers(Topics.REPLAY_MANAGER).size() >= requested);
+            await(() -> answers(Topics.REPLAY_MANAGER).size() >= requested);
         }
 
         assertThat(answers(Topics.REPLAY_MANAGER))
@@ -233,15 +233,15 @@ class ControlPlaneIT {
         ControlPlane first = plane(one);
         try (KafkaProducer<String, byte[]> producer = producer();
                 ControlPlane second = plane(two)) {
-            await().atMost(TIMEOUT).until(() -> first.isHealthy() && second.isHealthy());
+            await(() -> first.isHealthy() && second.isHealthy());
             create(producer, 0);
-            await().atMost(TIMEOUT).until(() -> answers(Topics.DOMAIN_MANAGER).size() == 1);
+            await(() -> answers(Topics.DOMAIN_MANAGER).size() == 1);
             first.close();
             producer.send(new ProducerRecord<>(
                     Topics.MISSION_MANAGER,
                     Requests.write(
                             "m", new MissionCommand.Start("m", "d-0", new MissionPlan.Unspecified(), null, null))));
-            await().atMost(TIMEOUT).until(() -> answers(Topics.MISSION_MANAGER).size() == 1);
+            await(() -> answers(Topics.MISSION_MANAGER).size() == 1);
             assertThat(answers(Topics.MISSION_MANAGER).get(0).status()).isEqualTo("created");
             assertThat(second.isHealthy()).isTrue();
         } finally {
@@ -258,11 +258,10 @@ class ControlPlaneIT {
                 assertThat(plane.state()).isNotEqualTo("ERROR");
                 send(producer, null, new DomainCommand.Create("north", DomainDetails.NONE));
                 send(producer, null, new DomainCommand.Delete("north", false));
-                await().atMost(TIMEOUT)
-                        .until(() -> answers(Topics.DOMAIN_MANAGER).size() == 2);
+                await(() -> answers(Topics.DOMAIN_MANAGER).size() == 2);
             }
             try (Admin admin = Admin.create(kafka.client())) {
-                await().atMost(TIMEOUT)
+                Awaitility.await().atMost(TIMEOUT)
                         .ignoreExceptions()
                         .until(() -> admin.deleteConsumerGroups(List.of(ControlSettings.APPLICATION))
                                         .all()
@@ -272,8 +271,7 @@ class ControlPlaneIT {
             try (ControlPlane plane = plane(state)) {
                 assertThat(plane.state()).isNotEqualTo("ERROR");
                 send(producer, "last", new DomainCommand.Delete("nosuch", false));
-                await().atMost(TIMEOUT)
-                        .until(() -> answers(Topics.DOMAIN_MANAGER).stream()
+                await(() -> answers(Topics.DOMAIN_MANAGER).stream()
                                 .anyMatch(answer -> answer.requestId().equals(Optional.of("last"))));
             }
         }
@@ -291,8 +289,7 @@ class ControlPlaneIT {
         ServiceTopics.prepare(ControlPlaneProcess.settings(kafka.bootstrapServers(), directory.toString()));
         ServiceTopics.prepare(ControlPlaneProcess.settings(kafka.bootstrapServers(), directory.toString()));
 
-        await().atMost(TIMEOUT)
-                .until(() -> policy(Topics.DEVICES).equals("compact")
+        await(() -> policy(Topics.DEVICES).equals("compact")
                         && policy(Topics.MISSIONS_STATUS).equals("compact")
                         && policy(Topics.MISSION_MANAGER).equals("delete"));
     }
@@ -358,5 +355,9 @@ class ControlPlaneIT {
                     .get("cleanup.policy")
                     .value();
         }
+    }
+
+    private static void await(Callable<Boolean> condition) {
+        Awaitility.await().atMost(TIMEOUT).until(condition);
     }
 }

@@ -8,6 +8,7 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
+import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpServer;
@@ -16,6 +17,7 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
+import org.awaitility.Awaitility;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
@@ -38,7 +40,6 @@ import io.furrow.model.topic.Topics;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
-import static org.awaitility.Awaitility.await;
 
 /** The farm watch against a real Kafka, with a webhook that does not always answer. */
 class FarmWatchIT {
@@ -89,18 +90,18 @@ class FarmWatchIT {
         try (FarmWatch watch = watch("one")) {
             assertThat(watch.state()).isNotEqualTo("ERROR");
             addDesired();
-            await().atMost(TIMEOUT).until(() -> {
+            await(() -> {
                 report();
                 return !records(Topics.DEVICES_HEALTH).isEmpty()
                         && newest(Topics.DEVICES_HEALTH).path("lastSeen").isIntegralNumber();
             });
-            await().atMost(TIMEOUT).until(() -> state("silent-device").equals("open"));
-            await().atMost(TIMEOUT).until(() -> !posted.isEmpty());
-            await().atMost(TIMEOUT).until(() -> {
+            await(() -> state("silent-device").equals("open"));
+            await(() -> !posted.isEmpty());
+            await(() -> {
                 report();
                 return state("silent-device").equals("closed");
             });
-            await().atMost(TIMEOUT).until(() -> posted.size() >= 2);
+            await(() -> posted.size() >= 2);
         }
         assertThat(posted)
                 .extracting(alarm -> alarm.path("id").asText())
@@ -114,10 +115,10 @@ class FarmWatchIT {
         hookIsUp = false;
         try (FarmWatch watch = watch("one")) {
             encounter("started");
-            await().atMost(TIMEOUT).until(() -> state("collision").equals("open"));
+            await(() -> state("collision").equals("open"));
             encounter("ended");
-            await().atMost(TIMEOUT).until(() -> state("collision").equals("closed"));
-            await().atMost(TIMEOUT).until(() -> watch.workers().get(0).detail().contains("it responded with 503"));
+            await(() -> state("collision").equals("closed"));
+            await(() -> watch.workers().get(0).detail().contains("it responded with 503"));
             assertThat(watch.workers())
                     .extracting(ComponentStatus::name, ComponentStatus::state)
                     .containsExactly(
@@ -128,13 +129,13 @@ class FarmWatchIT {
         }
         hookIsUp = true;
         try (FarmWatch watch = watch("two")) {
-            await().atMost(TIMEOUT).until(() -> !posted.isEmpty());
-            await().atMost(TIMEOUT).until(() -> watch.workers().get(0).lastSuccess() != null);
+            await(() -> !posted.isEmpty());
+            await(() -> watch.workers().get(0).lastSuccess() != null);
         }
         assertThat(posted).extracting(alarm -> alarm.path("id").asText()).containsExactly("collision-1:2");
         try (FarmWatch watch = watch("three")) {
             encounter("started");
-            await().atMost(TIMEOUT).until(() -> posted.size() > 1);
+            await(() -> posted.size() > 1);
             assertThat(watch.workers().get(0).detail()).contains("0 rejected");
         }
         assertThat(posted)
@@ -149,13 +150,13 @@ class FarmWatchIT {
         try (FarmWatch watch = watch("one")) {
             assertThat(watch.state()).isNotEqualTo("ERROR");
             addDesired();
-            await().atMost(TIMEOUT).until(() -> {
+            await(() -> {
                 report();
                 return !records(Topics.DEVICES_HEALTH).isEmpty()
                         && newest(Topics.DEVICES_HEALTH).path("type").asText().equals("ROBOT");
             });
             predict();
-            await().atMost(TIMEOUT).until(() -> audited().size() == 2);
+            await(() -> audited().size() == 2);
         }
         assertThat(audited())
                 .satisfiesExactlyInAnyOrder(
@@ -169,14 +170,12 @@ class FarmWatchIT {
             predict();
             producer.send(new ProducerRecord<>(
                     Topics.ALARM_MANAGER, Requests.write("r", new AlarmCommand.Acknowledge(alarm, "ann"))));
-            await().atMost(TIMEOUT)
-                    .until(() -> audited().stream()
+            await(() -> audited().stream()
                                     .filter(entry -> entry.contains("somebody"))
                                     .count()
                             == 2); // so it has seen the prediction
-            await().atMost(TIMEOUT).until(() -> state("predicted-encounter").equals("acknowledged"));
-            await().atMost(TIMEOUT)
-                    .until(() -> posted.stream()
+            await(() -> state("predicted-encounter").equals("acknowledged"));
+            await(() -> posted.stream()
                             .anyMatch(each -> each.path("change").asText().equals("acknowledged")));
         }
         assertThat(sent).hasSize(1);
@@ -187,16 +186,16 @@ class FarmWatchIT {
     void goesOnWhereAnotherInstanceLeaves() throws Exception {
         try (FarmWatch second = watch("two")) {
             try (FarmWatch first = watch("one")) {
-                await().atMost(TIMEOUT).until(() -> first.isHealthy() && second.isHealthy());
+                await(() -> first.isHealthy() && second.isHealthy());
                 addDesired();
-                await().atMost(TIMEOUT).until(() -> {
+                await(() -> {
                     report();
                     return !records(Topics.DEVICES_HEALTH).isEmpty()
                             && newest(Topics.DEVICES_HEALTH).path("lastSeen").isIntegralNumber();
                 });
-                await().atMost(TIMEOUT).until(() -> state("silent-device").equals("open"));
+                await(() -> state("silent-device").equals("open"));
             }
-            await().atMost(TIMEOUT).until(() -> {
+            await(() -> {
                 report();
                 return state("silent-device").equals("closed");
             });
@@ -269,5 +268,9 @@ class FarmWatchIT {
 
     private List<ConsumerRecord<String, byte[]>> records(String topic) {
         return new TopicContent(kafka.client(), topic).records();
+    }
+
+    private static void await(Callable<Boolean> condition) {
+        Awaitility.await().atMost(TIMEOUT).until(condition);
     }
 }
