@@ -17,14 +17,13 @@ import io.furrow.soak.control.Http;
 import io.furrow.soak.control.Until;
 
 /** A Connect worker that runs the NGSI source with one task; it can be killed and started again. */
-final class SourceWorker implements AutoCloseable {
+final class SourceWorker extends WorkerProcess {
     static final String CONNECTOR = "ngsi-source";
 
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
 
     private final Path folder;
     private final boolean exactlyOnce;
-    private final WorkerProcess process;
     private final int port = FreePort.orFree(0);
 
     /**
@@ -32,9 +31,9 @@ final class SourceWorker implements AutoCloseable {
      * @param settings of the worker, {@code name=value}, other than Connect's own
      */
     SourceWorker(Path folder, String bootstrapServers, boolean exactlyOnce, String... settings) {
+        super(folder, bootstrapServers, Map.of(), settings(exactlyOnce, settings));
         this.folder = folder;
         this.exactlyOnce = exactlyOnce;
-        process = new WorkerProcess(folder, bootstrapServers, Map.of(), settings(exactlyOnce, settings));
     }
 
     /** Of a worker for this kind of delivery. */
@@ -63,14 +62,9 @@ final class SourceWorker implements AutoCloseable {
         return config;
     }
 
-    /** Starts the process; it finds the connector if that was created before. */
-    void start() throws IOException {
-        process.start();
-    }
-
     /** Creates or changes the source as soon as the worker takes it; returns when it takes notifications. */
     void createSource() {
-        process.createConnector(
+        createConnector(
                 CONNECTOR,
                 config(exactlyOnce)
                         .put("tasks.max", "1")
@@ -100,25 +94,5 @@ final class SourceWorker implements AutoCloseable {
 
     int port() {
         return port;
-    }
-
-    /** @see WorkerProcess#residentMib */
-    long residentMib() throws IOException {
-        return process.residentMib();
-    }
-
-    /** @see WorkerProcess#peakResidentMib */
-    long peakResidentMib() throws IOException {
-        return process.peakResidentMib();
-    }
-
-    /** Ends it as {@code kill -9} does. */
-    void kill() throws InterruptedException {
-        process.kill();
-    }
-
-    @Override
-    public void close() {
-        process.close();
     }
 }

@@ -18,7 +18,7 @@ import io.furrow.soak.control.JavaProcess;
 import io.furrow.soak.control.Until;
 
 /** A distributed Connect worker in a process of its own; it can be killed, stopped in order and started again. */
-final class WorkerProcess implements AutoCloseable {
+class WorkerProcess implements AutoCloseable {
     private static final Duration TIMEOUT = Duration.ofSeconds(120);
 
     private final Path folder;
