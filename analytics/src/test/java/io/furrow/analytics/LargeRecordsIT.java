@@ -11,19 +11,15 @@ import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.header.Header;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.kafka.CommittedReader;
 import io.furrow.analytics.collision.CollisionJob;
 import io.furrow.analytics.collision.CollisionOptions;
 import io.furrow.analytics.presence.PresenceJob;
@@ -34,6 +30,7 @@ import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
+import io.furrow.kafka.CommittedReader;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.OriginalReference;

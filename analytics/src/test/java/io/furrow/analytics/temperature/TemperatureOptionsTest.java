@@ -43,7 +43,9 @@ class TemperatureOptionsTest {
         assertThat(options(FIELDS, "--slide", "20s").slide()).isEqualTo(Duration.ofSeconds(20));
         assertRefused(() -> options(FIELDS, "--slide", "25s").slide(), "--slide must be a whole part of --window");
         assertThat(options(FIELDS, "--window", "1d", "--slide", "1min").slide()).isEqualTo(Duration.ofMinutes(1));
-        assertRefused(() -> options(FIELDS, "--window", "1d", "--slide", "1ms").slide(), "--slide puts each reading into more than 1440 windows");
+        assertRefused(
+                () -> options(FIELDS, "--window", "1d", "--slide", "1ms").slide(),
+                "--slide puts each reading into more than 1440 windows");
     }
 
     @Test
@@ -65,7 +67,8 @@ class TemperatureOptionsTest {
     void nameTheJobAfterAnyOtherAttribute() {
         assertThat(options(FIELDS, "--attribute", "soilMoisture").jobName()).isEqualTo("temperature-soilMoisture");
         assertThat(options(FIELDS, "--attribute", "soil:moisture").jobName()).isEqualTo("temperature-soil.moisture");
-        assertRefused(() -> options(FIELDS, "--attribute", "soil moisture").attribute(), "--attribute must be 1 to 40 of");
+        assertRefused(
+                () -> options(FIELDS, "--attribute", "soil moisture").attribute(), "--attribute must be 1 to 40 of");
     }
 
     @Test

@@ -280,7 +280,11 @@ public class FieldFilesTest {
         assertUnusable("{", "is not JSON");
         assertUnusable("{\"type\": \"Topology\"}", "not a GeoJSON FeatureCollection");
         assertUnusable(folder.resolve("missing"), PLAIN, "cannot be read");
-        assertUnusable(resource("farm.geojson"), named("cod"), "--id-property cod: no feature of", "[Domain, code, crop, height, name]");
+        assertUnusable(
+                resource("farm.geojson"),
+                named("cod"),
+                "--id-property cod: no feature of",
+                "[Domain, code, crop, height, name]");
         byte[] shp = Files.readAllBytes(resource("shapefile-25830.shp"));
         Path broken = Files.write(folder.resolve("broken.shp"), Arrays.copyOf(shp, shp.length - 40));
         assertUnusable(broken, PLAIN, "is truncated in record 2");

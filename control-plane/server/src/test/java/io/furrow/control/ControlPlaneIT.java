@@ -10,21 +10,16 @@ import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
-import java.util.Properties;
 import java.util.Set;
 import java.util.concurrent.Callable;
 import java.util.stream.Collectors;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.config.ConfigResource;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.awaitility.Awaitility;
 import org.junit.jupiter.api.AfterEach;
@@ -261,7 +256,8 @@ class ControlPlaneIT {
                 await(() -> answers(Topics.DOMAIN_MANAGER).size() == 2);
             }
             try (Admin admin = Admin.create(kafka.client())) {
-                Awaitility.await().atMost(TIMEOUT)
+                Awaitility.await()
+                        .atMost(TIMEOUT)
                         .ignoreExceptions()
                         .until(() -> admin.deleteConsumerGroups(List.of(ControlSettings.APPLICATION))
                                         .all()
@@ -272,7 +268,7 @@ class ControlPlaneIT {
                 assertThat(plane.state()).isNotEqualTo("ERROR");
                 send(producer, "last", new DomainCommand.Delete("nosuch", false));
                 await(() -> answers(Topics.DOMAIN_MANAGER).stream()
-                                .anyMatch(answer -> answer.requestId().equals(Optional.of("last"))));
+                        .anyMatch(answer -> answer.requestId().equals(Optional.of("last"))));
             }
         }
         assertThat(answers(Topics.DOMAIN_MANAGER)).hasSize(3);
@@ -290,8 +286,8 @@ class ControlPlaneIT {
         ServiceTopics.prepare(ControlPlaneProcess.settings(kafka.bootstrapServers(), directory.toString()));
 
         await(() -> policy(Topics.DEVICES).equals("compact")
-                        && policy(Topics.MISSIONS_STATUS).equals("compact")
-                        && policy(Topics.MISSION_MANAGER).equals("delete"));
+                && policy(Topics.MISSIONS_STATUS).equals("compact")
+                && policy(Topics.MISSION_MANAGER).equals("delete"));
     }
 
     private ControlPlane plane(Path state) throws Exception {

@@ -171,12 +171,12 @@ class FarmWatchIT {
             producer.send(new ProducerRecord<>(
                     Topics.ALARM_MANAGER, Requests.write("r", new AlarmCommand.Acknowledge(alarm, "ann"))));
             await(() -> audited().stream()
-                                    .filter(entry -> entry.contains("somebody"))
-                                    .count()
-                            == 2); // so it has seen the prediction
+                            .filter(entry -> entry.contains("somebody"))
+                            .count()
+                    == 2); // so it has seen the prediction
             await(() -> state("predicted-encounter").equals("acknowledged"));
             await(() -> posted.stream()
-                            .anyMatch(each -> each.path("change").asText().equals("acknowledged")));
+                    .anyMatch(each -> each.path("change").asText().equals("acknowledged")));
         }
         assertThat(sent).hasSize(1);
     }

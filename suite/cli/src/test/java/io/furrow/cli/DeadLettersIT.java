@@ -243,7 +243,8 @@ class DeadLettersIT {
         byte[] keyBytes = key == null ? null : key.getBytes(UTF_8);
         ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, TIME, keyBytes, value);
         headers.forEach((name, text) -> record.headers().add(name, text.getBytes(UTF_8)));
-        Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers(), "max.request.size", 4_000_000);
+        Map<String, Object> settings =
+                Map.of("bootstrap.servers", kafka.bootstrapServers(), "max.request.size", 4_000_000);
         try (var producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
             producer.send(record).get();
         } catch (InterruptedException | ExecutionException e) {
@@ -253,7 +254,8 @@ class DeadLettersIT {
 
     /** Also those whose transaction is committed, though its marker may still be on the way. */
     private static List<ConsumerRecord<byte[], byte[]>> recordsOf(String topic) {
-        Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers(), "auto.offset.reset", "earliest");
+        Map<String, Object> settings =
+                Map.of("bootstrap.servers", kafka.bootstrapServers(), "auto.offset.reset", "earliest");
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
         try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
             consumer.assign(consumer.partitionsFor(topic).stream()

@@ -193,8 +193,7 @@ class SilenceDetectorTest {
     void readsBatteriesAsDevicesAndRobotsReportThem() throws Exception {
         assertThat(level("battery", 0.8)).isEqualTo(0.8);
         assertThat(level("battery", 80)).isEqualTo(0.8);
-        assertThat(level("battery", "{%27percentage%27: 0.8}"))
-                .isEqualTo(0.8);
+        assertThat(level("battery", "{%27percentage%27: 0.8}")).isEqualTo(0.8);
         assertThat(level("battery", "80")).isEqualTo(0.8);
         assertThat(level("battery", "full")).isNull();
         assertThat(level("battery", "{}")).isNull();
