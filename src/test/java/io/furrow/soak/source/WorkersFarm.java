@@ -37,7 +37,7 @@ final class WorkersFarm implements AutoCloseable {
     private WorkersFarm(Path folder, int perSecond, boolean exactlyOnce) throws IOException {
         kafka = EmbeddedKafka.start(folder.resolve("kafka"));
         contextBroker = FiwareStandIn.start(FiwareSettings.httpOnly());
-        tap = NotificationTap.start();
+        tap = new NotificationTap();
         changes = EntityChanges.prepare(contextBroker.contextBroker(), ENTITIES, perSecond);
         group = new SourceGroup(folder, kafka.bootstrapServers(), exactlyOnce);
         createTopic();

@@ -38,7 +38,7 @@ class AgentResourceTest {
 
     @BeforeEach
     void start() throws IOException {
-        agent = FakeAgent.start();
+        agent = new FakeAgent();
         desired.take(device.version().key(), device);
     }
 

@@ -1,8 +1,6 @@
 package io.furrow.provisioner;
 
 import java.io.IOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
 import java.net.URLDecoder;
 import java.util.ArrayList;
@@ -19,9 +17,9 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
 
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.stub.StubServer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
@@ -60,7 +58,7 @@ final class FakeAgent implements AutoCloseable {
     /** Run at each request that changes something. */
     volatile Runnable onChange = () -> {};
 
-    private final HttpServer server;
+    private final StubServer server = new StubServer(this::handle);
     private final List<JsonNode> unfinished = new ArrayList<>();
 
     /** A refusal. */
@@ -77,19 +75,8 @@ final class FakeAgent implements AutoCloseable {
         }
     }
 
-    private FakeAgent(HttpServer server) {
-        this.server = server;
-    }
-
-    static FakeAgent start() throws IOException {
-        var agent = new FakeAgent(HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0));
-        agent.server.createContext("/", agent::handle);
-        agent.server.start();
-        return agent;
-    }
-
     URI uri() {
-        return URI.create("http://127.0.0.1:" + server.getAddress().getPort());
+        return server.uri("");
     }
 
     synchronized Set<String> deviceIds() {
@@ -115,7 +102,7 @@ final class FakeAgent implements AutoCloseable {
 
     @Override
     public void close() {
-        server.stop(0);
+        server.close();
     }
 
     private synchronized void handle(HttpExchange exchange) throws IOException {

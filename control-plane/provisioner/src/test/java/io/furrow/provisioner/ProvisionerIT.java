@@ -47,7 +47,7 @@ class ProvisionerIT {
     @BeforeEach
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
-        agent = FakeAgent.start();
+        agent = new FakeAgent();
         producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
         createTopics();
     }

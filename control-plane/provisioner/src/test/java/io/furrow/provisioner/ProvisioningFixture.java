@@ -52,7 +52,7 @@ abstract class ProvisioningFixture {
 
     @BeforeEach
     void start() throws IOException {
-        agent = FakeAgent.start();
+        agent = new FakeAgent();
         provisioning = provisioning();
     }
 

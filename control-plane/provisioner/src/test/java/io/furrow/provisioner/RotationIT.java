@@ -61,7 +61,7 @@ class RotationIT {
                 .map(topic -> new NewTopic(topic, 1, (short) 1).configs(Map.of("cleanup.policy", "compact")))
                 .toList());
         broker = open(new ProvisionedMosquitto(Files.createDirectory(directory.resolve("mosquitto"))));
-        iotAgent = open(FakeAgent.start());
+        iotAgent = open(new FakeAgent());
         agent = open(broker.connect(AGENT, "agent").subscribe("#"));
         old = FarmSecret.generate();
         file = Files.writeString(directory.resolve("secret"), FarmSecretCodec.write(old));

@@ -1,8 +1,5 @@
 package io.furrow.control;
 
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
-import java.net.URI;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -10,17 +7,15 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.CountDownLatch;
-import java.util.concurrent.ExecutorService;
-import java.util.concurrent.Executors;
 import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.sun.net.httpserver.HttpServer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -39,6 +34,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
+import io.furrow.stub.StubServer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -57,46 +53,40 @@ class AlarmStormIT {
     private final List<JsonNode> posted = Collections.synchronizedList(new ArrayList<>());
     private final List<Long> stopped = Collections.synchronizedList(new ArrayList<>());
     private final CountDownLatch hanging = new CountDownLatch(1);
-    private final ExecutorService threads = Executors.newCachedThreadPool();
     private EmbeddedKafka kafka;
     private KafkaProducer<String, byte[]> producer;
-    private HttpServer hook;
-    private HttpServer broker;
     private volatile boolean hangs;
     private volatile String failing = "";
+
+    @AutoClose
+    private final StubServer hook = new StubServer(exchange -> {
+        JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
+        if (hangs) {
+            awaitEnd();
+        }
+        boolean fails = alarm.path("kind").asText().equals(failing);
+        if (!fails) {
+            posted.add(alarm);
+        }
+        StubServer.answer(exchange, fails ? 500 : 204, "");
+    });
+
+    @AutoClose
+    private final StubServer broker = new StubServer(exchange -> {
+        stopped.add(System.nanoTime());
+        StubServer.answer(exchange, 204, "");
+    });
 
     @BeforeEach
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
         producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
-        hook = server();
-        hook.createContext("/", exchange -> {
-            JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
-            if (hangs) {
-                awaitEnd();
-            }
-            boolean fails = alarm.path("kind").asText().equals(failing);
-            if (!fails) {
-                posted.add(alarm);
-            }
-            exchange.sendResponseHeaders(fails ? 500 : 204, -1);
-            exchange.close();
-        });
-        broker = server();
-        broker.createContext("/", exchange -> {
-            stopped.add(System.nanoTime());
-            exchange.sendResponseHeaders(204, -1);
-            exchange.close();
-        });
     }
 
     @AfterEach
     void stop() {
         hanging.countDown();
         producer.close();
-        hook.stop(0);
-        broker.stop(0);
-        threads.shutdownNow();
         kafka.close();
     }
 
@@ -162,23 +152,12 @@ class AlarmStormIT {
 
     private FarmWatch watch() throws Exception {
         WatchOptions options = WatchOptions.DEFAULT
-                .with(Webhook.Settings.of(uri(hook)))
-                .with(StopRobots.Settings.of(new DeviceCommands(uri(broker), FiwareScope.DEFAULT, AccessToken.NONE)));
+                .with(Webhook.Settings.of(hook.uri("")))
+                .with(StopRobots.Settings.of(new DeviceCommands(broker.uri(""), FiwareScope.DEFAULT, AccessToken.NONE)));
         return FarmWatch.start(
                 ControlPlaneProcess.settings(
                         kafka.bootstrapServers(), directory.resolve("state").toString()),
                 options);
-    }
-
-    private HttpServer server() throws Exception {
-        HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        server.setExecutor(threads);
-        server.start();
-        return server;
-    }
-
-    private static URI uri(HttpServer server) {
-        return URI.create("http://127.0.0.1:" + server.getAddress().getPort());
     }
 
     private void awaitEnd() {

@@ -1,8 +1,5 @@
 package io.furrow.control;
 
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
-import java.net.URI;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -11,7 +8,6 @@ import java.util.List;
 import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.sun.net.httpserver.HttpServer;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
@@ -19,6 +15,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.awaitility.Awaitility;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -36,6 +33,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
+import io.furrow.stub.StubServer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -53,35 +51,31 @@ class FarmWatchIT {
     private final List<String> sent = Collections.synchronizedList(new ArrayList<>());
     private EmbeddedKafka kafka;
     private KafkaProducer<String, byte[]> producer;
-    private HttpServer hook;
     private volatile boolean hookIsUp = true;
     private WatchOptions options;
+
+    @AutoClose
+    private final StubServer hook = new StubServer(exchange -> {
+        JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
+        StubServer.answer(exchange, hookIsUp ? 204 : 503, "");
+        if (hookIsUp) {
+            posted.add(alarm);
+        }
+    });
 
     @BeforeEach
     void start() throws Exception {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
         producer = new KafkaProducer<>(kafka.client(), new StringSerializer(), new ByteArraySerializer());
-        hook = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        hook.createContext("/", exchange -> {
-            JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
-            exchange.sendResponseHeaders(hookIsUp ? 204 : 503, -1);
-            exchange.close();
-            if (hookIsUp) {
-                posted.add(alarm);
-            }
-        });
-        hook.start();
-        URI url = URI.create("http://127.0.0.1:" + hook.getAddress().getPort());
         options = WatchOptions.DEFAULT
                 .withCollisionHolds(Duration.ofSeconds(1))
-                .with(Webhook.Settings.of(url).withGroupWait(Duration.ZERO))
+                .with(Webhook.Settings.of(hook.uri("")).withGroupWait(Duration.ZERO))
                 .with(StopRobots.Settings.of((device, type, command, value) -> sent.add(device + " " + command)));
     }
 
     @AfterEach
     void stop() {
         producer.close();
-        hook.stop(0);
         kafka.close();
     }
 

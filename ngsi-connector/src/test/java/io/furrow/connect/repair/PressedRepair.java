@@ -2,9 +2,6 @@ package io.furrow.connect.repair;
 
 import java.io.IOException;
 import java.io.OutputStream;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
-import java.net.URI;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
@@ -16,7 +13,6 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
 
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.BrokerSettings;
@@ -31,6 +27,7 @@ import io.furrow.connect.subscription.Subject;
 import io.furrow.connect.subscription.Target;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.stub.StubServer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
@@ -50,11 +47,8 @@ final class PressedRepair {
 
     /** @param args a folder */
     public static void main(String[] args) throws Exception {
-        HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        server.createContext("/", PressedRepair::answer);
-        server.start();
-        BrokerClient client = new BrokerClient(BrokerSettings.of(
-                        URI.create("http://127.0.0.1:" + server.getAddress().getPort()), Duration.ofSeconds(60))
+        StubServer server = new StubServer(PressedRepair::answer);
+        BrokerClient client = new BrokerClient(BrokerSettings.of(server.uri(""), Duration.ofSeconds(60))
                 .withMaxAnswerBytes(16L * MIB));
         RecordTracker live = new RecordTracker(BOUND);
         int[] counts = new int[2];
@@ -99,7 +93,7 @@ final class PressedRepair {
             System.out.printf(
                     "known %d arrived %d%n", reconciler.knownEntities(), live.arrivedOf("ffffffffffffffffffffffff"));
         }
-        server.stop(0);
+        server.close();
     }
 
     private static void note(RecordTracker live, SubscriptionReconciler reconciler, String id) throws IOException {

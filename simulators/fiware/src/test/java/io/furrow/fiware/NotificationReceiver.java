@@ -1,23 +1,18 @@
 package io.furrow.fiware;
 
 import java.io.IOException;
-import java.io.UncheckedIOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
 import java.util.concurrent.CopyOnWriteArrayList;
-import java.util.concurrent.ExecutorService;
-import java.util.concurrent.Executors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.stub.StubServer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
@@ -37,21 +32,9 @@ public final class NotificationReceiver implements AutoCloseable {
         }
     }
 
-    private final HttpServer server;
-    private final ExecutorService threads = Executors.newCachedThreadPool();
+    private final StubServer server = new StubServer(this::receive);
     private final List<ReceivedNotification> received = new CopyOnWriteArrayList<>();
     private volatile int status = 200;
-
-    public NotificationReceiver() {
-        try {
-            server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        }
-        server.setExecutor(threads);
-        server.createContext("/", this::receive);
-        server.start();
-    }
 
     public NotificationReceiver answering(int other) {
         status = other;
@@ -59,7 +42,7 @@ public final class NotificationReceiver implements AutoCloseable {
     }
 
     public URI url(String path) {
-        return URI.create("http://127.0.0.1:" + server.getAddress().getPort() + path);
+        return server.uri(path);
     }
 
     public List<ReceivedNotification> received() {
@@ -72,8 +55,7 @@ public final class NotificationReceiver implements AutoCloseable {
 
     @Override
     public void close() {
-        server.stop(0);
-        threads.shutdownNow();
+        server.close();
     }
 
     private void receive(HttpExchange exchange) throws IOException {
@@ -82,7 +64,6 @@ public final class NotificationReceiver implements AutoCloseable {
         exchange.getRequestHeaders().forEach((name, values) -> headers.put(name, String.join(",", values)));
         received.add(new ReceivedNotification(
                 exchange.getRemoteAddress().getPort(), exchange.getRequestURI().toString(), headers, body));
-        exchange.sendResponseHeaders(status, -1);
-        exchange.close();
+        StubServer.answer(exchange, status, "");
     }
 }

@@ -1,19 +1,15 @@
 package io.furrow.control.readiness;
 
-import java.io.IOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
 import java.time.Clock;
 import java.time.Instant;
 import java.time.ZoneOffset;
 import java.util.concurrent.atomic.AtomicReference;
 
-import com.sun.net.httpserver.HttpServer;
 import org.apache.kafka.clients.producer.MockProducer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
-import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -21,8 +17,8 @@ import io.furrow.kafka.ComponentStatus;
 import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.control.Fault;
 import io.furrow.model.topic.Topics;
+import io.furrow.stub.StubServer;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
@@ -35,22 +31,18 @@ class ConnectorWatchTest {
     private final MockProducer<String, byte[]> producer =
             new MockProducer<>(true, null, new StringSerializer(), new ByteArraySerializer());
     private Instant now = Instant.parse("2026-03-01T08:00:00Z");
-    private HttpServer connect;
     private ConnectorWatch watch;
 
+    @AutoClose
+    private final StubServer connect = new StubServer(exchange -> {
+        boolean isAsked = exchange.getRequestURI().toString().equals("/connectors?expand=status");
+        StubServer.answer(exchange, isAsked ? 200 : 404, answer.get());
+    });
+
     @BeforeEach
-    void start() throws IOException {
-        connect = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        connect.createContext("/connectors", exchange -> {
-            byte[] body = answer.get().getBytes(UTF_8);
-            boolean isAsked = "expand=status".equals(exchange.getRequestURI().getQuery());
-            exchange.sendResponseHeaders(isAsked ? 200 : 404, body.length);
-            exchange.getResponseBody().write(body);
-            exchange.close();
-        });
-        connect.start();
+    void start() {
         watch = new ConnectorWatch(
-                URI.create("http://127.0.0.1:" + connect.getAddress().getPort() + "/"), producer, new Clock() {
+                connect.uri("/"), producer, new Clock() {
                     @Override
                     public Instant instant() {
                         return now;
@@ -66,11 +58,6 @@ class ConnectorWatchTest {
                         return this;
                     }
                 });
-    }
-
-    @AfterEach
-    void stop() {
-        connect.stop(0);
     }
 
     @Test

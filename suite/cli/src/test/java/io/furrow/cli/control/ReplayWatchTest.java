@@ -7,9 +7,6 @@ import java.io.PipedOutputStream;
 import java.io.PrintWriter;
 import java.io.StringWriter;
 import java.io.UncheckedIOException;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
-import java.net.URI;
 import java.time.Duration;
 import java.util.ArrayDeque;
 import java.util.Deque;
@@ -17,19 +14,16 @@ import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.BlockingQueue;
 import java.util.concurrent.CompletableFuture;
-import java.util.concurrent.Executors;
 import java.util.concurrent.LinkedBlockingQueue;
 import java.util.concurrent.atomic.AtomicInteger;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpExchange;
-import com.sun.net.httpserver.HttpServer;
 import org.assertj.core.api.ThrowingConsumer;
 import org.jline.terminal.Size;
 import org.jline.terminal.Terminal.Signal;
 import org.jline.terminal.impl.ExternalTerminal;
-import org.junit.jupiter.api.AfterEach;
-import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import picocli.CommandLine;
 import picocli.CommandLine.Model.CommandSpec;
@@ -37,6 +31,7 @@ import picocli.CommandLine.Model.CommandSpec;
 import io.furrow.cli.Commands;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.stub.StubServer;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -56,20 +51,9 @@ class ReplayWatchTest {
     private final PipedOutputStream keyboard = new PipedOutputStream();
     private final ByteArrayOutputStream screen = new ByteArrayOutputStream();
     private volatile boolean eventless;
-    private HttpServer control;
 
-    @BeforeEach
-    void start() throws Exception {
-        control = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        control.setExecutor(Executors.newCachedThreadPool());
-        control.createContext("/", this::answer);
-        control.start();
-    }
-
-    @AfterEach
-    void stop() {
-        control.stop(0);
-    }
+    @AutoClose
+    private final StubServer control = new StubServer(this::answer);
 
     private void answer(HttpExchange exchange) throws IOException {
         String path = exchange.getRequestURI().getPath();
@@ -94,9 +78,7 @@ class ReplayWatchTest {
             if (exchange.getRequestMethod().equals("POST")) {
                 requests.add(path + " " + new String(exchange.getRequestBody().readAllBytes(), UTF_8));
             }
-            byte[] json = replay("running").getBytes(UTF_8);
-            exchange.sendResponseHeaders(200, json.length);
-            exchange.getResponseBody().write(json);
+            StubServer.answer(exchange, 200, replay("running"));
         }
         exchange.close();
     }
@@ -107,10 +89,6 @@ class ReplayWatchTest {
 
     private static String event(String name, String data) {
         return ": a comment\nevent: %s\ndata: %s\n\n".formatted(name, data);
-    }
-
-    private URI api() {
-        return URI.create("http://127.0.0.1:" + control.getAddress().getPort());
     }
 
     @Test
@@ -146,7 +124,7 @@ class ReplayWatchTest {
         StringWriter output = new StringWriter();
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
         line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
-        assertThat(line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()))
+        assertThat(line.execute("replay", "watch", "m.0a1b2c3d", "--api", control.uri("").toString()))
                 .isZero();
         return output.toString();
     }
@@ -186,7 +164,7 @@ class ReplayWatchTest {
 
     /** What happens while a replay is watched there, until q ends it. */
     private void inATerminal(String replay, ThrowingConsumer<ExternalTerminal> typing) throws Exception {
-        ControlApi api = new ControlApi(api(), null);
+        ControlApi api = new ControlApi(control.uri(""), null);
         try (var terminal = new ExternalTerminal("test", "ansi", new PipedInputStream(keyboard), screen, UTF_8);
                 ReplayEvents status = new ReplayEvents(api, PATH, read(replay))) {
             terminal.setSize(new Size(60, 20));

@@ -2,8 +2,6 @@ package io.furrow.control.alarm.action;
 
 import java.io.IOException;
 import java.io.OutputStream;
-import java.net.InetAddress;
-import java.net.InetSocketAddress;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -15,15 +13,11 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 import java.util.concurrent.CountDownLatch;
-import java.util.concurrent.ExecutorService;
-import java.util.concurrent.Executors;
 import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.Headers;
-import com.sun.net.httpserver.HttpServer;
-import org.junit.jupiter.api.AfterEach;
-import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -34,6 +28,7 @@ import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.Cause;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.stub.StubServer;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -43,32 +38,25 @@ class WebhookTest {
 
     private final List<byte[]> posted = Collections.synchronizedList(new ArrayList<>());
     private final List<Headers> headers = Collections.synchronizedList(new ArrayList<>());
-    private final ExecutorService threads = Executors.newCachedThreadPool();
-    private HttpServer server;
     private int status = 204;
     private String retryAfter;
     private boolean endless;
     private final CountDownLatch cut = new CountDownLatch(1);
 
-    @BeforeEach
-    void listen() throws IOException {
-        server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
-        server.setExecutor(threads);
-        server.createContext("/hook", exchange -> {
-            posted.add(exchange.getRequestBody().readAllBytes());
-            headers.add(exchange.getRequestHeaders());
-            if (retryAfter != null) {
-                exchange.getResponseHeaders().add("Retry-After", retryAfter);
-            }
-            exchange.getResponseHeaders().add("Location", "/elsewhere");
-            exchange.sendResponseHeaders(status, endless ? 0 : -1);
-            if (endless) {
-                writeUntilItIsCut(exchange.getResponseBody());
-            }
-            exchange.close();
-        });
-        server.start();
-    }
+    @AutoClose
+    private final StubServer server = new StubServer(exchange -> {
+        posted.add(exchange.getRequestBody().readAllBytes());
+        headers.add(exchange.getRequestHeaders());
+        if (retryAfter != null) {
+            exchange.getResponseHeaders().add("Retry-After", retryAfter);
+        }
+        exchange.getResponseHeaders().add("Location", "/elsewhere");
+        exchange.sendResponseHeaders(status, endless ? 0 : -1);
+        if (endless) {
+            writeUntilItIsCut(exchange.getResponseBody());
+        }
+        exchange.close();
+    });
 
     private void writeUntilItIsCut(OutputStream body) {
         try {
@@ -78,12 +66,6 @@ class WebhookTest {
         } catch (IOException e) {
             cut.countDown();
         }
-    }
-
-    @AfterEach
-    void stop() {
-        server.stop(0);
-        threads.shutdownNow();
     }
 
     @Test
@@ -149,7 +131,7 @@ class WebhookTest {
     @Test
     void reportsThatNobodyListens() throws Exception {
         Webhook.Settings settings = settings();
-        server.stop(0);
+        server.close();
         assertThat(post(settings))
                 .returns(Webhook.Outcome.FAILED, Webhook.Answer::outcome)
                 .satisfies(answer -> assertThat(answer.reason()).isEqualTo("connection refused"));
@@ -164,8 +146,7 @@ class WebhookTest {
     }
 
     private Webhook.Settings settings() {
-        return Webhook.Settings.of(URI.create(
-                "http://127.0.0.1:%d/hook".formatted(server.getAddress().getPort())));
+        return Webhook.Settings.of(server.uri("/hook"));
     }
 
     private static Webhook.Answer post(Webhook.Settings settings) throws Exception {
