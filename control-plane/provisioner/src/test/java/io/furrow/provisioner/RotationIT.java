@@ -2,10 +2,8 @@ package io.furrow.provisioner;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Clock;
 import java.time.Duration;
 import java.time.Instant;
-import java.time.ZoneId;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
@@ -23,6 +21,7 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.clock.SettableClock;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.kafka.secret.SecretFile;
 import io.furrow.kafka.secret.SecretSource;
@@ -45,7 +44,7 @@ class RotationIT {
     private final DesiredDevice first = DesiredDeviceFixture.thermometer("hoeing", 1);
     private final DesiredDevice second = DesiredDeviceFixture.thermometer("hoeing", 2);
     private final List<AutoCloseable> open = new ArrayList<>();
-    private final MovedClock clock = new MovedClock();
+    private final SettableClock clock = new SettableClock(Instant.parse("2026-03-01T08:00:00Z"));
     private EmbeddedKafka kafka;
     private ProvisionedMosquitto broker;
     private FakeAgent iotAgent;
@@ -100,7 +99,7 @@ class RotationIT {
         open(broker.connect(old.device("hoeing", second.device()), "again"));
         assertThat(late.isConnected()).isTrue();
 
-        clock.move(ACCEPTED);
+        clock.pass(ACCEPTED);
 
         await().until(() -> !late.isConnected() && !moved.isConnected());
         assertThatThrownBy(() -> broker.connect(old.device("hoeing", second.device()), "too-late"))
@@ -160,29 +159,5 @@ class RotationIT {
     private <T extends AutoCloseable> T open(T part) {
         open.add(part);
         return part;
-    }
-
-    /** Continues only where a test moves it. */
-    private static final class MovedClock extends Clock {
-        private volatile Instant now = Instant.parse("2026-03-01T08:00:00Z");
-
-        void move(Duration time) {
-            now = now.plus(time);
-        }
-
-        @Override
-        public Instant instant() {
-            return now;
-        }
-
-        @Override
-        public ZoneId getZone() {
-            return ZoneId.of("Z");
-        }
-
-        @Override
-        public Clock withZone(ZoneId zone) {
-            return this;
-        }
     }
 }

@@ -24,6 +24,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.event.FiwareScope;
+import io.furrow.process.TestProcess;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -103,14 +104,14 @@ class BrokerOptionsTest {
     @ValueSource(strings = {"trust.p12", "trust.jks", "trust.pem"})
     void trustsTheCertificatesOfTheFileAndNoOthers(String file, @TempDir Path directory) throws Exception {
         Path key = directory.resolve("key.p12");
-        keytool("-genkeypair", "-alias", "b", "-keyalg", "EC", "-dname", "CN=127.0.0.1", "-ext", "san=ip:127.0.0.1")
+        keytool("-genkeypair -alias b -keyalg EC -dname CN=127.0.0.1 -ext san=ip:127.0.0.1")
                 .on(key);
         Path pem = directory.resolve("trust.pem");
-        keytool("-exportcert", "-alias", "b", "-rfc", "-file", pem.toString()).on(key);
+        keytool("-exportcert -alias b -rfc -file " + pem).on(key);
         Path trust = directory.resolve(file);
         if (!trust.equals(pem)) {
             String type = file.endsWith("jks") ? "JKS" : "PKCS12";
-            keytool("-importcert", "-noprompt", "-alias", "b", "-file", pem.toString(), "-storetype", type)
+            keytool("-importcert -noprompt -alias b -file " + pem + " -storetype " + type)
                     .on(trust);
         }
         HttpsServer server = httpsServer(key);
@@ -158,15 +159,9 @@ class BrokerOptionsTest {
         void on(Path store) throws IOException, InterruptedException;
     }
 
-    private static Keytool keytool(String... command) {
+    private static Keytool keytool(String words) {
         return store -> {
-            java.util.List<String> all = new java.util.ArrayList<>();
-            all.add(Path.of(System.getProperty("java.home"), "bin", "keytool").toString());
-            all.addAll(java.util.List.of(command));
-            all.addAll(java.util.List.of("-keystore", store.toString(), "-storepass", "secret"));
-            Process process = new ProcessBuilder(all).redirectErrorStream(true).start();
-            String said = new String(process.getInputStream().readAllBytes());
-            assertThat(process.waitFor()).as(said).isZero();
+            TestProcess.keytool(words + " -keystore " + store + " -storepass secret");
             assertThat(Files.exists(store)).isTrue();
         };
     }

@@ -5,6 +5,8 @@ import java.nio.file.Path;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.process.TestProcess;
+
 import static org.assertj.core.api.Assertions.assertThat;
 
 class JournalLockTest {
@@ -25,12 +27,7 @@ class JournalLockTest {
     }
 
     private String anotherProcess() throws Exception {
-        Process process = new ProcessBuilder(
-                        Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                        "-cp",
-                        System.getProperty("java.class.path"),
-                        JournalOpener.class.getName(),
-                        folder.toString())
+        Process process = TestProcess.java("-Xmx64m", JournalOpener.class, folder)
                 .redirectError(ProcessBuilder.Redirect.INHERIT)
                 .start();
         var lines = new String(process.getInputStream().readAllBytes()).lines().toList();

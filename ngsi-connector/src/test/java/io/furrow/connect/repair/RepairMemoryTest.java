@@ -7,6 +7,8 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.process.TestProcess;
+
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -15,14 +17,7 @@ class RepairMemoryTest {
     /** A page of 60 MiB, an entity that takes 300 MiB when it is read, 400,000 entities and as many forged subscriptions. */
     @Test
     void staysWithinItsBoundsOnASmallHeap(@TempDir Path directory) throws Exception {
-        Process repair = new ProcessBuilder(
-                        Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                        "-Xmx128m",
-                        "-XX:+ExitOnOutOfMemoryError",
-                        "-cp",
-                        System.getProperty("java.class.path"),
-                        PressedRepair.class.getName(),
-                        directory.toString())
+        Process repair = TestProcess.java("-Xmx128m -XX:+ExitOnOutOfMemoryError", PressedRepair.class, directory)
                 .redirectErrorStream(true)
                 .start();
         try {

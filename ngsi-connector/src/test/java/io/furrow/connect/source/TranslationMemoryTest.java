@@ -19,6 +19,8 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.process.TestProcess;
+
 import static java.nio.charset.StandardCharsets.US_ASCII;
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -34,14 +36,10 @@ class TranslationMemoryTest {
 
     @Test
     void staysWithinAHeapOf128MiBWhateverBodiesBecome(@TempDir Path directory) throws Exception {
-        Process source = new ProcessBuilder(
-                        Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                        "-Xmx128m",
-                        "-XX:+ExitOnOutOfMemoryError",
-                        "-cp",
-                        System.getProperty("java.class.path"),
-                        BlockedSource.class.getName(),
-                        directory.toString(),
+        Process source = TestProcess.java(
+                        "-Xmx128m -XX:+ExitOnOutOfMemoryError",
+                        BlockedSource.class,
+                        directory,
                         "max.body.bytes=" + LARGEST,
                         "max.pending.bytes=" + LARGEST,
                         "overload.memory.bytes=" + 2 * LARGEST,

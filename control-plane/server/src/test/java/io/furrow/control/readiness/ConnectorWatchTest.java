@@ -2,8 +2,8 @@ package io.furrow.control.readiness;
 
 import java.net.URI;
 import java.time.Clock;
+import java.time.Duration;
 import java.time.Instant;
-import java.time.ZoneOffset;
 import java.util.concurrent.atomic.AtomicReference;
 
 import org.apache.kafka.clients.producer.MockProducer;
@@ -13,6 +13,7 @@ import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.clock.SettableClock;
 import io.furrow.kafka.ComponentStatus;
 import io.furrow.kafka.SupervisedWorker;
 import io.furrow.model.control.Fault;
@@ -30,7 +31,7 @@ class ConnectorWatchTest {
     private final AtomicReference<String> answer = new AtomicReference<>();
     private final MockProducer<String, byte[]> producer =
             new MockProducer<>(true, null, new StringSerializer(), new ByteArraySerializer());
-    private Instant now = Instant.parse("2026-03-01T08:00:00Z");
+    private final SettableClock clock = new SettableClock(Instant.parse("2026-03-01T08:00:00Z"));
     private ConnectorWatch watch;
 
     @AutoClose
@@ -41,23 +42,7 @@ class ConnectorWatchTest {
 
     @BeforeEach
     void start() {
-        watch = new ConnectorWatch(
-                connect.uri("/"), producer, new Clock() {
-                    @Override
-                    public Instant instant() {
-                        return now;
-                    }
-
-                    @Override
-                    public ZoneOffset getZone() {
-                        return ZoneOffset.UTC;
-                    }
-
-                    @Override
-                    public Clock withZone(java.time.ZoneId zone) {
-                        return this;
-                    }
-                });
+        watch = new ConnectorWatch(connect.uri("/"), producer, clock);
     }
 
     @Test
@@ -70,7 +55,7 @@ class ConnectorWatchTest {
 
         answer.set(connectors("FAILED", ",\"trace\":\"" + TRACE + "\""));
         watch.poll();
-        now = now.plusSeconds(50);
+        clock.pass(Duration.ofSeconds(50));
         watch.poll();
         assertThat(watch.statuses().get(1))
                 .returns(ComponentStatus.State.DOWN, ComponentStatus::state)
@@ -83,12 +68,12 @@ class ConnectorWatchTest {
                             "connector sink: task 0 failed: http://orion:1026 answers 401; check the token. Correct that")
                     .endsWith("/connectors/sink/restart?includeTasks=true&onlyFailed=true\"");
         });
-        now = now.plusSeconds(10);
+        clock.pass(Duration.ofSeconds(10));
         watch.poll();
         assertThat(producer.history()).hasSize(2);
 
         answer.set(connectors("RUNNING", ""));
-        now = now.plusSeconds(60);
+        clock.pass(Duration.ofSeconds(60));
         watch.poll();
         assertThat(producer.history()).hasSize(2);
     }
@@ -106,7 +91,7 @@ class ConnectorWatchTest {
 
         answer.set("<html>");
         watch.poll();
-        now = now.plusSeconds(30);
+        clock.pass(Duration.ofSeconds(30));
         assertThat(watch.statuses())
                 .singleElement()
                 .returns("connect", ComponentStatus::name)

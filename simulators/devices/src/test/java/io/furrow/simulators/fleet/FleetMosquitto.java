@@ -13,6 +13,7 @@ import java.util.concurrent.TimeUnit;
 import org.awaitility.Awaitility;
 
 import io.furrow.embedded.FreePort;
+import io.furrow.process.TestProcess;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
@@ -102,23 +103,9 @@ final class FleetMosquitto {
     /** A key and its certificate, which nobody has signed but itself. */
     private void makeCertificate() throws Exception {
         Path store = directory.resolve("store.p12");
-        run(
-                Path.of(System.getProperty("java.home"), "bin", "keytool").toString(),
-                "-genkeypair",
-                "-keystore",
-                store.toString(),
-                "-storetype",
-                "PKCS12",
-                "-storepass",
-                KEY_PASSWORD,
-                "-alias",
-                "broker",
-                "-keyalg",
-                "RSA",
-                "-dname",
-                "CN=localhost",
-                "-ext",
-                "san=ip:127.0.0.1,dns:localhost");
+        TestProcess.keytool("""
+                -genkeypair -keystore %s -storetype PKCS12 -storepass %s -alias broker -keyalg RSA -dname CN=localhost \
+                -ext san=ip:127.0.0.1,dns:localhost""".formatted(store, KEY_PASSWORD));
         KeyStore keys = KeyStore.getInstance(store.toFile(), KEY_PASSWORD.toCharArray());
         pem("certificate.pem", "CERTIFICATE", keys.getCertificate("broker").getEncoded());
         pem(

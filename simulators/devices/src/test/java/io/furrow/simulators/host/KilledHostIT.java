@@ -1,5 +1,6 @@
 package io.furrow.simulators.host;
 
+import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -14,6 +15,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.FarmSecret;
+import io.furrow.process.TestProcess;
 import io.furrow.simulators.device.MqttTestClient;
 
 import static io.furrow.simulators.host.HostFixture.entity;
@@ -122,16 +124,9 @@ class KilledHostIT {
     }
 
     private Process run(Path secret, String name) throws Exception {
-        ProcessBuilder builder = new ProcessBuilder(
-                Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                "-Xmx256m",
-                "-cp",
-                System.getProperty("java.class.path"),
-                DeviceHostCommand.class.getName(),
-                "--mqtt",
-                bench.settings().mqtt().broker().toString(),
-                "--farm-secret",
-                secret.toString());
+        URI mqtt = bench.settings().mqtt().broker();
+        ProcessBuilder builder =
+                TestProcess.java("-Xmx256m", DeviceHostCommand.class, "--mqtt", mqtt, "--farm-secret", secret);
         builder.environment().put("FURROW_KAFKA", bench.kafka.bootstrapServers());
         builder.environment()
                 .put("FURROW_CONTEXT_BROKER", bench.fiware.contextBroker().toString());

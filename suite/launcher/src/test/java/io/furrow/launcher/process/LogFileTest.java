@@ -19,6 +19,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.launcher.Furrow;
+import io.furrow.process.TestProcess;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -89,13 +90,8 @@ class LogFileTest {
                     "bash",
                     "-c",
                     "exec 2>/dev/tcp/127.0.0.1/%d \"$@\"".formatted(journal.getLocalPort()),
-                    "bash",
-                    Path.of(System.getProperty("java.home"), "bin", "java").toString(),
-                    "-Xmx128m",
-                    "-cp",
-                    System.getProperty("java.class.path"),
-                    program.getName()));
-            command.addAll(List.of(arguments));
+                    "bash"));
+            command.addAll(TestProcess.java("-Xmx128m", program, (Object[]) arguments).command());
             Process process = new ProcessBuilder(command)
                     .redirectOutput(ProcessBuilder.Redirect.DISCARD)
                     .start();

@@ -1,0 +1,45 @@
+package io.furrow.process;
+
+import java.io.IOException;
+import java.lang.management.ManagementFactory;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.stream.Stream;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** Programs of the JDK that runs the tests, in processes of their own. */
+public final class TestProcess {
+    private TestProcess() {}
+
+    /**
+     * A JVM with this one's class path, and open to reflection as this one is.
+     *
+     * @param options of the JVM, with blanks between them
+     */
+    public static ProcessBuilder java(String options, Class<?> main, Object... arguments) {
+        List<String> command = new ArrayList<>(List.of(program("java")));
+        ManagementFactory.getRuntimeMXBean().getInputArguments().stream()
+                .filter(argument -> argument.startsWith("--add-"))
+                .forEach(command::add);
+        command.addAll(List.of(options.split(" ")));
+        command.addAll(List.of("-cp", System.getProperty("java.class.path"), main.getName()));
+        Stream.of(arguments).map(Object::toString).forEach(command::add);
+        return new ProcessBuilder(command);
+    }
+
+    /** @param words with blanks between them */
+    public static void keytool(String words) throws IOException, InterruptedException {
+        List<String> command = new ArrayList<>(List.of(program("keytool")));
+        command.addAll(List.of(words.split("\\s+")));
+        Process process = new ProcessBuilder(command).redirectErrorStream(true).start();
+        String said = new String(process.getInputStream().readAllBytes(), UTF_8);
+        assertThat(process.waitFor()).as(said).isZero();
+    }
+
+    private static String program(String name) {
+        return Path.of(System.getProperty("java.home"), "bin", name).toString();
+    }
+}
