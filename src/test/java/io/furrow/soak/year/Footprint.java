@@ -10,17 +10,16 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.ExecutionException;
-import java.util.concurrent.TimeUnit;
 
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoClients;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.TopicDescription;
 
+import io.furrow.process.TestProcess;
+
 /** What a suite holds: topics, partitions, collections, alarms, files, threads, heap after collection in MB, and how long its start took. */
 final class Footprint {
-    private static final long COMMAND_SECONDS = 60;
-
     private Footprint() {}
 
     static Map<String, Double> of(YearFarm farm, double startSeconds)
@@ -87,16 +86,10 @@ final class Footprint {
     }
 
     private static List<String> output(String... command) throws IOException, InterruptedException {
-        Path output = Files.createTempFile("year", ".out");
-        Process process = new ProcessBuilder(command)
-                .redirectErrorStream(true)
-                .redirectOutput(output.toFile())
-                .start();
-        if (!process.waitFor(COMMAND_SECONDS, TimeUnit.SECONDS)) {
-            process.destroyForcibly();
-        }
-        List<String> lines = Files.readAllLines(output);
-        Files.delete(output);
-        return lines.stream().filter(line -> !line.isBlank()).toList();
+        return TestProcess.run(new ProcessBuilder(command))
+                .output()
+                .lines()
+                .filter(line -> !line.isBlank())
+                .toList();
     }
 }

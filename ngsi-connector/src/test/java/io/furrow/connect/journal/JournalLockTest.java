@@ -27,10 +27,7 @@ class JournalLockTest {
     }
 
     private String anotherProcess() throws Exception {
-        Process process = TestProcess.java("-Xmx64m", JournalOpener.class, folder)
-                .redirectError(ProcessBuilder.Redirect.INHERIT)
-                .start();
-        var lines = new String(process.getInputStream().readAllBytes()).lines().toList();
-        return lines.get(lines.size() - 1);
+        String output = TestProcess.run(TestProcess.java("-Xmx64m", JournalOpener.class, folder)).output();
+        return output.strip().lines().reduce((first, second) -> second).orElseThrow();
     }
 }

@@ -7,7 +7,6 @@ import java.security.MessageDigest;
 import java.util.HexFormat;
 import java.util.List;
 import java.util.Set;
-import java.util.concurrent.TimeUnit;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
@@ -17,6 +16,9 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+
+import io.furrow.process.TestProcess;
+import io.furrow.process.TestProcess.Ended;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -35,8 +37,6 @@ class ArchiveIT {
     static Path directory;
 
     private static Path home;
-
-    private record Ended(int status, String output) {}
 
     @BeforeAll
     static void unpack() throws Exception {
@@ -169,18 +169,13 @@ class ArchiveIT {
     }
 
     private static Ended java(String... words) throws Exception {
-        String program = Path.of(System.getProperty("java.home"), "bin", "java").toString();
-        return run(Stream.concat(Stream.of(program), Stream.of(words)).toArray(String[]::new));
+        return run(Stream.concat(Stream.of(TestProcess.program("java")), Stream.of(words))
+                .toArray(String[]::new));
     }
 
     private static Ended run(String... words) throws Exception {
-        Path output = Files.createTempFile(directory, "out", null);
-        var builder = new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(output.toFile());
+        ProcessBuilder builder = new ProcessBuilder(words);
         builder.environment().put("JAVA_HOME", System.getProperty("java.home"));
-        Process process = builder.start();
-        assertThat(process.waitFor(2, TimeUnit.MINUTES))
-                .as("%s ends", List.of(words))
-                .isTrue();
-        return new Ended(process.exitValue(), Files.readString(output));
+        return TestProcess.run(builder);
     }
 }

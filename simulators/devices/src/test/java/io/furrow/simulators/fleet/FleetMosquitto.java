@@ -15,8 +15,6 @@ import org.awaitility.Awaitility;
 import io.furrow.embedded.FreePort;
 import io.furrow.process.TestProcess;
 
-import static java.nio.charset.StandardCharsets.UTF_8;
-
 /** Eclipse Mosquitto as Debian packs it, on loopback, with a password file and TLS. */
 final class FleetMosquitto {
     private static final String KEY_PASSWORD = "changeit";
@@ -125,15 +123,10 @@ final class FleetMosquitto {
     }
 
     private static void run(String... command) throws Exception {
-        Process process;
-        try {
-            process = new ProcessBuilder(command).redirectErrorStream(true).start();
-        } catch (IOException e) {
-            throw new IOException(command[0] + " is missing; install the Debian package mosquitto", e);
-        }
-        String output = new String(process.getInputStream().readAllBytes(), UTF_8);
-        if (process.waitFor() != 0) {
-            throw new IOException(command[0] + " failed: " + output);
+        TestProcess.Ended ended = TestProcess.run(new ProcessBuilder(command));
+        if (ended.status() != 0) {
+            throw new IOException(
+                    command[0] + ", of the Debian package mosquitto, failed: " + ended.output());
         }
     }
 
