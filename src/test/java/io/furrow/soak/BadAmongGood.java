@@ -29,6 +29,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import io.furrow.cli.dead.Redrive;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.files.Folders;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.ingest.IngestJob;
@@ -90,10 +91,7 @@ public final class BadAmongGood implements AutoCloseable {
             faults = run.faults(good, bad, Duration.ofMinutes(20));
             faults.addAll(run.faultsAfterRedriveing(good, bad, Duration.ofMinutes(5)));
         } finally {
-            try (var files = Files.walk(directory)) {
-                files.sorted(java.util.Comparator.reverseOrder())
-                        .forEach(file -> file.toFile().delete());
-            }
+            Folders.delete(directory);
         }
         faults.forEach(System.out::println);
         System.exit(faults.isEmpty() ? 0 : 1);

@@ -9,7 +9,8 @@ import java.util.Set;
 import java.util.TreeSet;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
-import java.util.stream.Stream;
+
+import io.furrow.files.Folders;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 
@@ -51,13 +52,11 @@ final class ListeningPorts {
     }
 
     private static Set<String> inodesOfThisProcess() throws IOException {
-        try (Stream<Path> descriptors = Files.list(PROC.resolve("fd"))) {
-            return descriptors
-                    .map(ListeningPorts::target)
-                    .filter(target -> target.startsWith("socket:["))
-                    .map(target -> target.substring("socket:[".length(), target.length() - 1))
-                    .collect(Collectors.toSet());
-        }
+        return Folders.list(PROC.resolve("fd")).stream()
+                .map(ListeningPorts::target)
+                .filter(target -> target.startsWith("socket:["))
+                .map(target -> target.substring("socket:[".length(), target.length() - 1))
+                .collect(Collectors.toSet());
     }
 
     /** Empty for a descriptor that was closed meanwhile. */

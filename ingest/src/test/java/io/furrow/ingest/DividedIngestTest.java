@@ -18,6 +18,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine.ParameterException;
 
+import io.furrow.files.Folders;
 import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.record.TopicRecord;
@@ -168,11 +169,9 @@ class DividedIngestTest {
         if (!Files.exists(folder)) {
             return List.of();
         }
-        try (Stream<Path> all = Files.walk(folder)) {
-            return contents(all.filter(Files::isRegularFile)).stream()
-                    .map(bytes -> new String(bytes, ISO_8859_1))
-                    .toList();
-        }
+        return contents(Folders.walk(folder).stream().filter(Files::isRegularFile)).stream()
+                .map(bytes -> new String(bytes, ISO_8859_1))
+                .toList();
     }
 
     private static TopicRecord camera(String eventId, int time, String tenant, byte[] image) {

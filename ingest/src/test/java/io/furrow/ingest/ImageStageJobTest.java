@@ -21,6 +21,7 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.ParameterException;
 
+import io.furrow.files.Folders;
 import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.record.TopicRecord;
@@ -99,11 +100,9 @@ class ImageStageJobTest {
                     last.put(key, record.timestamp());
                 });
         assertThat(events).hasSize(500);
-        try (Stream<Path> all = Files.walk(folder)) {
-            assertThat(all.filter(Files::isRegularFile))
-                    .hasSize(490)
-                    .allSatisfy(file -> assertThat(file).hasBinaryContent(image));
-        }
+        assertThat(Folders.walk(folder).stream().filter(Files::isRegularFile))
+                .hasSize(490)
+                .allSatisfy(file -> assertThat(file).hasBinaryContent(image));
     }
 
     @Test

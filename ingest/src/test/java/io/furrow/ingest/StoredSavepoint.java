@@ -4,12 +4,11 @@ import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.Comparator;
 import java.util.Map;
-import java.util.stream.Stream;
 
 import org.apache.flink.api.common.JobID;
 
+import io.furrow.files.Folders;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
@@ -35,7 +34,7 @@ final class StoredSavepoint {
         try (KafkaSuite suite = KafkaSuite.start(work.resolve("kafka"))) {
             store(write(suite, work), target);
         } finally {
-            delete(work);
+            Folders.delete(work);
         }
         System.out.println("stored " + target.toAbsolutePath());
         System.exit(0);
@@ -50,21 +49,11 @@ final class StoredSavepoint {
     }
 
     private static void store(Path written, Path target) throws IOException {
-        try (Stream<Path> files = Files.list(written)) {
-            if (files.count() != 1) {
-                throw new IllegalStateException("the savepoint should be small enough to be one file: " + written);
-            }
+        if (Folders.list(written).size() != 1) {
+            throw new IllegalStateException("the savepoint should be small enough to be one file: " + written);
         }
         Files.createDirectories(target);
         Files.copy(written.resolve("_metadata"), target.resolve("_metadata"));
-    }
-
-    private static void delete(Path folder) throws IOException {
-        try (Stream<Path> files = Files.walk(folder)) {
-            for (Path file : files.sorted(Comparator.reverseOrder()).toList()) {
-                Files.delete(file);
-            }
-        }
     }
 
     static void makeTopics(KafkaSuite suite) throws Exception {

@@ -1,11 +1,9 @@
 package io.furrow.ingest;
 
 import java.io.IOException;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.stream.Stream;
 
 import org.apache.flink.api.common.JobID;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -16,6 +14,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.files.Folders;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
@@ -58,9 +57,7 @@ class StoredSavepointIT {
     }
 
     private static List<Path> releases() throws IOException {
-        try (Stream<Path> folders = Files.list(StoredSavepoint.FOLDER)) {
-            return folders.sorted().toList();
-        }
+        return Folders.list(StoredSavepoint.FOLDER);
     }
 
     private static List<String> told(List<ConsumerRecord<byte[], byte[]>> records) {

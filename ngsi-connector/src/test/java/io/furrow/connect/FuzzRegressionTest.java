@@ -23,6 +23,7 @@ import io.furrow.connect.sink.api.FuzzAnswers;
 import io.furrow.connect.source.FuzzBodies;
 import io.furrow.connect.source.http.FuzzGzip;
 import io.furrow.connect.source.journal.FuzzRecords;
+import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -90,14 +91,12 @@ class FuzzRegressionTest {
     }
 
     private static List<byte[]> inputs(String corpus) throws IOException {
-        try (Stream<Path> files = Files.list(FUZZ.resolve(corpus))) {
-            List<Path> sorted = files.sorted().toList();
-            assertThat(sorted).isNotEmpty();
-            List<byte[]> inputs = new java.util.ArrayList<>();
-            for (Path file : sorted) {
-                inputs.add(Files.readAllBytes(file));
-            }
-            return inputs;
+        List<Path> sorted = Folders.list(FUZZ.resolve(corpus));
+        assertThat(sorted).isNotEmpty();
+        List<byte[]> inputs = new java.util.ArrayList<>();
+        for (Path file : sorted) {
+            inputs.add(Files.readAllBytes(file));
         }
+        return inputs;
     }
 }

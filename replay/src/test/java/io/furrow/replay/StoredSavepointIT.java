@@ -1,11 +1,9 @@
 package io.furrow.replay;
 
 import java.io.IOException;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.stream.IntStream;
-import java.util.stream.Stream;
 
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
@@ -16,6 +14,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.files.Folders;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayStatus;
 import io.furrow.model.control.ReplayStatus.State;
@@ -76,8 +75,6 @@ class StoredSavepointIT {
     }
 
     private static List<Path> releases() throws IOException {
-        try (Stream<Path> folders = Files.list(StoredSavepoint.FOLDER)) {
-            return folders.sorted().toList();
-        }
+        return Folders.list(StoredSavepoint.FOLDER);
     }
 }

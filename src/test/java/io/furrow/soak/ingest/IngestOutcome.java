@@ -19,6 +19,7 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.header.Header;
 import org.bson.Document;
 
+import io.furrow.files.Folders;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
@@ -112,20 +113,15 @@ public record IngestOutcome(SortedMap<String, List<String>> lines) {
     }
 
     private static List<String> files(Path folder) throws IOException {
-        try (Stream<Path> files = Files.walk(folder)) {
-            return files.filter(Files::isRegularFile)
-                    .filter(file -> !file.getFileName().toString().startsWith(UNFINISHED))
-                    .map(file -> folder.relativize(file) + " " + sha256(file))
-                    .sorted()
-                    .toList();
-        }
+        return Folders.walk(folder).stream().filter(Files::isRegularFile)
+                .filter(file -> !file.getFileName().toString().startsWith(UNFINISHED))
+                .map(file -> folder.relativize(file) + " " + sha256(file))
+                .toList();
     }
 
     static long unfinished(Path folder) throws IOException {
-        try (Stream<Path> files = Files.walk(folder)) {
-            return files.filter(file -> file.getFileName().toString().startsWith(UNFINISHED))
-                    .count();
-        }
+        return Folders.walk(folder).stream().filter(file -> file.getFileName().toString().startsWith(UNFINISHED))
+                .count();
     }
 
     private static String sha256(Path file) {

@@ -8,13 +8,13 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Set;
-import java.util.stream.Stream;
 
 import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.LimitedConnectionsFileSystem;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.files.Folders;
 import io.furrow.mission.image.ImageName;
 import io.furrow.model.event.FiwareScope;
 
@@ -160,10 +160,8 @@ class ImageFilesTest {
     }
 
     private List<String> everything() throws IOException {
-        try (Stream<Path> all = Files.walk(folder)) {
-            return all.filter(Files::isRegularFile)
-                    .map(file -> folder.relativize(file).toString())
-                    .toList();
-        }
+        return Folders.walk(folder).stream().filter(Files::isRegularFile)
+                .map(file -> folder.relativize(file).toString())
+                .toList();
     }
 }

@@ -7,7 +7,6 @@ import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.stream.Stream;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeinfo.Types;
@@ -24,6 +23,7 @@ import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 
+import io.furrow.files.Folders;
 import io.furrow.flink.TestClusters;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.ingest.route.ReportedEvent;
@@ -61,12 +61,10 @@ class ImagesAfterFailuresTest {
             assertThat(event.time()).isGreaterThan(last.getOrDefault(event.identity(), -1L));
             last.put(event.identity(), event.time());
         }
-        try (Stream<Path> all = Files.walk(folder)) {
-            assertThat(all.filter(Files::isRegularFile))
-                    .hasSize(IMAGES)
-                    .allMatch(file -> file.getFileName().toString().matches("c\\d_\\d{17}\\.png"))
-                    .allSatisfy(file -> assertThat(file).hasBinaryContent(Pictures.png(seed(file))));
-        }
+        assertThat(Folders.walk(folder).stream().filter(Files::isRegularFile))
+                .hasSize(IMAGES)
+                .allMatch(file -> file.getFileName().toString().matches("c\\d_\\d{17}\\.png"))
+                .allSatisfy(file -> assertThat(file).hasBinaryContent(Pictures.png(seed(file))));
     }
 
     private static int seed(Path file) {

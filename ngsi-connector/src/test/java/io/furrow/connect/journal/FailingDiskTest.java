@@ -1,12 +1,13 @@
 package io.furrow.connect.journal;
 
-import java.nio.file.Files;
 import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 
 import org.junit.jupiter.api.Test;
+
+import io.furrow.files.Folders;
 
 import static io.furrow.connect.journal.JournalTest.append;
 import static io.furrow.connect.journal.JournalTest.payloads;
@@ -173,8 +174,6 @@ class FailingDiskTest extends QuietJournal {
     }
 
     private long segmentFiles() throws Exception {
-        try (var files = Files.list(folder)) {
-            return files.filter(file -> file.toString().endsWith(".segment")).count();
-        }
+        return Folders.list(folder).stream().filter(file -> file.toString().endsWith(".segment")).count();
     }
 }

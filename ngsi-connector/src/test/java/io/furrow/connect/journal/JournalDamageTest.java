@@ -10,10 +10,11 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
-import java.util.stream.Stream;
 
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
+
+import io.furrow.files.Folders;
 
 import static io.furrow.connect.journal.JournalTest.append;
 import static io.furrow.connect.journal.JournalTest.read;
@@ -251,11 +252,8 @@ class JournalDamageTest extends QuietJournal {
     }
 
     private List<Path> segments() throws IOException {
-        try (Stream<Path> files = Files.list(folder)) {
-            return files.filter(file -> file.toString().endsWith(".segment"))
-                    .sorted()
-                    .toList();
-        }
+        return Folders.list(folder).stream().filter(file -> file.toString().endsWith(".segment"))
+                .toList();
     }
 
     private Journal open() {

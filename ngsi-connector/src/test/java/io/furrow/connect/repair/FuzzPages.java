@@ -8,7 +8,6 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
 import java.util.Optional;
-import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -21,6 +20,7 @@ import io.furrow.connect.repair.KeysetReader.Page;
 import io.furrow.connect.source.FuzzOutput;
 import io.furrow.connect.subscription.NotificationContent;
 import io.furrow.connect.subscription.Subject;
+import io.furrow.files.Folders;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
@@ -57,12 +57,7 @@ public final class FuzzPages {
         try {
             repair(input, folder);
         } finally {
-            try (Stream<Path> files = Files.walk(folder)) {
-                for (Path file :
-                        files.sorted(java.util.Comparator.reverseOrder()).toList()) {
-                    Files.delete(file);
-                }
-            }
+            Folders.delete(folder);
         }
     }
 

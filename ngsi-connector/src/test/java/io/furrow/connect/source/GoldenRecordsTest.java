@@ -10,7 +10,6 @@ import java.util.Map;
 import java.util.TreeMap;
 import java.util.function.UnaryOperator;
 import java.util.stream.Collectors;
-import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -21,6 +20,7 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.record.KafkaRecord;
 import io.furrow.connect.source.notification.NotificationTranslator;
 import io.furrow.connect.source.notification.ReceivedNotification;
+import io.furrow.files.Folders;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -36,11 +36,8 @@ class GoldenRecordsTest {
     private static final Instant RECEIVED = Instant.parse("2026-11-21T02:00:00Z");
 
     static List<Path> requests() throws IOException {
-        try (Stream<Path> files = Files.walk(RECORDED)) {
-            return files.filter(file -> file.toString().endsWith(".http"))
-                    .sorted()
-                    .toList();
-        }
+        return Folders.walk(RECORDED).stream().filter(file -> file.toString().endsWith(".http"))
+                .toList();
     }
 
     @ParameterizedTest

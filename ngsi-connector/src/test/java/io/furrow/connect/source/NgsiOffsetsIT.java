@@ -1,7 +1,6 @@
 package io.furrow.connect.source;
 
 import java.net.http.HttpResponse;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -26,6 +25,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.connect.ConnectRig;
 import io.furrow.connect.TopicReader;
 import io.furrow.embedded.FreePort;
+import io.furrow.files.Folders;
 import io.furrow.model.event.HeaderNames;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
@@ -290,8 +290,6 @@ class NgsiOffsetsIT {
     }
 
     private static List<Path> journals(String connector) throws Exception {
-        try (Stream<Path> folders = Files.list(rig.journals().resolve(connector))) {
-            return folders.map(Path::getFileName).toList();
-        }
+        return Folders.list(rig.journals().resolve(connector)).stream().map(Path::getFileName).toList();
     }
 }

@@ -8,7 +8,6 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
-import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -19,6 +18,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.connect.ConnectRig;
 import io.furrow.connect.TopicReader;
 import io.furrow.embedded.FreePort;
+import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -83,21 +83,15 @@ class PowerCutIT {
     }
 
     private static void copy(String prefix, Path from, Path to) throws IOException {
-        try (Stream<Path> partitions = Files.list(from)) {
-            for (Path partition : partitions
-                    .filter(each -> each.getFileName().toString().startsWith(prefix))
-                    .toList()) {
-                Path copy = Files.createDirectories(to.resolve(partition.getFileName()));
-                try (Stream<Path> files = Files.list(copy)) {
-                    for (Path file : files.toList()) {
-                        Files.delete(file);
-                    }
-                }
-                try (Stream<Path> files = Files.list(partition)) {
-                    for (Path file : files.toList()) {
-                        Files.copy(file, copy.resolve(file.getFileName()), StandardCopyOption.REPLACE_EXISTING);
-                    }
-                }
+        for (Path partition : Folders.list(from).stream()
+                .filter(each -> each.getFileName().toString().startsWith(prefix))
+                .toList()) {
+            Path copy = Files.createDirectories(to.resolve(partition.getFileName()));
+            for (Path file : Folders.list(copy)) {
+                    Files.delete(file);
+            }
+            for (Path file : Folders.list(partition)) {
+                    Files.copy(file, copy.resolve(file.getFileName()), StandardCopyOption.REPLACE_EXISTING);
             }
         }
     }

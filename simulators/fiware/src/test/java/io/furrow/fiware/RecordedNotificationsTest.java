@@ -9,13 +9,13 @@ import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
-import java.util.stream.Stream;
 
 import org.junit.jupiter.api.AutoClose;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.clock.SettableClock;
+import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -112,12 +112,10 @@ class RecordedNotificationsTest {
     private void compareWith(String folder) throws IOException, URISyntaxException {
         await().until(() -> receiver.received().size() >= SUBSCRIPTIONS);
         Path recordings = Path.of(getClass().getResource("/orion/" + folder).toURI());
-        try (Stream<Path> files = Files.list(recordings)) {
-            List<Path> all = files.toList();
-            assertThat(all).hasSize(SUBSCRIPTIONS);
-            for (Path file : all) {
-                compare(file, folder.equals("create"));
-            }
+        List<Path> all = Folders.list(recordings);
+        assertThat(all).hasSize(SUBSCRIPTIONS);
+        for (Path file : all) {
+            compare(file, folder.equals("create"));
         }
         assertThat(receiver.received()).hasSize(SUBSCRIPTIONS);
     }

@@ -17,6 +17,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
+import io.furrow.files.Folders;
 import io.furrow.process.TestProcess;
 import io.furrow.process.TestProcess.Ended;
 
@@ -112,17 +113,15 @@ class ArchiveIT {
 
     @Test
     void hasWhatItsPagesLeadTo() throws IOException {
-        try (Stream<Path> files = Files.walk(home)) {
-            List<Path> pages =
-                    files.filter(file -> file.toString().endsWith(".md") && !file.startsWith(home.resolve("plugins")))
-                            .toList();
-            assertThat(pages).hasSizeGreaterThan(50);
-            for (Path page : pages) {
-                assertThat(LINK.matcher(Files.readString(page)).results().map(found -> found.group(1)))
-                        .as(page.toString())
-                        .filteredOn(link -> !link.contains("src/"))
-                        .allSatisfy(link -> assertThat(page.resolveSibling(link)).exists());
-            }
+        List<Path> pages =
+                Folders.walk(home).stream().filter(file -> file.toString().endsWith(".md") && !file.startsWith(home.resolve("plugins")))
+                        .toList();
+        assertThat(pages).hasSizeGreaterThan(50);
+        for (Path page : pages) {
+            assertThat(LINK.matcher(Files.readString(page)).results().map(found -> found.group(1)))
+                    .as(page.toString())
+                    .filteredOn(link -> !link.contains("src/"))
+                    .allSatisfy(link -> assertThat(page.resolveSibling(link)).exists());
         }
     }
 
@@ -156,11 +155,9 @@ class ArchiveIT {
     }
 
     private static Set<String> jars(String folder, String ending) throws IOException {
-        try (Stream<Path> files = Files.list(home.resolve(folder))) {
-            return files.map(file -> file.getFileName().toString())
-                    .filter(name -> name.endsWith(ending))
-                    .collect(Collectors.toSet());
-        }
+        return Folders.list(home.resolve(folder)).stream().map(file -> file.getFileName().toString())
+                .filter(name -> name.endsWith(ending))
+                .collect(Collectors.toSet());
     }
 
     private static Ended furrow(String... words) throws Exception {

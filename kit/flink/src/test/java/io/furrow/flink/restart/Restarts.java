@@ -2,7 +2,6 @@ package io.furrow.flink.restart;
 
 import java.io.IOException;
 import java.net.URI;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -40,6 +39,7 @@ import org.awaitility.Awaitility;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.files.Folders;
 import io.furrow.flink.job.JobEnvironment;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.record.TopicRecord;
@@ -152,9 +152,7 @@ public final class Restarts {
     }
 
     private static List<Path> releasesIn(Path folder) throws IOException {
-        try (Stream<Path> releases = Files.list(folder)) {
-            return releases.sorted().toList();
-        }
+        return Folders.list(folder);
     }
 
     private Map<String, String> undisturbed(JobCase job) throws Exception {

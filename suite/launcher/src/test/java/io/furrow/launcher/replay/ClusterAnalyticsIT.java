@@ -23,6 +23,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.cli.control.ReplayAnalyticsJob;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.files.Folders;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -58,9 +59,7 @@ class ClusterAnalyticsIT {
                     .containsExactlyInAnyOrder("collision-of-weeding.0a1b2c3d", "presence-of-weeding.0a1b2c3d");
             await().until(() -> analytics.free() == 0);
             assertThat(cluster.listJobs().get()).hasSize(2);
-            try (var jars = Files.list(uploads())) {
-                assertThat(jars).hasSize(1);
-            }
+            assertThat(Folders.list(uploads()).stream()).hasSize(1);
 
             analytics.cancel(JOB.name());
             analytics.cancel("nothing");
