@@ -153,7 +153,8 @@ class AlarmStormIT {
     private FarmWatch watch() throws Exception {
         WatchOptions options = WatchOptions.DEFAULT
                 .with(Webhook.Settings.of(hook.uri("")))
-                .with(StopRobots.Settings.of(new DeviceCommands(broker.uri(""), FiwareScope.DEFAULT, AccessToken.NONE)));
+                .with(StopRobots.Settings.of(
+                        new DeviceCommands(broker.uri(""), FiwareScope.DEFAULT, AccessToken.NONE)));
         return FarmWatch.start(
                 ControlPlaneProcess.settings(
                         kafka.bootstrapServers(), directory.resolve("state").toString()),

@@ -48,8 +48,8 @@ final class PressedRepair {
     /** @param args a folder */
     public static void main(String[] args) throws Exception {
         StubServer server = new StubServer(PressedRepair::answer);
-        BrokerClient client = new BrokerClient(BrokerSettings.of(server.uri(""), Duration.ofSeconds(60))
-                .withMaxAnswerBytes(16L * MIB));
+        BrokerClient client = new BrokerClient(
+                BrokerSettings.of(server.uri(""), Duration.ofSeconds(60)).withMaxAnswerBytes(16L * MIB));
         RecordTracker live = new RecordTracker(BOUND);
         int[] counts = new int[2];
         RepairOutput output = new RepairOutput() {

@@ -32,7 +32,9 @@ class OverloadMemoryTest {
     @EnabledOnOs(OS.LINUX)
     void keepsItsMemoryWhileSendersPressAndNothingIsTakenFromIt(@TempDir Path directory) throws Exception {
         Process source = TestProcess.java(
-                        "-Xmx96m -XX:MaxDirectMemorySize=64m -XX:+ExitOnOutOfMemoryError", BlockedSource.class, directory)
+                        "-Xmx96m -XX:MaxDirectMemorySize=64m -XX:+ExitOnOutOfMemoryError",
+                        BlockedSource.class,
+                        directory)
                 .redirectError(ProcessBuilder.Redirect.INHERIT)
                 .start();
         try (BufferedReader out = new BufferedReader(new InputStreamReader(source.getInputStream()))) {

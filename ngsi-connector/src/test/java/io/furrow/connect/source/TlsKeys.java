@@ -70,8 +70,7 @@ final class TlsKeys {
     private void makeKey(String name, String algorithm) throws Exception {
         TestProcess.keytool("""
                 -genkeypair -alias %s -keyalg %s -dname CN=127.0.0.1 -ext san=ip:127.0.0.1 -validity 2 \
-                -storetype PKCS12 -storepass %s -keystore %s""".formatted(
-                        name, algorithm, PASSWORD, directory.resolve(name + ".p12")));
+                -storetype PKCS12 -storepass %s -keystore %s""".formatted(name, algorithm, PASSWORD, directory.resolve(name + ".p12")));
         if (name.equals("client") || name.equals("other")) {
             // A key of one's own is no trusted certificate: the trust store has it as one.
             KeyStore store = load(name);

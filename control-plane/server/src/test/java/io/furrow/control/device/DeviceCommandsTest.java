@@ -143,10 +143,7 @@ class DeviceCommandsTest {
     }
 
     private DeviceCommands commands(AccessToken token) {
-        return new DeviceCommands(
-                broker.uri("/"),
-                new FiwareScope("farm", "/north"),
-                token);
+        return new DeviceCommands(broker.uri("/"), new FiwareScope("farm", "/north"), token);
     }
 
     private void report(HttpExchange exchange) throws IOException {

@@ -124,7 +124,12 @@ class ReplayWatchTest {
         StringWriter output = new StringWriter();
         CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
         line.setOut(new PrintWriter(output)).setErr(new PrintWriter(output));
-        assertThat(line.execute("replay", "watch", "m.0a1b2c3d", "--api", control.uri("").toString()))
+        assertThat(line.execute(
+                        "replay",
+                        "watch",
+                        "m.0a1b2c3d",
+                        "--api",
+                        control.uri("").toString()))
                 .isZero();
         return output.toString();
     }

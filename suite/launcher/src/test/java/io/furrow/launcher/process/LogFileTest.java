@@ -87,11 +87,9 @@ class LogFileTest {
         try (ServerSocket journal = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
             journal.setSoTimeout(TIMEOUT_MS);
             List<String> command = new ArrayList<>(List.of(
-                    "bash",
-                    "-c",
-                    "exec 2>/dev/tcp/127.0.0.1/%d \"$@\"".formatted(journal.getLocalPort()),
-                    "bash"));
-            command.addAll(TestProcess.java("-Xmx128m", program, (Object[]) arguments).command());
+                    "bash", "-c", "exec 2>/dev/tcp/127.0.0.1/%d \"$@\"".formatted(journal.getLocalPort()), "bash"));
+            command.addAll(
+                    TestProcess.java("-Xmx128m", program, (Object[]) arguments).command());
             Process process = new ProcessBuilder(command)
                     .redirectOutput(ProcessBuilder.Redirect.DISCARD)
                     .start();

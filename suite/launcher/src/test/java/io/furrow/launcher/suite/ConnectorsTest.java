@@ -13,8 +13,7 @@ class ConnectorsTest {
     void reportsWhereTheContextBrokerCannotNotify() throws Exception {
         var health = new StringBuilder("{\"subscriptions\":[{\"url\":\"http://x/v2/notify\",\"failsInARow\":0}]}");
         URI page;
-        try (StubServer source =
-                new StubServer(exchange -> StubServer.answer(exchange, 200, health.toString()))) {
+        try (StubServer source = new StubServer(exchange -> StubServer.answer(exchange, 200, health.toString()))) {
             page = source.uri("/health");
             Connectors connectors = new Connectors(page, page, null);
             assertThat(connectors.undelivered()).isEmpty();
