@@ -67,7 +67,7 @@ class MapTilesIT {
 
     /** The share of the map that has a colour, before the style sheet mutes it. */
     private static double share(FarmPage farm, int rgb) {
-        return farm.number("""
+        Object share = farm.run("""
                         (rgb) => {
                           const canvas = document.querySelector('furrow-map .map-tiles canvas');
                           if (!canvas?.width) { return 0; }
@@ -78,6 +78,7 @@ class MapTilesIT {
                           }
                           return count * 4 / data.length;
                         }""", rgb);
+        return ((Number) share).doubleValue();
     }
 
     @Test

@@ -60,7 +60,7 @@ class ProvisionerIT {
     }
 
     @Test
-    void followsTheTopicAndRemovesAfterARestartWhatWentInTheMeantime() {
+    void followsTheTopicAndRemovesAfterARestartWhatWentInTheMeantime() throws Exception {
         DesiredDevice one = thermometer("hoeing", 1);
         DesiredDevice two = thermometer("hoeing", 2);
         try (Provisioner provisioner = provisioner()) {
@@ -86,7 +86,7 @@ class ProvisionerIT {
     }
 
     @Test
-    void reportsWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() {
+    void reportsWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() throws Exception {
         DesiredDevice before = thermometer("hoeing", 1);
         DesiredDevice after = thermometer("hoeing", 2);
         DesiredDevice disliked = thermometer("hoeing", 3);
@@ -114,7 +114,7 @@ class ProvisionerIT {
     }
 
     @Test
-    void restoresWhatARestartedAgentHasLostAtTheNextInterval() {
+    void restoresWhatARestartedAgentHasLostAtTheNextInterval() throws Exception {
         put(thermometer("hoeing", 1));
         put(thermometer("hoeing", 2));
         try (Provisioner provisioner = provisioner()) {
